@@ -1,8 +1,7 @@
 // `stereonav bake` of volumes through the real program: what it keeps, how it goes on, what it refuses.
-#include <chrono>
 #include <csignal>
 #include <cstring>
-#include <thread>
+#include <regex>
 
 #include "tests/app/volume_input.h"
 
@@ -82,10 +81,14 @@ TEST_F(BakeCommand, SameBytesInOneRunOrSeveralOnAnyThreadCount) {
 
 TEST_F(BakeCommand, InterruptedItKeepsWhatIsDoneAndGoesOn) {
     const std::string scene = ball();
-    const pid_t child = start({"bake", scene, "--minutes", "5", "--resolution", "2", "--out", outFile()});
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    setenv("STEREONAV_PROGRESS_SECONDS", "0.1", 1);
+    const pid_t child = start({"bake", scene, "--minutes", "1000", "--resolution", "2", "--out", outFile()});
+    unsetenv("STEREONAV_PROGRESS_SECONDS");
+    const std::regex some("[1-9][0-9]* samples a texel");
+    EXPECT_TRUE(
+        waitFor([&] { return std::regex_search(contentOf(mFolder / "stderr"), some) || hasEnded(child); }));
     kill(child, SIGINT);
-    const Outcome stopped = await(child);
+    const Outcome stopped = awaitStopped(child);
     EXPECT_EQ(stopped.status, 1);
     EXPECT_TRUE(has(stopped.err, "stopped; what is done is kept")) << stopped.err;
     ASSERT_TRUE(fs::exists(outFile()));

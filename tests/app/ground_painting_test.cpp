@@ -2,11 +2,9 @@
 // that was loaded with it.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <fstream>
 #include <functional>
 #include <optional>
-#include <thread>
 
 #include "app/scene/terrain_loading.h"
 #include "engine/base/error.h"
@@ -20,6 +18,7 @@
 #include "terrain/light/terrain_light.h"
 #include "terrain/scene/terrain_scene.h"
 #include "tests/camera/temporary_folder.h"
+#include "tests/support/wait_for.h"
 
 namespace stereonav {
 namespace {
@@ -65,8 +64,8 @@ protected:
                 if (a.at(x, y) != b.at(x, y)) return false;
         return true;
     }
-    static void waitFor(const LivePaint& paint) {
-        while (paint.work()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    static void settle(const LivePaint& paint) {
+        EXPECT_TRUE(test::waitFor([&] { return !paint.work(); }));
     }
 
     TemporaryFolder mFolder;
@@ -82,7 +81,7 @@ TEST_F(GroundPaintingTest, ExchangedPaintIsThatOfASceneLoadedWithIt) {
         ASSERT_TRUE(paint.takes(key, text));
         paint.ask(key, text);
         EXPECT_EQ(paint.now(key), text);
-        waitFor(paint);
+        settle(paint);
         EXPECT_EQ(paint.takeProblem(), "");
         EXPECT_GT(paint.version(), before) << key;
         const auto picture = pictureOf(*scene);
@@ -104,13 +103,13 @@ TEST_F(GroundPaintingTest, WhatCanNotBeHadIsToldAndThePictureStays) {
     const auto scene = loaded([](SceneOptions& options) { options.ground.contours_m = 9; });
     LivePaint& paint = *scene->offered<LivePaint>();
     paint.ask("paint", "viewshed:50,50,2");
-    waitFor(paint);
+    settle(paint);
     const auto before = pictureOf(*scene);
     const std::pair<const char*, std::string> wrong[] = {
         {"paint", "viewshed:99999,0"}, {"paint", "hours:2026-06-21"}, {"tracks", "none.gpx"}};
     for (const auto& [key, text] : wrong) {
         paint.ask(key, text);
-        waitFor(paint);
+        settle(paint);
         const std::string problem = paint.takeProblem();
         EXPECT_NE(problem, "") << text;
         EXPECT_EQ(problem.find('\n'), std::string::npos) << problem;
@@ -127,7 +126,7 @@ TEST_F(GroundPaintingTest, TheNewestWishCountsAndACancelKeepsWhatIsShown) {
     const auto scene = loaded();
     LivePaint& paint = *scene->offered<LivePaint>();
     for (int n = 0; n < 20; ++n) paint.ask("paint", "viewshed:" + std::to_string(50 + n) + ",100,2");
-    waitFor(paint);
+    settle(paint);
     EXPECT_EQ(paint.now("paint"), "viewshed:69,100,2");
     EXPECT_EQ(paint.takeProblem(), "");
     paint.ask("paint", "viewshed:5,5,2");
@@ -142,10 +141,10 @@ TEST_F(GroundPaintingTest, WhatIsSeenFromAPlaceIsSaidInTheFilesCoordinates) {
     const auto scene = loaded();
     LivePaint& paint = *scene->offered<LivePaint>();
     paint.askSeenFrom({12.5, -40}, 3);
-    waitFor(paint);
+    settle(paint);
     EXPECT_EQ(paint.now("paint"), "viewshed:312.5,210,3");
     paint.askSeenFrom({1e6, 0}, 3);
-    waitFor(paint);
+    settle(paint);
     EXPECT_NE(paint.takeProblem().find("expected a place on the ground"), std::string::npos);
     EXPECT_EQ(paint.now("paint"), "viewshed:312.5,210,3");
 }
@@ -168,7 +167,7 @@ TEST_F(GroundPaintingTest, ColoursOfTheGroundAreThoseOfASceneLoadedWithThem) {
         for (const int to : {1, 0, 2, 3, 0, 3, 1}) {
             ASSERT_TRUE(paint.takes("paint", all[to]));
             paint.ask("paint", all[to]);
-            waitFor(paint);
+            settle(paint);
             EXPECT_EQ(paint.takeProblem(), "");
             EXPECT_TRUE(same(pictureOf(*scene), wanted[to])) << from << " to " << all[to];
             EXPECT_EQ(linesOf(scene->describe()), linesOf(facts[to])) << from << " to " << all[to];
@@ -193,7 +192,7 @@ TEST_F(GroundPaintingTest, BothEyesHaveTheNewColours) {
     LivePaint& paint = *scene->offered<LivePaint>();
     const auto before = eyesOf(*scene);
     paint.ask("paint", "aspect");
-    waitFor(paint);
+    settle(paint);
     const auto now = eyesOf(*scene);
     const auto wanted = eyesOf(*loaded([](SceneOptions& options) { options.paint = "aspect"; }));
     EXPECT_TRUE(same(now.first, wanted.first) && same(now.second, wanted.second));
@@ -205,13 +204,13 @@ TEST_F(GroundPaintingTest, ColoursFollowASunThatTurns) {
         const auto scene = loaded();
         LivePaint& paint = *scene->offered<LivePaint>();
         paint.ask("paint", word);
-        waitFor(paint);
+        settle(paint);
         pictureOf(*scene);
         TurningLight& sun = *scene->offered<TurningLight>();
         const SunPlace evening{4.5, 0.3};
         sun.turnTo(evening);
         pictureOf(*scene);  // asks for them
-        waitFor(paint);
+        settle(paint);
         const auto shown = pictureOf(*scene);
         EXPECT_TRUE(same(shown, pictureOf(*loaded([&](SceneOptions& options) {
                              options.paint = word;
@@ -238,7 +237,7 @@ TEST_F(GroundPaintingTest, UnderWorkedOutLightTheOwnColoursComeBackLit) {
         };
         const auto asked = [&](const char* word) {
             paint.ask("paint", word);
-            waitFor(paint);
+            settle(paint);
             return look();
         };
         const auto slope = asked("slope");
@@ -246,7 +245,7 @@ TEST_F(GroundPaintingTest, UnderWorkedOutLightTheOwnColoursComeBackLit) {
             EXPECT_EQ(seen->changes(), 0u) << "nothing is worked out for what is not shown";
         }
         const auto plain = asked("");
-        while (seen->changes() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ASSERT_TRUE(test::waitFor([&] { return seen->changes() > 0; }));
         const auto lit = look();
         EXPECT_FALSE(same(lit, plain));
         EXPECT_TRUE(same(asked("slope"), slope));
@@ -275,17 +274,17 @@ TEST_F(GroundPaintingTest, OverABakedLightColoursAreLitByIt) {
     const SunPlace evening{4.5, 0.3};
     for (const char* const word : {"slope", "hillshade", ""}) {
         paint.ask("paint", word);
-        waitFor(paint);
+        settle(paint);
         EXPECT_TRUE(same(pictureOf(*scene), pictureOf(*loadedAs(word, {})))) << word;
         const SunPlace noon = scene->offered<TurningLight>()->place();
         scene->offered<TurningLight>()->turnTo(evening);
         pictureOf(*scene);
-        waitFor(paint);
+        settle(paint);
         const LightPlace angle{evening.azimuth, evening.elevation};
         EXPECT_TRUE(same(pictureOf(*scene), pictureOf(*loadedAs(word, angle)))) << word;
         scene->offered<TurningLight>()->turnTo(noon);
         pictureOf(*scene);
-        waitFor(paint);
+        settle(paint);
     }
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "tests/support/own_cache.h"
+#include "tests/support/wait_for.h"
 
 namespace stereonav::test {
 
@@ -74,6 +76,37 @@ protected:
                 contentOf(mFolder / "stderr")};
     }
 
+    // What became of it after it was told to end: however busy the machine is, it does.
+    Outcome awaitStopped(pid_t child) const {
+        EXPECT_TRUE(waitFor([&] { return hasEnded(child); })) << "it was told to end, and goes on";
+        if (!hasEnded(child)) kill(child, SIGKILL);
+        return await(child);
+    }
+    static bool hasEnded(pid_t child) {  // await() is still to be called
+        siginfo_t ended{};
+        return waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+               ended.si_pid == child;
+    }
+    // Whether the program handles the signal by now: before that it ends as any program does.
+    static bool catches(pid_t child, int signal) {
+        std::ifstream status("/proc/" + std::to_string(child) + "/status");
+        for (std::string line; std::getline(status, line);)
+            if (line.rfind("SigCgt:", 0) == 0)
+                return std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1;
+        return false;
+    }
+    // Until it handles SIGINT, and has used so much processor time: it is in the middle of its work.
+    static void awaitWork(pid_t child, double seconds) {
+        const auto used = [&] {
+            clockid_t clock{};
+            timespec time{};
+            if (clock_getcpuclockid(child, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0.0;
+            return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+        };
+        ASSERT_TRUE(waitFor([&] { return hasEnded(child) || (catches(child, SIGINT) && used() > seconds); }));
+        ASSERT_FALSE(hasEnded(child)) << "it ended by itself";
+    }
+
     // Exit status 1, one line on stderr that holds every one of `words`, nothing on stdout, and
     // nothing left in `place`.
     void expectRefused(const std::vector<std::string>& arguments,
@@ -119,6 +152,8 @@ private:
         const int errFile = open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
         if (outFile < 0 || errFile < 0 || chdir(place().c_str()) != 0) return;
         signal(SIGINT, SIG_DFL);  // a shell has it ignored by what it runs in the background
+        // Lines of progress are of runs that take long, which depends on the machine.
+        setenv("STEREONAV_PROGRESS_SECONDS", "1000000", 0);
         dup2(outFile, STDOUT_FILENO);
         dup2(errFile, STDERR_FILENO);
         std::vector<char*> argv{const_cast<char*>(STEREONAV_PROGRAM)};

@@ -3,7 +3,6 @@
 #include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "tests/app/program.h"
 #include "tests/support/xml_check.h"
@@ -183,9 +182,9 @@ TEST_F(Papers, SaysInOneLineWhatIsWrong) {
 
 TEST_F(Papers, LeavesNothingWhenItIsStopped) {
     const pid_t child = start({"report", "--papers", "--out", "page"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    awaitWork(child, 1);
     kill(child, SIGINT);
-    const Outcome outcome = await(child);
+    const Outcome outcome = awaitStopped(child);
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.err.find("stopped"), std::string::npos) << outcome.err;
     EXPECT_FALSE(fs::exists(place() / "page"));

@@ -4,7 +4,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <thread>
 
 #include "tests/app/volume_input.h"
 #include "tests/support/xml_check.h"
@@ -217,9 +216,9 @@ TEST_F(Report, SaysInOneLineWhatIsWrong) {
 
 TEST_F(Report, LeavesNothingWhenItIsStopped) {
     const pid_t child = start({"report", "--out", "page"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    awaitWork(child, 1);
     kill(child, SIGINT);
-    const Outcome outcome = await(child);
+    const Outcome outcome = awaitStopped(child);
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.err.find("stopped"), std::string::npos) << outcome.err;
     EXPECT_TRUE(left().empty()) << *left().begin();

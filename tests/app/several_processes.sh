@@ -102,7 +102,12 @@ while [ -z "$lost" ]; do
   sleep 0.1
   lost=$(ps -o pid= --ppid $run | tail -n 1)
 done
-sleep 1
+# It is at work: it has used half a second of the processor.
+used() { awk '{ sub(/.*\) /, ""); print $12 + $13 }' "/proc/$1/stat" 2> /dev/null || echo 0; }
+while [ "$(used "$lost")" -lt 50 ]; do
+  kill -0 $run || fail "the bake ended by itself: $(cat err)"
+  sleep 0.1
+done
 kill -9 "$lost"
 status=0
 wait $run || status=$?

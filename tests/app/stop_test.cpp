@@ -1,4 +1,6 @@
-// SIGTERM and SIGINT at any time: the run ends soon, says so, and leaves neither half a file nor a lost one.
+// SIGTERM and SIGINT at any time: the run ends before it is done, says so, and leaves neither half a file nor
+// a lost one.
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 
 #include <chrono>
@@ -13,44 +15,49 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// Seconds that a stop may take: one on a machine that does nothing else; tests run beside others.
-constexpr double kLongestStop = 10;
-
 class Stop : public VolumeTest {
 protected:
     struct Job {
         std::string name;
         std::vector<std::string> arguments;
-        std::string old;     // a file in the place that holds something before; "": none
-        bool keeps = false;  // what is done, as a file of its own
+        std::string old;       // a file in the place that holds something before; "": none
+        bool keeps = false;    // what is done, as a file of its own
+        bool endless = false;  // it would take many minutes on any machine
     };
 
     std::vector<Job> jobs() const {
         const std::string scene = ground();
-        return {
+        std::vector<Job> all{
             {"render",
-             {"render", "wax", "--size", "600x600", "--slices", "20000", "--out", "a.png"},
+             {"render", "wax", "--size", "2000x2000", "--slices", "65536", "--out", "a.png"},
              "a.png"},
-            {"play", {"play", scene, "--size", "400x300", "--frames", "5000", "--out", "frames"}, "", true},
-            {"video", {"play", scene, "--size", "400x300", "--frames", "5000", "--video", "a.mkv"}, "a.mkv"},
-            {"video with frames ahead",
-             {"play", scene, "--size", "400x300", "--frames", "5000", "--video", "a.mp4"},
-             "a.mp4"},
-            {"compare",
-             {"compare", scene, "--size", "600x400", "--frames", "500", "--json", "a.json"},
-             "a.json"},
-            {"mesh", {"mesh", scene, "--error", "0", "--out", "a.glb"}, "a.glb"},
-            {"centreline", {"centreline", "colon", "--no-cache", "--out", "a.vtp"}, "a.vtp"},
-            {"coverage", {"coverage", "colon", "--no-cache", "--out", "a.csv"}, "a.csv"},
-            {"bake terrain",
-             {"bake", scene, "--samples", "4096", "--resolution", "1", "--out", "a.light"},
-             ""},
-            {"bake volume",
-             {"bake", maskedTube(), "--no-cache", "--samples", "1000000", "--out", "a.bake"},
+            {"play",
+             {"play", scene, "--size", "400x300", "--frames", "1000000", "--out", "frames"},
              "",
              true},
-            {"info", {"info", scene, "--size", "8000x8000"}, ""},
-            {"report", {"report", "--minutes", "5", "--out", "report"}, ""}};
+            {"video",
+             {"play", scene, "--size", "400x300", "--frames", "1000000", "--video", "a.mkv"},
+             "a.mkv"},
+            {"video with frames ahead",
+             {"play", scene, "--size", "400x300", "--frames", "1000000", "--video", "a.mp4"},
+             "a.mp4"},
+            {"compare",
+             {"compare", scene, "--size", "600x400", "--frames", "100000", "--json", "a.json"},
+             "a.json"},
+            {"bake terrain",
+             {"bake", scene, "--samples", "65536", "--resolution", "1", "--out", "a.light"},
+             ""},
+            {"bake volume",
+             {"bake", maskedTube(), "--no-cache", "--samples", "16777216", "--out", "a.bake"},
+             "",
+             true},
+            {"report", {"report", "--minutes", "1440", "--out", "report"}, ""}};
+        for (Job& job : all) job.endless = true;
+        all.push_back({"mesh", {"mesh", scene, "--error", "0", "--out", "a.glb"}, "a.glb"});
+        all.push_back({"centreline", {"centreline", "colon", "--no-cache", "--out", "a.vtp"}, "a.vtp"});
+        all.push_back({"coverage", {"coverage", "colon", "--no-cache", "--out", "a.csv"}, "a.csv"});
+        all.push_back({"info", {"info", scene, "--size", "8000x8000"}, ""});
+        return all;
     }
 
     std::string ground() const {
@@ -140,13 +147,13 @@ protected:
         if (!job.old.empty()) std::ofstream(place() / job.old) << "old";
         const pid_t child = start(job.arguments);
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+        const bool wasThere = catches(child, signal);
         const auto before = Clock::now();
         kill(child, signal);
-        const Outcome outcome = await(child);
+        const Outcome outcome = awaitStopped(child);
         const double taken = std::chrono::duration<double, std::milli>(Clock::now() - before).count();
-        if (outcome.status == 0) return taken;  // it was done
-        const bool wasNotThereYet = seconds <= 0.1 && outcome.status == -1;
-        if (!wasNotThereYet) {
+        if (outcome.status == 0 && !job.endless) return taken;  // it was done
+        if (wasThere || outcome.status != -1) {
             EXPECT_EQ(outcome.status, 1) << outcome.err;
             EXPECT_NE(outcome.err.find("stopped"), std::string::npos) << outcome.err;
         }
@@ -164,46 +171,46 @@ protected:
     }
 };
 
-TEST_F(Stop, EndsEveryCommandSoonAndLeavesNothing) {
+TEST_F(Stop, EndsEveryCommandAndLeavesNothing) {
     for (const Job& job : jobs())
         for (const double seconds : {0.02, 0.3, 1.0}) {
             SCOPED_TRACE(job.name + " after " + std::to_string(seconds) + " s");
-            const double taken = stopAfter(job, seconds, SIGTERM);
-            EXPECT_LT(taken, 1000 * kLongestStop);
-            note(job, seconds, taken);
+            note(job, seconds, stopAfter(job, seconds, SIGTERM));
         }
 }
 
 // Minutes, and gigabytes of memory and disk: only where it is asked for.
-TEST_F(Stop, EndsEveryCommandSoonWithLargeInputs) {
+TEST_F(Stop, EndsEveryCommandWithLargeInputs) {
     if (!std::getenv("STEREONAV_STOP_LARGE")) GTEST_SKIP() << "set STEREONAV_STOP_LARGE to stop large runs";
     for (const Job& job : largeJobs())
         for (const double seconds : {0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0}) {
             SCOPED_TRACE(job.name + " after " + std::to_string(seconds) + " s");
-            const double taken = stopAfter(job, seconds, SIGTERM);
-            EXPECT_LT(taken, 1000 * kLongestStop);
-            note(job, seconds, taken);
+            note(job, seconds, stopAfter(job, seconds, SIGTERM));
         }
 }
 
 TEST_F(Stop, ByTheKeyboardIsTheSame) {
-    EXPECT_LT(stopAfter(jobs()[0], 0.3, SIGINT), 1000 * kLongestStop);
-    EXPECT_LT(stopAfter(jobs()[2], 0.3, SIGINT), 1000 * kLongestStop);
+    stopAfter(jobs()[0], 0.3, SIGINT);
+    stopAfter(jobs()[2], 0.3, SIGINT);
 }
 
 TEST_F(Stop, ByATerminalThatIsClosedIsTheSame) {
-    EXPECT_LT(stopAfter(jobs()[0], 0.3, SIGHUP), 1000 * kLongestStop);
+    stopAfter(jobs()[0], 0.3, SIGHUP);
 }
 
-// Nobody reads the other end of the pipe: the write never ends, the run does.
+// Nobody reads the other end of the pipe, which is full: the write never ends, the run does.
 TEST_F(Stop, EndsARunThatNobodyListensTo) {
     const std::string pipe = (mFolder / "pipe.png").string();
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     const int other = open(pipe.c_str(), O_RDWR);
     const pid_t child = start({"render", ground(), "--size", "900x900", "--out", pipe});
-    std::this_thread::sleep_for(std::chrono::seconds(2));
+    EXPECT_TRUE(waitFor([&] {
+        constexpr int kPage = 4096;
+        int held = 0;
+        return ioctl(other, FIONREAD, &held) == 0 && held > fcntl(other, F_GETPIPE_SZ) - kPage;
+    }));
     kill(child, SIGTERM);
-    const Outcome outcome = await(child);
+    const Outcome outcome = awaitStopped(child);
     close(other);
     EXPECT_EQ(outcome.status, 1);
     EXPECT_EQ(outcome.err, "stereonav: stopped\n");
@@ -212,9 +219,12 @@ TEST_F(Stop, EndsARunThatNobodyListensTo) {
 
 // As a shell has it for jobs in the background: their keyboard is another's.
 TEST_F(Stop, WhatWasIgnoredStaysIgnored) {
+    const std::string frames = "'" + (mFolder / "frames").string() + "'";
     const std::string command = "trap '' INT; '" STEREONAV_PROGRAM "' play '" + ground() +
-                                "' --size 400x300 --frames 20 --hash >'" + (mFolder / "out").string() +
-                                "' & sleep 0.2; kill -INT $!; wait $!";
+                                "' --size 400x300 --frames 20 --hash --out " + frames + " >'" +
+                                (mFolder / "out").string() + "' & until [ -e " + frames +
+                                "/frame_00000.png ]; do kill -0 $! || exit 2; sleep 0.01; done; "
+                                "kill -INT $!; wait $!";
     EXPECT_EQ(std::system(command.c_str()), 0);
     EXPECT_NE(contentOf(mFolder / "out").find("hash "), std::string::npos);
 }

@@ -2,9 +2,7 @@
 // eyes are; and what it tells of a picture's parallax is what its depths say.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdlib>
-#include <thread>
 
 #include "app/options/option_table.h"
 #include "app/options/parsed_options.h"
@@ -32,11 +30,9 @@ protected:
     // The session's next frame, of one window's size.
     static std::shared_ptr<const ViewFrame> frameOf(ViewWorker& worker, ViewSession& session) {
         worker.request(session.requestFor(640, 180));
-        for (int wait = 0; wait < 60'000; ++wait) {
-            if (auto frame = worker.takeFrame()) return frame;
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        throw std::runtime_error("no frame came");
+        auto frame = waitFor([&] { return worker.takeFrame(); });
+        if (!frame) throw std::runtime_error("no frame came");
+        return frame;
     }
 
     static ParallaxRange plainRange(const ViewFrame& frame) {

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "../camera/temporary_folder.h"
@@ -208,10 +207,8 @@ TEST(StudyDicomForged, LengthsAreHeldAgainstTheFile) {
             }
             rusage before{}, after{};
             getrusage(RUSAGE_SELF, &before);
-            const auto start = std::chrono::steady_clock::now();
             expectError(folder / "s",
                         {"s0.dcm is damaged: it says 4294967280 bytes of pixels, 8 x 7 of them have 112"});
-            EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
             getrusage(RUSAGE_SELF, &after);
             EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100'000);  // KB
         }

@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
-#include <chrono>
 #include <memory>
-#include <thread>
 
 #include "engine/base/error.h"
 #include "engine/display/interface.h"
 #include "engine/nav/navigator.h"
+#include "tests/support/wait_for.h"
 #include "tests/view/fake_frames.h"
 #include "tests/view/fake_panel_host.h"
 #include "tests/view/fake_scene.h"
@@ -52,11 +51,7 @@ protected:
         mInterface = std::make_unique<Interface>(*mWindow);
         mPanel = std::make_unique<MapPanel>();
         // It is drawn beside the window's thread.
-        for (int n = 0; n < 500 && mSide == 0; ++n) {
-            layOut();
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
-        ASSERT_GT(mSide, 0);
+        ASSERT_TRUE(test::waitFor([&] { return layOut(), mSide > 0; }));
         edit().start(timedKeyframes({at(400, 1000, 300), at(1000, 1500, 300), at(1600, 1000, 300)}, 100));
         layOut();
     }

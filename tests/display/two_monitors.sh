@@ -5,6 +5,7 @@
 #   two_monitors.sh FOLDER COMMAND ...
 # Exit status 77: there is no such server here, and why is printed.
 set -u
+. "$(dirname "$0")/../support/start_server.sh"
 folder=$1
 shift
 server=$(command -v /usr/lib/xorg/Xorg Xorg | head -n 1)
@@ -32,20 +33,8 @@ Section "Screen"
   EndSubSection
 EndSection
 END
-# The server takes a free number and tells it.
-rm -f "$folder/number"
-"$server" -config "$folder/xorg.conf" -logfile "$folder/xorg.log" -noreset -nolisten tcp -novtswitch -sharevts \
-    -displayfd 3 3>"$folder/number" >"$folder/xorg.out" 2>&1 &
-server_pid=$!
-trap 'kill $server_pid 2>/dev/null; wait $server_pid 2>/dev/null' EXIT
-for _ in $(seq 300); do
-    [ -s "$folder/number" ] && break
-    kill -0 "$server_pid" 2>/dev/null || { echo "Xorg does not start: $(tail -n 1 "$folder/xorg.out")"; exit 77; }
-    sleep 0.1
-done
-[ -s "$folder/number" ] || { echo "Xorg does not start within 30 seconds"; exit 77; }
-export DISPLAY=":$(cat "$folder/number")"
-unset WAYLAND_DISPLAY
+start_server "$folder" "$server" -config "$folder/xorg.conf" -logfile "$folder/xorg.log" -novtswitch -sharevts ||
+    { echo "Xorg does not start: $(tail -n 1 "$folder/server.txt")"; exit 77; }
 # Clock and sums: columns x rows x refreshes a second.
 mode() { xrandr --newmode "$1" "$(awk "BEGIN { print $2 * $3 * $4 / 1e6 }")" "$2" "$2" "$2" "$2" "$3" "$3" "$3" "$3"; }
 {

@@ -6,15 +6,14 @@
 #include <imgui.h>
 
 #include <atomic>
-#include <chrono>
 #include <memory>
-#include <thread>
 
 #include "engine/base/error.h"
 #include "engine/display/interface.h"
 #include "engine/nav/navigator.h"
 #include "engine/scene/capabilities.h"
 #include "engine/scene/surface_paint.h"
+#include "tests/support/wait_for.h"
 #include "tests/view/fake_frames.h"
 #include "tests/view/fake_panel_host.h"
 
@@ -88,14 +87,16 @@ public:
     // Another place of the wall in each pixel.
     std::shared_ptr<const FlatPicture> makePanorama(Progress& progress) const override {
         ++panoramas;
-        while (waits) {
-            progress.report(0.5, "looking");
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        try {
+            test::waitFor([&] { return !waits || (progress.report(0.5, "looking"), false); });
+        } catch (const Cancelled&) {
+            ++left;
+            throw;
         }
         return std::make_shared<const StraightFlat>(0.02);
     }
 
-    mutable std::atomic<int> made = 0, panoramas = 0;
+    mutable std::atomic<int> made = 0, panoramas = 0, left = 0;
     std::atomic<bool> waits = false;
     std::shared_ptr<CountedPainter> painter = std::make_shared<CountedPainter>();
     SurfacePaint paint;
@@ -129,11 +130,13 @@ protected:
             ImGui::End();
         });
     }
-    void make() {
-        for (int n = 0; n < 1000 && !mPanel->flat(); ++n) {
-            layOut();
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
+    // Lays out again and again until that is so.
+    template <typename So>
+    bool becomes(const So& so) {
+        return test::waitFor([&] { return layOut(), so(); });
+    }
+    bool make() {
+        return becomes([&] { return mPanel->flat() != nullptr; });
     }
     // The box in the upper left corner: the other view.
     void otherView() {
@@ -163,33 +166,26 @@ TEST_F(UnfoldedPanelTest, IsMadeOnceItIsShownAndPainted) {
     EXPECT_TRUE(UnfoldedPanel::has(mHost));
     mPanel->hide(mHost);
     EXPECT_EQ(mScene->made, 0) << "nothing before it is shown";
-    make();
-    ASSERT_TRUE(mPanel->flat());
+    ASSERT_TRUE(make());
     for (int n = 0; n < 5; ++n) layOut();
     EXPECT_EQ(mScene->made, 1);
     EXPECT_GT(mScene->painter->painted, 0) << "in what the scene is painted with";
 }
 
 TEST_F(UnfoldedPanelTest, IsPaintedAgainWhileOneFlies) {
-    make();
-    ASSERT_TRUE(mPanel->flat());
+    ASSERT_TRUE(make());
     const auto seen = std::make_shared<CountedPainter>(), more = std::make_shared<CountedPainter>();
     const int before = mScene->painter->painted;
     for (const auto& painter : {seen, more}) {
         mSession.setPaint(painter);
-        for (int n = 0; n < 5000 && painter->painted == 0; ++n) {
-            layOut();
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
-        EXPECT_GT(painter->painted, 0);
+        EXPECT_TRUE(becomes([&] { return painter->painted > 0; }));
     }
     EXPECT_GT(mScene->painter->painted, before) << "the scene's own paint stays below";
     EXPECT_EQ(mScene->made, 1) << "the wall is not unfolded again";
 }
 
 TEST_F(UnfoldedPanelTest, MarksWhatIsUnderThePointerAndFliesThere) {
-    make();
-    ASSERT_TRUE(mPanel->flat());
+    ASSERT_TRUE(make());
     pointAtMiddle();
     ASSERT_TRUE(mHost.marked);
     EXPECT_NEAR(mHost.marked->y, 0.01, 1e-9);
@@ -210,13 +206,11 @@ TEST_F(UnfoldedPanelTest, MarksWhatIsUnderThePointerAndFliesThere) {
 }
 
 TEST_F(UnfoldedPanelTest, BothViewsAreMadeOnceTheyAreShown) {
-    make();
-    ASSERT_TRUE(mPanel->flat());
+    ASSERT_TRUE(make());
     EXPECT_EQ(mScene->panoramas, 0) << "nothing before it is shown";
     otherView();
     ASSERT_TRUE(mPanel->fromBothEnds());
-    make();
-    ASSERT_TRUE(mPanel->flat());
+    ASSERT_TRUE(make());
     pointAtMiddle();
     ASSERT_TRUE(mHost.marked);
     EXPECT_NEAR(mHost.marked->y, 0.02, 1e-9) << "the place that this view shows there";
@@ -234,36 +228,30 @@ TEST_F(UnfoldedPanelTest, BothViewsAreMadeOnceTheyAreShown) {
 }
 
 TEST_F(UnfoldedPanelTest, AViewThatIsLeftIsNotWaitedFor) {
-    make();
+    ASSERT_TRUE(make());
     mScene->waits = true;
     otherView();
     EXPECT_FALSE(mPanel->flat());
-    for (int n = 0; n < 5000 && mScene->panoramas == 0; ++n) {
-        layOut();
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    ASSERT_EQ(mScene->panoramas, 1);
+    ASSERT_TRUE(becomes([&] { return mScene->panoramas == 1; }));
     otherView();
     EXPECT_TRUE(mPanel->flat());
-    for (int n = 0; n < 50; ++n) {
-        layOut();
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
+    ASSERT_TRUE(becomes([&] { return mScene->left == 1; }));
     mScene->waits = false;
     otherView();
-    make();
+    EXPECT_TRUE(make()) << "asked for again it is made again";
     EXPECT_TRUE(mPanel->fromBothEnds());
-    EXPECT_TRUE(mPanel->flat()) << "asked for again it is made again";
     EXPECT_EQ(mScene->panoramas, 2);
     EXPECT_EQ(mScene->made, 1);
 }
 
 TEST_F(UnfoldedPanelTest, SaysWhyThereIsNone) {
     mScene->fails = true;
-    for (int n = 0; n < 50; ++n) {
-        layOut();
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
+    const long before = mSession.openShared().use_count();
+    layOut();
+    ASSERT_TRUE(becomes([&] { return mSession.openShared().use_count() == before; }))
+        << "who makes it holds the scene";
+    layOut();
+    layOut();
     EXPECT_FALSE(mPanel->flat());
     EXPECT_EQ(mScene->made, 1) << "what failed is not tried again by itself";
 }

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
+#include <limits>
 #include <map>
 #include <set>
 
-#include "engine/base/stopwatch.h"
 #include "engine/light/bake/lazy_bake.h"
+#include "tests/support/wait_for.h"
 #include "tests/volume/test_volumes.h"
 
 namespace stereonav {
@@ -27,20 +29,30 @@ double lazyTruth(const glm::ivec3& t) {
     return 0.5 + 0.01 * t.x + 0.02 * t.y;
 }
 
-// A ball's surface through 6^3 bricks; the source tells what it was asked, and takes its time.
+constexpr double kLimit_s = static_cast<double>(test::kLongestWait.count());
+
+// A ball's surface through 6^3 bricks; the source tells what it was asked, and answers as many calls as it
+// may.
 struct Background {
-    explicit Background(double pause_ms = 0) : pause(pause_ms) {
+    Background() {
         source.addIrradiance = [this](std::span<const glm::ivec3> texels, int count,
                                       std::span<TexelSum> sums) {
-            {
-                const std::lock_guard lock(mutex);
-                calls.push_back({brickOf(to.layout, texels[0]), static_cast<int>(texels.size()), count});
-                for (const glm::ivec3& t : texels) EXPECT_EQ(brickOf(to.layout, t), calls.back().brick);
-            }
-            if (pause > 0) std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(pause));
+            for (const glm::ivec3& t : texels)
+                EXPECT_EQ(brickOf(to.layout, t), brickOf(to.layout, texels[0]));
+            pass(texels, count);
             add(texels, count, sums);
         };
         choice.lowest = choice.highest = 160;
+    }
+    void pass(std::span<const glm::ivec3> texels, int count) {
+        std::size_t call = 0;
+        {
+            const std::lock_guard lock(mutex);
+            calls.push_back({brickOf(to.layout, texels[0]), static_cast<int>(texels.size()), count});
+            call = calls.size();
+        }
+        test::waitFor([&] { return call <= mayPass; });
+        if (slow) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     static void add(std::span<const glm::ivec3> texels, int count, std::span<TexelSum> sums) {
         for (std::size_t n = 0; n < texels.size(); ++n)
@@ -83,7 +95,8 @@ struct Background {
     TexelChoice choice;
     IlluminationVolume to{volume.frame};
     BakeSource source;
-    double pause;
+    std::atomic<std::size_t> mayPass = std::numeric_limits<std::size_t>::max();  // calls
+    std::atomic<bool> slow = false;
     std::mutex mutex;
     std::vector<Call> calls;
 };
@@ -94,7 +107,7 @@ TEST(LazyBake, WhatIsAskedForBecomesKnown) {
         LazyBake lazy(b.volume, b.choice, b.source, b.to, {32, 32, threads});
         EXPECT_TRUE(lazy.done());
         lazy.request(b.all());
-        ASSERT_TRUE(lazy.waitUntilDone(60));
+        ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
         EXPECT_TRUE(lazy.done());
         Progress progress;
         std::size_t known = 0;
@@ -120,7 +133,7 @@ TEST(LazyBake, TheSameBytesAsTheWholeBake) {
     const IlluminationVolume whole = illuminationOf(sums);
     LazyBake lazy(b.volume, b.choice, b.source, b.to, {100, 100, 3});
     lazy.request(b.all());
-    ASSERT_TRUE(lazy.waitUntilDone(60));
+    ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
     for (std::size_t n = 0; n < whole.layout.count(); ++n) ASSERT_EQ(b.to.texels[n], whole.texels[n]) << n;
 }
 
@@ -131,14 +144,14 @@ TEST(LazyBake, OnlyWhatIsAskedFor) {
     const std::vector<std::uint32_t> some{*holding.begin(), *std::next(holding.begin(), 7), 99999999u,
                                           *holding.begin()};
     lazy.request(some);
-    ASSERT_TRUE(lazy.waitUntilDone(60));
+    ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
     const std::vector<Background::Call> calls = b.seen();
     EXPECT_FALSE(calls.empty());
     for (const Background::Call& call : calls)
         ASSERT_TRUE(call.brick == some[0] || call.brick == some[1]) << call.brick;
     EXPECT_GT(lazy.texelsLit(), 20u);
     lazy.request({});
-    EXPECT_TRUE(lazy.waitUntilDone(60));
+    EXPECT_TRUE(lazy.waitUntilDone(kLimit_s));
 }
 
 // One texel of a block in every brick, nearest bricks first, before a second one anywhere.
@@ -149,7 +162,7 @@ TEST(LazyBake, CoarseFirst) {
     {
         LazyBake lazy(b.volume, b.choice, b.source, b.to, {8, 8, 1});
         lazy.request(order);
-        ASSERT_TRUE(lazy.waitUntilDone(60));
+        ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
     }
     const std::size_t bricks = b.holding().size();
     const std::vector<Background::Call> calls = b.seen();
@@ -172,13 +185,12 @@ TEST(LazyBake, UnknownTexelsBorrowFromTheirBlock) {
     std::atomic<bool> hold = true;
     // Lets the first level through, then stands still.
     source.addIrradiance = [&](std::span<const glm::ivec3> texels, int samples, std::span<TexelSum> sums) {
-        if (++count > holding.size())
-            while (hold) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (++count > holding.size()) test::waitFor([&] { return !hold; });
         Background::add(texels, samples, sums);
     };
     LazyBake lazy(b.volume, b.choice, source, b.to, {8, 8, 1});
     lazy.request(b.all());
-    while (count <= holding.size()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(test::waitFor([&] { return count > holding.size(); }));
     Progress progress;
     std::size_t own = 0, borrowed = 0, unknown = 0;
     for (const TexelBrick& brick : wantedBricks(b.volume, b.volume.frame, b.choice, progress))
@@ -198,17 +210,19 @@ TEST(LazyBake, UnknownTexelsBorrowFromTheirBlock) {
 
 TEST(LazyBake, AMovedWishIsServedFirst) {
     for (const int threads : {1, 2}) {
-        Background b(2);
+        Background b;
         LazyBake lazy(b.volume, b.choice, b.source, b.to, {64, 64, threads});
         const std::set<std::uint32_t> set = b.holding();
         const std::vector<std::uint32_t> holding(set.begin(), set.end());
         const std::vector<std::uint32_t> first(holding.begin(), holding.end() - 3),
             moved(holding.end() - 3, holding.end());
+        b.mayPass = 20;
         lazy.request(first);
-        while (b.seen().size() < 20) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ASSERT_TRUE(test::waitFor([&] { return b.seen().size() > 20; }));
         lazy.request(moved);
         const std::size_t before = b.seen().size();
-        ASSERT_TRUE(lazy.waitUntilDone(60));
+        b.mayPass = std::numeric_limits<std::size_t>::max();
+        ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
         const std::vector<Background::Call> calls = b.seen();
         // What was under way may end: one batch a thread, and one that had been looked for meanwhile.
         int old = 0;
@@ -225,17 +239,19 @@ TEST(LazyBake, AMovedWishIsServedFirst) {
 }
 
 TEST(LazyBake, WhatWasBegunIsNotBegunAgain) {
-    Background b(1);
+    Background b;
     LazyBake lazy(b.volume, b.choice, b.source, b.to, {64, 64, 1});
     const std::set<std::uint32_t> holding = b.holding();
     std::vector<std::uint32_t> some(holding.begin(), std::next(holding.begin(), 4));
     // A wish that changes all the time, as when one moves.
-    for (int n = 0; n < 60; ++n) {
+    for (std::size_t n = 0; n < 60; ++n) {
         std::rotate(some.begin(), some.begin() + 1, some.end());
+        b.mayPass = n;
         lazy.request(some);
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        ASSERT_TRUE(test::waitFor([&] { return b.seen().size() > n || lazy.done(); }));
     }
-    ASSERT_TRUE(lazy.waitUntilDone(60));
+    b.mayPass = std::numeric_limits<std::size_t>::max();
+    ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
     long long samples = 0;
     for (const Background::Call& call : b.seen())
         samples += static_cast<long long>(call.texels) * call.samples;
@@ -247,41 +263,47 @@ TEST(LazyBake, WhatWasBegunIsNotBegunAgain) {
     EXPECT_EQ(samples, needed);
 }
 
+// While all batches are held one asks for others; once they go on, a bake that is to end leaves the rest.
 TEST(LazyBake, NobodyWaits) {
-    Background b(30);
-    std::vector<double> times;
-    Stopwatch whole;
+    constexpr std::size_t kFew = 1000;  // batches, of many thousands: those of seconds, not of milliseconds
+    Background b;
+    b.slow = true;
+    b.mayPass = 0;
+    std::size_t held = 0;
     {
         LazyBake lazy(b.volume, b.choice, b.source, b.to, {640, 640, 2});
-        std::vector<std::uint32_t> order = b.all();
-        for (int n = 0; n < 41; ++n) {
-            std::rotate(order.begin(), order.begin() + 1, order.end());
-            const Stopwatch watch;
-            lazy.request(order);
+        lazy.request(b.all());
+        ASSERT_TRUE(test::waitFor([&] { return b.seen().size() == 2; }));
+        const std::future<void> asked = std::async(std::launch::async, [&] {
+            std::vector<std::uint32_t> order = b.all();
             TexelChoice other = b.choice;
-            other.lowest = other.highest = static_cast<float>(150 + n);
-            lazy.setChoice(other);
-            times.push_back(watch.elapsed_ms());
-            std::this_thread::sleep_for(std::chrono::milliseconds(3));
-        }
+            for (int n = 0; n < 41; ++n) {
+                std::rotate(order.begin(), order.begin() + 1, order.end());
+                lazy.request(order);
+                other.lowest = other.highest = static_cast<float>(150 + n);
+                lazy.setChoice(other);
+            }
+        });
+        EXPECT_TRUE(test::waitFor(
+            [&] { return asked.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
         EXPECT_FALSE(lazy.waitUntilDone(0.01));
-        whole = Stopwatch();
+        held = b.seen().size();
+        EXPECT_EQ(held, 2u) << "one of each thread";
+        b.mayPass = std::numeric_limits<std::size_t>::max();
     }
-    EXPECT_LT(whole.elapsed_ms(), 1000) << "ends after the batch under way";
-    std::sort(times.begin(), times.end());
-    EXPECT_LT(times[times.size() / 2], 5.0) << "batches take 30 ms";
+    EXPECT_LT(b.seen().size(), held + kFew) << "ends after the batch under way";
 }
 
 TEST(LazyBake, OtherSurfacesWantOtherTexelsAndKeepWhatIsLit) {
     Background b;
     LazyBake lazy(b.volume, b.choice, b.source, b.to, {16, 16, 2});
     lazy.request(b.all());
-    ASSERT_TRUE(lazy.waitUntilDone(60));
+    ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
     const std::uint64_t lit = lazy.texelsLit();
     std::vector<PackedTexel> before(b.to.texels.data(), b.to.texels.data() + b.to.layout.count());
     b.choice.lowest = b.choice.highest = 100;
     lazy.setChoice(b.choice);
-    ASSERT_TRUE(lazy.waitUntilDone(60));
+    ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
     EXPECT_GT(lazy.texelsLit(), lit);
     for (std::size_t n = 0; n < before.size(); ++n)
         ASSERT_TRUE(texelWeight(before[n]) < 1 || b.to.texels[n] == before[n]) << n;
@@ -293,7 +315,7 @@ TEST(LazyBake, OtherSurfacesWantOtherTexelsAndKeepWhatIsLit) {
     const std::size_t calls = b.seen().size();
     b.choice.lowest = b.choice.highest = 160;
     lazy.setChoice(b.choice);
-    ASSERT_TRUE(lazy.waitUntilDone(60));
+    ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
     EXPECT_EQ(b.seen().size(), calls);
 }
 
@@ -301,7 +323,7 @@ TEST(LazyBake, GoesOnToMoreSamples) {
     Background b;
     LazyBake lazy(b.volume, b.choice, b.source, b.to, {16, 100, 1});
     lazy.request(b.all());
-    ASSERT_TRUE(lazy.waitUntilDone(60));
+    ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
     std::map<std::uint32_t, long long> samples;
     for (const Background::Call& call : b.seen())
         samples[call.brick] += static_cast<long long>(call.texels) * call.samples;
@@ -320,7 +342,7 @@ TEST(LazyBake, WhatIsBakedAlreadyStays) {
     for (int t = 0; t < 512; t += 2) b.to.texels[number * 512u + t] = baked;
     LazyBake lazy(b.volume, b.choice, b.source, b.to);
     lazy.request({number});
-    ASSERT_TRUE(lazy.waitUntilDone(60));
+    ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
     for (int t = 0; t < 512; t += 2) ASSERT_EQ(b.to.texels[number * 512u + t], baked);
     EXPECT_GT(lazy.texelsLit(), 0u);
 }
@@ -339,16 +361,12 @@ std::vector<glm::vec3> skyOf(float turn) {
 
 // Numbers that differ from sample to sample, texel to texel, coefficient to coefficient.
 struct TransferBackground : Background {
-    explicit TransferBackground(double pause_ms = 0) : Background(pause_ms) {
+    TransferBackground() {
         source = {};
         source.addTransfer = [this](std::span<const glm::ivec3> texels, int first, int count, int order,
                                     int channels, std::span<float> sums, std::span<std::uint8_t> alive) {
             EXPECT_EQ(order, kLazyOrder);
-            {
-                const std::lock_guard lock(mutex);
-                calls.push_back({brickOf(to.layout, texels[0]), static_cast<int>(texels.size()), count});
-            }
-            if (pause > 0) std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(pause));
+            pass(texels, count);
             const std::size_t each = static_cast<std::size_t>(order * order * channels);
             for (std::size_t n = 0; n < texels.size(); ++n) {
                 alive[n] = !isDead(texels[n]);
@@ -383,7 +401,7 @@ TEST(LazyTransfer, TheSameBytesAsTheWholeBake) {
         LazyBake lazy(b.volume, b.choice, b.source, b.to, setting);
         lazy.setLight(skyOf(0));
         lazy.request(b.all());
-        ASSERT_TRUE(lazy.waitUntilDone(60));
+        ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
         EXPECT_GT(lazy.texelsLit(), 1000u);
         b.expectSame(b.whole(skyOf(0), samples));
     }
@@ -391,16 +409,19 @@ TEST(LazyTransfer, TheSameBytesAsTheWholeBake) {
 
 // Light that is set before, while and after texels are lit is the same light.
 TEST(LazyTransfer, TheSkyTurnsMeanwhile) {
-    TransferBackground b(1);
+    TransferBackground b;
     {
+        b.mayPass = 0;
         LazyBake lazy(b.volume, b.choice, b.source, b.to, kTransfer);
         lazy.request(b.all());
-        for (int n = 0; n < 100; ++n) {
+        for (std::size_t n = 0; n < 100; ++n) {
             lazy.setLight(skyOf(0.1f * static_cast<float>(n)));
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            b.mayPass = n;
+            ASSERT_TRUE(test::waitFor([&] { return b.seen().size() > n; }));
         }
         EXPECT_FALSE(lazy.done()) << "it was turned while texels were lit";
-        ASSERT_TRUE(lazy.waitUntilDone(60));
+        b.mayPass = std::numeric_limits<std::size_t>::max();
+        ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
         b.expectSame(b.whole(skyOf(9.9f), kTransfer.samples));
         const std::size_t calls = b.seen().size();
         const std::uint64_t lit = lazy.texelsLit();
@@ -414,15 +435,17 @@ TEST(LazyTransfer, TheSkyTurnsMeanwhile) {
 
 // Left alone midway, by another wish, it goes on where it was.
 TEST(LazyTransfer, GoesOnWhereItWasLeft) {
-    TransferBackground b(1);
+    TransferBackground b;
+    b.mayPass = 60;
     LazyBake lazy(b.volume, b.choice, b.source, b.to, kTransfer);
     lazy.setLight(skyOf(0));
     lazy.request(b.all());
-    while (b.seen().size() < 60) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(test::waitFor([&] { return b.seen().size() > 60; }));
     lazy.request({});
-    ASSERT_TRUE(lazy.waitUntilDone(60));
+    b.mayPass = std::numeric_limits<std::size_t>::max();
+    ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
     lazy.request(b.all());
-    ASSERT_TRUE(lazy.waitUntilDone(60));
+    ASSERT_TRUE(lazy.waitUntilDone(kLimit_s));
     b.expectSame(b.whole(skyOf(0), kTransfer.samples));
     long long samples = 0, needed = 0;
     for (const Background::Call& call : b.seen())
@@ -443,8 +466,7 @@ TEST(LazyTransfer, BorrowedLightTurnsToo) {
     BakeSource source = b.source;
     source.addTransfer = [&](auto texels, int first, int samples, int order, int channels, auto sums,
                              auto alive) {
-        if (++count > 2 * bricks)
-            while (hold) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (++count > 2 * bricks) test::waitFor([&] { return !hold; });
         b.source.addTransfer(texels, first, samples, order, channels, sums, alive);
     };
     LazyBakeSetting setting = kTransfer;
@@ -452,7 +474,7 @@ TEST(LazyTransfer, BorrowedLightTurnsToo) {
     LazyBake lazy(b.volume, b.choice, source, b.to, setting);
     lazy.setLight(skyOf(0));
     lazy.request(b.all());
-    while (count <= 2 * bricks) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(test::waitFor([&] { return count > 2 * bricks; }));
     const std::vector<PackedTexel> before(b.to.texels.data(), b.to.texels.data() + b.to.layout.count());
     std::vector<glm::vec3> doubled = skyOf(0);
     for (glm::vec3& c : doubled) c *= 2;

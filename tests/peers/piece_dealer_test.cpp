@@ -12,6 +12,7 @@
 
 #include "engine/base/error.h"
 #include "tests/support/thread_peers.h"
+#include "tests/support/wait_for.h"
 
 namespace stereonav {
 namespace {
@@ -101,8 +102,7 @@ TEST(Pieces, AreMadeByTheOthersToo) {
     runAsPeers(2, [&](Peers& peers) {
         const auto make = [&](std::size_t, std::span<const std::byte>) {
             if (!peers.first()) ++byOthers;
-            for (int k = 0; peers.first() && byOthers < 5 && k < 5000; ++k)
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            if (peers.first()) test::waitFor([&] { return byOthers >= 5; });
             return PeerBytes{};
         };
         if (!peers.first()) return peers.serve(make);

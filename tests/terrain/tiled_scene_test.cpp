@@ -11,6 +11,7 @@
 #include "terrain/scene/followed_track.h"
 #include "terrain/scene/ground_place.h"
 #include "terrain/scene/stand_in_ground.h"
+#include "tests/support/wait_for.h"
 #include "tiled_case.h"
 
 namespace stereonav::test {
@@ -148,13 +149,10 @@ TEST_F(TiledScene, ShowsWhatThereIsUntilTheRestHasCome) {
     const EyeImage wanted = pictureOf(waits, view);
     EyeImage got = pictureOf(shows, view);
     EXPECT_TRUE(shows.ringDetail().late);
-    bool same = false;
-    for (int k = 0; k < 400 && !same; ++k) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    EXPECT_TRUE(test::waitFor([&] {
         got = pictureOf(shows, view);
-        same = !shows.ringDetail().late && got.viewDepth.at(160, 150) == wanted.viewDepth.at(160, 150);
-    }
-    EXPECT_TRUE(same);
+        return !shows.ringDetail().late && got.viewDepth.at(160, 150) == wanted.viewDepth.at(160, 150);
+    }));
     EXPECT_GT(shows.arrivals(), 0u);
     for (int x = 0; x < got.width(); ++x)
         ASSERT_EQ(got.viewDepth.at(x, 199), wanted.viewDepth.at(x, 199)) << x;

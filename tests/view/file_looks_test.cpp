@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "tests/support/wait_for.h"
 
 namespace stereonav {
 namespace {
@@ -25,13 +26,13 @@ protected:
         std::ofstream(mFolder / name) << text;
     }
     FileLook await(FileLooks& looks, const std::string& name) const {
-        for (int n = 0; n < 10'000; ++n) {
-            FileLook look = looks.look(mFolder / name);
-            if (!look.busy) return look;
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
-        ADD_FAILURE() << "no look at " << name;
-        return {};
+        FileLook look;
+        EXPECT_TRUE(test::waitFor([&] {
+            look = looks.look(mFolder / name);
+            return !look.busy;
+        })) << "no look at "
+            << name;
+        return look;
     }
     fs::path mFolder;
     std::atomic<int> mLooked = 0, mReady = 0;
@@ -66,10 +67,8 @@ TEST_F(FileLooksTest, AnotherWishEndsTheOneBefore) {
                     [&](const std::string& file, Progress& progress) {
                         ++mLooked;
                         try {
-                            while (file.ends_with("a")) {  // for ever
-                                progress.report(0, "");
-                                std::this_thread::sleep_for(std::chrono::milliseconds(1));
-                            }
+                            if (file.ends_with("a"))  // for ever
+                                test::waitFor([&] { return progress.report(0, ""), false; });
                         } catch (const Cancelled&) {
                             ended = true;
                             throw;
@@ -77,7 +76,7 @@ TEST_F(FileLooksTest, AnotherWishEndsTheOneBefore) {
                         return Facts{factForText("kind", "b")};
                     });
     looks.look(mFolder / "a");
-    while (mLooked == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(test::waitFor([&] { return mLooked > 0; }));
     const FileLook b = await(looks, "b");
     EXPECT_TRUE(ended);
     EXPECT_EQ(b.rows.size(), 1u);

@@ -6,11 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <sstream>
-#include <thread>
 
 #include "app/output/eye_marks.h"
 #include "app/view/finding_marks.h"
@@ -18,6 +16,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "tests/camera/temporary_folder.h"
+#include "tests/support/wait_for.h"
 
 namespace stereonav {
 namespace {
@@ -40,10 +39,7 @@ public:
     SurfaceFinding measured(const SurfaceFinding& finding, const std::shared_ptr<const SliceStudy>& study,
                             Progress& progress) const override {
         ++measurings;
-        while (waits) {
-            progress.report(0.5, "waiting");
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
+        test::waitFor([&] { return !waits || (progress.report(0.5, "waiting"), false); });
         if (finding.asked.x == 9) throw Error("", "the place", "has x = 9", "take another");
         SurfaceFinding made = at(finding.asked, finding.comment);
         made.measured = true;
@@ -106,7 +102,7 @@ public:
 class FindingListTest : public testing::Test {
 protected:
     void settle(FindingList& list, const std::shared_ptr<const SliceStudy>& study = nullptr) {
-        while (list.poll(study) || list.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_TRUE(test::waitFor([&] { return !list.poll(study) && !list.busy(); }));
     }
     TemporaryFolder mFolder;
     std::filesystem::path mFile = mFolder / "findings/study.json";

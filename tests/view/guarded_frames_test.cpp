@@ -1,13 +1,11 @@
 // Frames in flight that are cast wider than they are shown, from the thread that makes them to the picture.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <memory>
-#include <thread>
 
 #include "app/view/late_view.h"
 #include "app/view/worker.h"
-#include "engine/base/stopwatch.h"
+#include "tests/support/wait_for.h"
 #include "tests/view/fake_scene.h"
 
 namespace stereonav {
@@ -41,13 +39,7 @@ private:
 };
 
 std::shared_ptr<const ViewFrame> guardedFrame(ViewWorker& worker) {
-    const Stopwatch watch;
-    std::shared_ptr<const ViewFrame> frame;
-    while (!frame && watch.elapsed_ms() < 10'000) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        frame = worker.takeFrame();
-    }
-    return frame;
+    return test::waitFor([&] { return worker.takeFrame(); });
 }
 
 int largestChannelApart(PackedColor a, PackedColor b) {

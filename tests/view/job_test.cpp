@@ -2,31 +2,35 @@
 #include "app/view/job.h"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
+#include <sys/wait.h>
 
 #include <chrono>
 #include <filesystem>
-#include <thread>
+#include <fstream>
+#include <future>
+#include <optional>
 
 #include "engine/base/error.h"
+#include "tests/camera/temporary_folder.h"
+#include "tests/support/wait_for.h"
 
 namespace stereonav {
 namespace {
 
-// Until it has ended; the largest share that was seen before.
-double waitFor(Job& job, bool cancelAtOnce = false) {
-    double most = 0;
-    while (job.running()) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+void awaitEnd(Job& job) {
+    ASSERT_TRUE(test::waitFor([&] {
         job.look();
-        if (job.running()) most = std::max(most, job.fraction());
-        if (cancelAtOnce && job.fraction() > 0) job.cancel();
-    }
-    return most;
+        return !job.running();
+    }));
 }
 
-std::filesystem::path fileOf(const char* name) {
-    return std::filesystem::path(testing::TempDir()) / (std::to_string(getpid()) + name);
+// Words of its progress are there: it is at work.
+void awaitProgress(Job& job) {
+    ASSERT_TRUE(test::waitFor([&] {
+        job.look();
+        return !job.progress().empty() || !job.running();
+    }));
+    ASSERT_TRUE(job.running()) << job.lastLine();
 }
 
 TEST(JobProgress, LinesAreRead) {
@@ -44,42 +48,68 @@ TEST(JobProgress, LinesAreRead) {
         EXPECT_FALSE(progressOf(other, share, words)) << other;
 }
 
-TEST(Job, MakesAMovieAndTellsItsProgress) {
-    const std::filesystem::path file = fileOf("_job.mkv");
+TEST(Job, TellsItsProgressWhileItRuns) {
+    const TemporaryFolder folder;
+    const std::filesystem::path script = folder / "script", gate = folder / "gate";
+    std::ofstream(script) << "#!/bin/sh\necho ' 33 % frame 17 of 48'\n"
+                          << "while [ -e '" << gate.string() << "' ]; do sleep 0.01; done\necho done\n";
+    std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+    std::ofstream(gate) << "shut";
+    Job job("a script", {}, script.c_str());
+    ASSERT_NO_FATAL_FAILURE(awaitProgress(job));
+    EXPECT_EQ(job.fraction(), 0.33);
+    EXPECT_EQ(job.progress(), "frame 17 of 48");
+    std::filesystem::remove(gate);
+    ASSERT_NO_FATAL_FAILURE(awaitEnd(job));
+    EXPECT_FALSE(job.failed()) << job.lastLine();
+    EXPECT_EQ(job.fraction(), 1);
+    EXPECT_EQ(job.lastLine(), "done");
+}
+
+TEST(Job, MakesAMovie) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder / "job.mkv";
     Job job("a movie", {"play", "terrain", "--size=640x360", "--frames=60", "--video=" + file.string()},
             STEREONAV_PROGRAM);
-    EXPECT_GT(waitFor(job), 0);
+    ASSERT_NO_FATAL_FAILURE(awaitEnd(job));
     EXPECT_FALSE(job.failed()) << job.lastLine();
     EXPECT_EQ(job.fraction(), 1);
     EXPECT_TRUE(std::filesystem::exists(file));
-    std::filesystem::remove(file);
 }
 
+// A movie of hours.
 TEST(Job, ACancelLeavesNoHalfFile) {
-    const std::filesystem::path file = fileOf("_cancelled.mkv");
-    Job job("a movie", {"play", "terrain", "--size=640x360", "--frames=2000", "--video=" + file.string()},
+    const TemporaryFolder folder;
+    Job job("a movie",
+            {"play", "terrain", "--size=640x360", "--frames=1000000",
+             "--video=" + (folder / "cancelled.mkv").string()},
             STEREONAV_PROGRAM);
-    waitFor(job, true);
+    ASSERT_NO_FATAL_FAILURE(awaitProgress(job));
+    job.cancel();
+    ASSERT_NO_FATAL_FAILURE(awaitEnd(job));
     EXPECT_TRUE(job.cancelled());
     EXPECT_FALSE(job.failed());
-    EXPECT_FALSE(std::filesystem::exists(file));
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "."));
 }
 
 TEST(Job, AFailureIsTold) {
     Job job("a movie", {"play", "terrain", "--video=/nowhere/at/all.mp4"}, STEREONAV_PROGRAM);
-    waitFor(job);
+    ASSERT_NO_FATAL_FAILURE(awaitEnd(job));
     EXPECT_TRUE(job.failed());
     EXPECT_THAT(job.lastLine(), testing::HasSubstr("/nowhere/at"));
     EXPECT_THROW(Job("nothing", {}, "/nowhere/at/all"), Error);
 }
 
+// A job of hours.
 TEST(Job, EndsWithItsOwner) {
-    const auto start = std::chrono::steady_clock::now();
-    {
-        const Job job("a movie", {"play", "terrain", "--frames=100000", "--hash"}, STEREONAV_PROGRAM);
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    }
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+    std::optional<Job> job(std::in_place, "a movie",
+                           std::vector<std::string>{"play", "terrain", "--frames=1000000", "--hash"},
+                           STEREONAV_PROGRAM);
+    ASSERT_NO_FATAL_FAILURE(awaitProgress(*job));
+    const std::future<void> end = std::async(std::launch::async, [&] { job.reset(); });
+    EXPECT_TRUE(
+        test::waitFor([&] { return end.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "no child is left";
 }
 
 }  // namespace

@@ -4,12 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <thread>
 
 #include "app/scene/scene_loading.h"
 #include "app/scene/volume_flights.h"
@@ -18,10 +16,11 @@
 #include "engine/base/file.h"
 #include "engine/scene/surface_paint.h"
 #include "tests/camera/temporary_folder.h"
-#include "tests/view/fake_frames.h"
-#include "tests/view/fake_scene.h"
 #include "tests/support/byte_study.h"
 #include "tests/support/own_cache.h"
+#include "tests/support/wait_for.h"
+#include "tests/view/fake_frames.h"
+#include "tests/view/fake_scene.h"
 
 namespace stereonav {
 namespace {
@@ -71,23 +70,15 @@ double percentByCommand(bool bothWays, const WallLooking& looking = {}) {
     return coverage.percent();
 }
 
-void waitFor(LiveCoverage& coverage) {
-    coverage.poll();
-    while (coverage.busy()) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+void settle(LiveCoverage& coverage) {
+    EXPECT_TRUE(test::waitFor([&] {
         coverage.poll();
-    }
+        return !coverage.busy();
+    }));
 }
 
 std::ptrdiff_t threadsOfThisProcess() {
     return std::distance(fs::directory_iterator("/proc/self/task"), fs::directory_iterator());
-}
-
-// A joined thread has left its code, but Linux may list it for a moment more: this waits, at most 5 s or so.
-std::ptrdiff_t threadsOnceNoMoreThan(std::ptrdiff_t most) {
-    for (int tries = 0; tries < 5000 && threadsOfThisProcess() > most; ++tries)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return threadsOfThisProcess();
 }
 
 TEST(LiveCoverage, CostsNothingWhileItIsOff) {
@@ -107,7 +98,8 @@ TEST(LiveCoverage, CostsNothingWhileItIsOff) {
     coverage.switchOn(true);
     EXPECT_GT(threadsOfThisProcess(), before);
     coverage.switchOn(false);
-    EXPECT_EQ(threadsOnceNoMoreThan(before), before);
+    // A joined thread has left its code, but Linux may list it for a moment more.
+    EXPECT_TRUE(test::waitFor([&] { return threadsOfThisProcess() == before; })) << threadsOfThisProcess();
     EXPECT_FALSE(coverage.soFar().painter);
 }
 
@@ -116,22 +108,22 @@ TEST(LiveCoverage, SaysOfTheScenesFlightWhatTheCommandSays) {
     coverage.open(ringedTube(), "");
     coverage.switchOn(true);
     coverage.addOwnFlight(false);
-    waitFor(coverage);
+    settle(coverage);
     const double oneWay = percentByCommand(false);
     EXPECT_DOUBLE_EQ(coverage.soFar().percent, oneWay);
     EXPECT_TRUE(coverage.soFar().painter);
     coverage.addOwnFlight(true);  // the way there once more adds nothing
-    waitFor(coverage);
+    settle(coverage);
     EXPECT_DOUBLE_EQ(coverage.soFar().percent, percentByCommand(true));
     EXPECT_GT(coverage.soFar().percent, oneWay);
     WallLooking looking;
     looking.within = 0.02;
     looking.angle = 1;
     coverage.judgeBy(looking);
-    waitFor(coverage);
+    settle(coverage);
     EXPECT_DOUBLE_EQ(coverage.soFar().percent, percentByCommand(true, looking));
     coverage.startAgain();
-    waitFor(coverage);
+    settle(coverage);
     EXPECT_EQ(coverage.soFar().percent, 0);
 }
 
@@ -142,7 +134,7 @@ TEST(LiveCoverage, LooksFromWhatIsShown) {
     const std::vector<Pose> flight = ringedTube()->offered<WallToSee>()->ownFlight(false);
     double seconds = 10;
     for (const Pose& pose : flight) coverage.show(eyeAt(pose), seconds += 0.1, false);
-    waitFor(coverage);
+    settle(coverage);
     // Where the flight is slow its steps are shorter than those that are looked from.
     EXPECT_NEAR(coverage.soFar().percent, percentByCommand(false), 0.5);
     double metres = 0;
@@ -156,7 +148,7 @@ TEST(LiveCoverage, LooksFromWhatIsShown) {
     Pose far = flight.back();
     far.position.z += 1;
     coverage.show(eyeAt(far), seconds += 0.1, false);
-    waitFor(coverage);
+    settle(coverage);
     EXPECT_EQ(coverage.soFar().looked, looked + 1);
     EXPECT_NEAR(coverage.metres(), metres, 1e-9);
 }
@@ -170,7 +162,7 @@ TEST(LiveCoverage, StepsThroughUnseenPartsFromTheLargest) {
     EXPECT_EQ(coverage.step(1), nullptr);
     coverage.switchOn(true);
     coverage.addOwnFlight(false);
-    waitFor(coverage);
+    settle(coverage);
     std::vector<double> areas;
     for (const UnseenPart& part : coverage.soFar().unseen)
         if (part.view) areas.push_back(part.area);
@@ -181,7 +173,7 @@ TEST(LiveCoverage, StepsThroughUnseenPartsFromTheLargest) {
     // From there it is seen.
     const UnseenPart largest = *coverage.step(1);
     coverage.show(eyeAt(*largest.view), 0, true);
-    waitFor(coverage);
+    settle(coverage);
     EXPECT_LT(coverage.soFar().unseen.front().area, largest.area);
 }
 
@@ -196,14 +188,14 @@ TEST(LiveCoverage, IsKeptAndLookedAtAgain) {
         double seconds = 0;
         for (const Pose& pose : ringedTube()->offered<WallToSee>()->ownFlight(false))
             coverage.show(eyeAt(pose), seconds += 0.1, false);
-        waitFor(coverage);
+        settle(coverage);
         percent = coverage.soFar().percent;
         metres = coverage.metres();
     }
     LiveCoverage again([] {});
     again.open(ringedTube(), file);
     again.switchOn(true);
-    waitFor(again);
+    settle(again);
     EXPECT_NEAR(again.soFar().percent, percent, 0.05) << "places to a hundredth of a millimetre";
     EXPECT_NEAR(again.metres(), metres, 0.001);
     again.startAgain();
@@ -222,13 +214,12 @@ TEST(LiveCoverage, IsWrittenWhileOneFlies) {
     coverage.switchOn(true);
     coverage.show(eyeAt(ringedTube()->startPose), 1, true);
     std::string problem;
-    while (!fs::exists(file)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(test::waitFor([&] { return fs::exists(file); }));
     EXPECT_EQ(readFlown(file, problem).eyes.size(), 1u);
     Pose ahead = ringedTube()->startPose;
     ahead.position += 0.01 * ahead.forward();
     coverage.show(eyeAt(ahead), 1.5, false);
-    while (readFlown(file, problem).eyes.size() < 2)
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(test::waitFor([&] { return readFlown(file, problem).eyes.size() == 2; }));
     EXPECT_EQ(problem, "");
     EXPECT_NEAR(readFlown(file, problem).metres, 0.01, 0.0006);
 }
@@ -246,7 +237,7 @@ TEST(LiveCoverage, SetsADamagedFileAside) {
         LiveCoverage coverage([] {});
         coverage.open(ringedTube(), file);
         coverage.switchOn(true);
-        while (coverage.problem().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        ASSERT_TRUE(test::waitFor([&] { return !coverage.problem().empty(); }));
         EXPECT_NE(coverage.problem().find("tube.json"), std::string::npos) << coverage.problem();
         EXPECT_TRUE(fs::exists(file.string() + ".damaged")) << text;
         coverage.switchOn(false);
@@ -264,7 +255,7 @@ TEST(LiveCoverage, IsNotOfScenesWithoutSuchAWall) {
     EXPECT_FALSE(coverage.busy());
     coverage.replaceScene(ringedTube());
     EXPECT_TRUE(coverage.can());
-    waitFor(coverage);
+    settle(coverage);
     EXPECT_TRUE(coverage.soFar().any) << "it was on";
 }
 
@@ -273,10 +264,10 @@ TEST(LiveCoverage, GoesOnInASceneThatTakesTheOthersPlace) {
     coverage.open(ringedTube(), "");
     coverage.switchOn(true);
     coverage.addOwnFlight(false);
-    waitFor(coverage);
+    settle(coverage);
     const double percent = coverage.soFar().percent;
     coverage.replaceScene(ringedTube());
-    waitFor(coverage);
+    settle(coverage);
     EXPECT_DOUBLE_EQ(coverage.soFar().percent, percent);
 }
 

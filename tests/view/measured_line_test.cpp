@@ -5,16 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "engine/base/error.h"
 #include "tests/camera/temporary_folder.h"
+#include "tests/support/wait_for.h"
 #include "tests/view/fake_frames.h"
 #include "tests/view/fake_scene.h"
 
@@ -39,8 +38,8 @@ public:
     }
 };
 
-void waitFor(MeasuredLine& line) {
-    while (line.poll() || line.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+void settle(MeasuredLine& line) {
+    EXPECT_TRUE(test::waitFor([&] { return !line.poll() && !line.busy(); }));
 }
 
 std::int64_t placesSaid(const MeasuredLine& line) {
@@ -63,7 +62,7 @@ TEST(MeasuredLine, ALongLineIsTakenEvenlyThinned) {
     EXPECT_EQ(line.places().size(), MeasuredLine::kMost) << "and nothing is changed";
     EXPECT_TRUE(line.take({{0, 0, 0}, {1, 0, 0}}, true));
     EXPECT_FALSE(line.closed()) << "two places enclose nothing";
-    waitFor(line);
+    settle(line);
     EXPECT_EQ(placesSaid(line), 2);
 }
 
@@ -77,32 +76,32 @@ TEST(MeasuredLine, IsMeasuredBesideTheWindowEachTimeItChanges) {
     EXPECT_FALSE(line.add({1, 2, 3})) << "twice the same";
     EXPECT_TRUE(line.add({4, 2, 3}));
     EXPECT_TRUE(line.busy());
-    waitFor(line);
+    settle(line);
     ASSERT_TRUE(line.measured());
     EXPECT_EQ(placesSaid(line), 2);
     EXPECT_GE(woken, 1);
     line.setClosed(true);
-    waitFor(line);
+    settle(line);
     EXPECT_FALSE(std::get<bool>(line.measured()->facts.at(1).value)) << "two places enclose nothing";
     line.add({4, 5, 3});
-    waitFor(line);
+    settle(line);
     EXPECT_EQ(placesSaid(line), 3);
     EXPECT_TRUE(std::get<bool>(line.measured()->facts.at(1).value));
     // What fails says why, and the next change goes on.
     line.add({9, 9, 9});
-    waitFor(line);
+    settle(line);
     EXPECT_FALSE(line.measured());
     EXPECT_NE(line.problem().find("has four places"), std::string::npos) << line.problem();
     line.removeLast();
-    waitFor(line);
+    settle(line);
     EXPECT_EQ(placesSaid(line), 3);
     EXPECT_EQ(line.problem(), "");
     // Changes that come while it is measured: the last one counts.
     for (int n = 0; n < 20; ++n) line.add({n, 0, 0}), line.poll();
-    waitFor(line);
+    settle(line);
     EXPECT_EQ(placesSaid(line), 23);
     line.clear();
-    waitFor(line);
+    settle(line);
     EXPECT_FALSE(line.measured());
     EXPECT_FALSE(line.closed());
     line.removeLast();
@@ -113,11 +112,10 @@ TEST(MeasuredLine, LongMeasuringTellsItsShareAndEndsWithAnyChange) {
     std::optional<MeasuredLine> line(std::in_place, [] {});
     line->open(std::make_shared<CountingScene>(), "");
     ASSERT_TRUE(line->take({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 1, 0}, {0, 5, 0}}, true));
-    while (line->poll() || line->fraction() != 0.25)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(test::waitFor([&] { return !line->poll() && line->fraction() == 0.25; }));
     EXPECT_TRUE(line->busy());
     line->setClosed(false);
-    waitFor(*line);
+    settle(*line);
     ASSERT_TRUE(line->measured());
     EXPECT_EQ(placesSaid(*line), 5);
     EXPECT_EQ(line->problem(), "");
@@ -143,7 +141,7 @@ TEST(MeasuredLine, IsKeptAsItIsMade) {
     EXPECT_EQ(again.places()[0], glm::dvec3(1.25, -2, 1e-7));
     EXPECT_EQ(again.places()[1], glm::dvec3(1e8, 0, 3));
     EXPECT_TRUE(again.closed());
-    waitFor(again);
+    settle(again);
     EXPECT_EQ(placesSaid(again), 2);
     again.clear();
     MeasuredLine none([] {});
@@ -187,7 +185,7 @@ TEST(MeasuredLine, WithoutAMeasurerIsMeasuredFromPlaceToPlace) {
     line.add({0, 0, 0});
     line.add({0, 0.003, 0.004});
     line.add({0, 0, 0.004});
-    waitFor(line);
+    settle(line);
     ASSERT_TRUE(line.measured());
     const Facts& facts = line.measured()->facts;
     EXPECT_NEAR(std::get<double>(facts.at(0).value), 0.008, 1e-15);
@@ -195,7 +193,7 @@ TEST(MeasuredLine, WithoutAMeasurerIsMeasuredFromPlaceToPlace) {
     EXPECT_EQ(line.measured()->places.size(), 3U);
     EXPECT_TRUE(line.measured()->profile.empty());
     line.setClosed(true);
-    waitFor(line);
+    settle(line);
     EXPECT_NEAR(std::get<double>(line.measured()->facts.at(0).value), 0.012, 1e-15);
     EXPECT_EQ(line.measured()->places.size(), 4U);
 }

@@ -2,17 +2,15 @@
 // that a frame is held against, and in pictures for files.
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <thread>
-
 #include "app/output/stereo_frame.h"
 #include "app/view/frame_truth.h"
 #include "app/view/rest_refiner.h"
 #include "engine/base/parallel.h"
 #include "engine/frame/cast_frames.h"
 #include "engine/metrics/image_difference.h"
-#include "tests/view/fake_scene.h"
 #include "tests/support/analytic_scene.h"
+#include "tests/support/wait_for.h"
+#include "tests/view/fake_scene.h"
 
 namespace stereonav {
 namespace {
@@ -70,13 +68,9 @@ protected:
     }
     std::shared_ptr<const ViewFrame> frameOf(const FakeParts& parts, const FrameRequest& request) {
         ViewWorker worker([&](Progress&) { return openOf(parts); }, [] {});
-        while (!worker.scene()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         worker.measureTruth(false);
         worker.request(request);
-        for (;;) {
-            if (auto frame = worker.takeFrame()) return frame;
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
+        return test::waitFor([&] { return worker.takeFrame(); });
     }
 
     test::AnalyticScene mAnalytic{{test::sphere({-1.5, 10, -1}, 1.7), test::box({1, 9, -4}, {2.2, 11, 1}),

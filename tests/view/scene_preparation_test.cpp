@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <functional>
-#include <thread>
 
 #include "engine/base/error.h"
 #include "engine/scene/capabilities.h"
+#include "tests/support/wait_for.h"
 #include "tests/view/fake_frames.h"
 
 namespace stereonav {
@@ -43,22 +42,17 @@ std::shared_ptr<const OpenScene> opened(const std::string& tiles, Prepare prepar
 }
 
 void untilCancelled(Progress& progress) {
-    for (;;) {
-        progress.report(0.25, "");
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    test::waitFor([&] { return progress.report(0.25, ""), false; });
 }
 
 class Preparation : public testing::Test {
 protected:
     // Takes as the window does, turn by turn, until something has come.
     bool wait(const std::shared_ptr<const OpenScene>& shown) {
-        for (int k = 0; k < 20'000; ++k) {
+        return test::waitFor([&] {
             mPreparation.follow(shown);
-            if (mPreparation.take()) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        return false;
+            return mPreparation.take();
+        });
     }
 
     std::atomic<int> mWoken = 0;
@@ -78,7 +72,7 @@ TEST_F(Preparation, IsDoneOnceForAScene) {
     const auto shown = opened("a", [&](Progress& progress) {
         ++times;
         progress.report(0.5, "");
-        while (!go) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        test::waitFor([&] { return go.load(); });
     });
     mPreparation.follow(shown);
     ASSERT_TRUE(mPreparation.work());
@@ -99,7 +93,7 @@ TEST_F(Preparation, GoesOnForASceneOfTheSameName) {
     std::atomic<bool> go = false;
     const auto work = [&](Progress&) {
         ++times;
-        while (!go) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        test::waitFor([&] { return go.load(); });
     };
     mPreparation.follow(opened("a", work));
     const auto again = opened("a", work);

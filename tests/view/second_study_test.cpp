@@ -5,12 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 #include "engine/base/error.h"
 #include "engine/nav/navigator.h"
 #include "engine/scene/capabilities.h"
+#include "tests/support/wait_for.h"
 #include "tests/view/fake_frames.h"
 
 namespace stereonav {
@@ -79,12 +78,9 @@ std::shared_ptr<const OpenScene> straightLine(double length, PackedColor color, 
 
 // True when it is there; throws what poll() throws.
 bool waitForSecond(SecondStudy& second) {
-    for (int n = 0; n < 2000; ++n) {
-        if (second.poll()) return true;
-        if (!second.loading()) return false;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return false;
+    bool there = false;
+    EXPECT_TRUE(test::waitFor([&] { return (there = second.poll()) || !second.loading(); }));
+    return there;
 }
 
 TEST(SecondStudy, ShowsTheMatchingPlaceAndSwaps) {
@@ -105,9 +101,7 @@ TEST(SecondStudy, ShowsTheMatchingPlaceAndSwaps) {
     EXPECT_TRUE(place->back);
     EXPECT_NEAR(second.poseAt(*place).position.x, 0.6, 1e-12);
     second.look(*place, {32, 24});
-    for (int n = 0; n < 2000 && !second.picture(); ++n)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    ASSERT_TRUE(second.picture());
+    ASSERT_TRUE(test::waitFor([&] { return second.picture() != nullptr; }));
     EXPECT_EQ(second.picture()->color.width(), 32);
     EXPECT_EQ(second.picture()->color.at(5, 5), blue);
     EXPECT_EQ(second.picture()->of, *place);
@@ -136,10 +130,8 @@ TEST(SecondStudy, RefusesWhatHasNoLineAndForgetsWhatIsNotWanted) {
     }
     EXPECT_FALSE(second.other());
     const SecondStudy::Load endless = [](Progress& progress) -> OpenScene {
-        while (true) {
-            progress.report(0.5, "reading");
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
+        test::waitFor([&] { return progress.report(0.5, "reading"), false; });
+        return {};
     };
     second.open(first, endless);
     second.cancel();

@@ -2,11 +2,9 @@
 // shown.
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <thread>
-
 #include "app/view/loading.h"
 #include "engine/base/error.h"
+#include "tests/support/wait_for.h"
 #include "tests/view/fake_scene.h"
 
 namespace stereonav {
@@ -16,10 +14,7 @@ namespace {
 std::shared_ptr<const OpenScene> studyThatReads(bool forEver) {
     FakeParts parts;
     parts.readSlices = [forEver](Progress& progress) {
-        do {
-            progress.report(0.5, "reading");
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        } while (forEver);
+        test::waitFor([&] { return progress.report(0.5, "reading"), !forEver; });
         return std::make_shared<const SliceStudy>();
     };
     return opened(parts);
@@ -28,10 +23,7 @@ std::shared_ptr<const OpenScene> studyThatReads(bool forEver) {
 // What take() gives in the end; throws what it throws.
 std::shared_ptr<const SliceStudy> outcomeOf(SliceReading& reading) {
     std::shared_ptr<const SliceStudy> study;
-    while (!study && reading.busy()) {
-        study = reading.take();
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    EXPECT_TRUE(test::waitFor([&] { return (study = reading.take()) || !reading.busy(); }));
     return study;
 }
 

@@ -3,14 +3,13 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "app/view/session.h"
 #include "app/view/status.h"
 #include "engine/medium/sweep/swept_frames.h"
 #include "engine/nav/navigator.h"
+#include "tests/support/wait_for.h"
 #include "tests/view/fake_scene.h"
 
 namespace stereonav {
@@ -80,11 +79,7 @@ ViewSession sessionOf(const FakeParts& scene) {
 
 std::shared_ptr<const ViewFrame> frameOf(ViewWorker& worker, const FrameRequest& request) {
     worker.request(request);
-    for (int wait = 0; wait < 10'000; ++wait) {
-        if (auto frame = worker.takeFrame()) return frame;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return nullptr;
+    return test::waitFor([&] { return worker.takeFrame(); });
 }
 
 TEST(ViewMedium, ModelsAndMethodsAreSteppedThroughAndReset) {

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Drives coverage in the viewer's window; run it inside xvfb-run.
+# Drives coverage in the viewer's window; run it inside own_display.sh.
 #   drive_coverage.sh PROGRAM FOLDER STUDY [OPTION ...]
 # Leaves pictures (one for each step, named in steps.txt), what is kept, the log and the exit status in FOLDER;
 # view_coverage_window_test.cpp judges them.
@@ -12,14 +12,11 @@ is_kept() { [ -n "$(kept)" ]; }
 open_window "$@"
 settled start
 keys F9
-differing followed start
+settled followed start
 until_true is_kept
 cp "$(kept)" "$out/first.json"
-# A flight comes to rest slowly: it is long on its way when more of its places are kept.
 keys F8
-flies() { [ "$(wc -c <"$(kept)")" -gt $(($(wc -c <"$out/first.json") + 4000)) ]; }
-until_true flies
-shot unseen
+settled unseen followed
 keys F9 space
 settled off unseen
 close_window

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Drives findings in the viewer's window: one on a polyp, the program killed, opened again, one beside the polyp; run it
-# inside xvfb-run.
+# inside own_display.sh.
 #   drive_findings.sh PROGRAM FOLDER STUDY
 # Leaves copies of the kept file (kept_first.json, kept_second.json), the log and the exit status in FOLDER;
 # view_findings_window_test.cpp judges them.
@@ -8,21 +8,16 @@
 study=$3
 kept() { find "$HOME/.local/share/stereonav/findings" -name '*.json' 2>/dev/null | head -n 1; }
 findings() { [ -n "$(kept)" ] && grep -c '"place_mm"' "$(kept)" || echo 0; }
+more_findings() { [ "$(findings)" -gt "$1" ]; }
 measured() { [ "$(grep -c '"diameter_mm"\|"note"' "$(kept)")" -ge "$(findings)" ]; }
-# add X Y: the picture must rest for it, so more than once
+# add X Y: of a picture that rests
 add() {
     local before
     before=$(findings)
     at "$1" "$2"
-    for _ in $(seq 20); do
-        sleep 0.5
-        keys ctrl+f
-        for _ in $(seq 20); do
-            sleep 0.1
-            [ "$(findings)" -gt "$before" ] && return
-        done
-    done
-    fail "no finding was added at $1, $2"
+    at_rest
+    keys ctrl+f
+    until_true more_findings "$before"
 }
 
 # Eyes that are given do not follow the room, which takes long to come to rest; a screen that is known is not asked for,

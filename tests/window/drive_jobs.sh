@@ -1,32 +1,25 @@
 #!/bin/bash
 # Loads, bakes and movies that are cancelled, or whose window is closed or told to stop, and files that can not be
-# opened; run it inside xvfb-run.
-#   drive_jobs.sh PROGRAM FOLDER X_CLIENT LARGE_STUDY SMALL_STUDY DEM DAMAGED_FILE
-# The large one takes seconds to load, as a surface with ambient light.
+# opened; run it inside own_display.sh.
+#   drive_jobs.sh PROGRAM FOLDER LARGE_STUDY SMALL_STUDY DEM DAMAGED_FILE
+# The large one takes long to load on one thread, as a surface with ambient light and modulated opacity.
 # Leaves in FOLDER: pictures (named in steps.txt), the movie that was made to its end, what was copied of the failure
 # (failure.txt), a line for each end of a window in ends.txt (its name and exit status), what lay about and should not in
 # left.txt; view_jobs_window_test.cpp judges them.
 . "$(dirname "$0")/drive_interface.sh"
-client=$3 large=$4 small=$5 dem=$6 damaged=$7
+large=$3 small=$4 dem=$5 damaged=$6
 cd "$out" || exit 1
 export TMPDIR=$out/tmp
 mkdir -p "$TMPDIR"
-# In one go: starting xdotool takes longest of all.
-press() { xdotool mousemove --window "$window" "$1" "$2" sleep 0.1 mousedown 1 sleep 0.1 mouseup 1 sleep 0.2; }
 # look STEP: nothing half-written lies about
 look() {
     find "$out" -name '*.part*' -o -name '*.tmp*' -o -name '*.mp4' -o -name 'window_*.light' -o -path "$TMPDIR/*" |
         sed "s/^/$1 /" >>"$out/left.txt"
 }
-# ended STEP: the window, soon, and the job with it
+# ended STEP: the window, and the job with it
 ended() {
-    for _ in $(seq 200); do
-        kill -0 "$pid" 2>/dev/null || break
-        sleep 0.1
-    done
-    kill -0 "$pid" 2>/dev/null && fail "$1: did not end within 20 seconds"
-    wait "$pid"
-    echo "$1 $?" >>"$out/ends.txt"
+    await_end "$1"
+    echo "$1 $status" >>"$out/ends.txt"
     [ -z "$process" ] || ! kill -0 "$process" 2>/dev/null || fail "$1: its job goes on"
     look "$1"
 }
@@ -36,21 +29,22 @@ works() {
     [ -n "$process" ]
 }
 rests() { ! works; }
+# Ticks of processor time of the command, and of the program's threads beside the window's: they have begun to work.
+works_on() { works && [ "$(awk '{ sub(/.*\) /, ""); print $12 + $13 }' "/proc/$process/stat" 2>/dev/null || echo 0)" -gt 20 ]; }
+loads() { [ "$(beside | cut -d ' ' -f 2)" -gt $(($1 + 20)) ]; }
 writes_movie() { [ -n "$(find "$out" -maxdepth 1 -name '.flight.*.part.mp4')" ]; }
 # The button in the notice over the picture's middle, which may have another notice above; that one goes by itself.
 cancel() {
-    local click=(sleep 0.1 mousedown 1 sleep 0.1 mouseup 1 sleep 0.1)
-    xdotool mousemove --window "$window" 442 66 "${click[@]}" mousemove --window "$window" 442 83 "${click[@]}" \
-        mousemove --window "$window" 442 66 "${click[@]}"
+    for y in 66 83 66; do press 442 "$y"; done
 }
 process=
 
 # Closed while it loads.
-start_window "$large" --size 320x240
-sleep 0.5
+start_window "$large" --size 320x240 --threads 1
+until_true loads 0
 "$client" close "$window"
 ended closed_loading
-[ ! -e "$HOME/.local/state/stereonav/recent.json" ] || fail "it was loaded before it was closed"
+[ ! -e "$recent" ] || fail "it was loaded before it was closed"
 
 # Another file is dropped while the first one is loaded: it is shown as it is where it is opened first.
 start_window "$small" --size 320x240 --mode sbsl
@@ -62,35 +56,30 @@ settled home
 close_window
 
 shots=shots # from here: a long name in a notice moves the button below it
-start_window terrain --size 900x600 --mode ml
+start_window terrain --size 900x600 --mode ml --threads 1
 first_picture
 keys F2
+turns
 press 750 38 # headings are closed, so that the next ones are at known places
 press 750 63
-# A load is cancelled.
+# A load is cancelled, whose notice comes once it has taken half a second.
+before=$(beside | cut -d ' ' -f 2)
 "$client" drop "$window" "$large" || fail "the drop was not taken"
-sleep 0.7
+until_true loads "$before"
+pass 0.6
 cancel
-cancel # the notice may have come late
-idle() {
-    local before
-    before=$(awk '{ print $14 + $15 }' "/proc/$pid/stat")
-    sleep 0.5
-    [ $(($(awk '{ print $14 + $15 }' "/proc/$pid/stat") - before)) -lt 25 ]
-}
-until_true idle
+at_rest
 titled terrain || fail "a load that was cancelled took the window"
 keys ctrl+z # goes back to nothing
-sleep 0.5
-until_true idle
+at_rest
 titled terrain || fail "a load that was cancelled is a step"
 look cancelled_load
 take
 # A bake is cancelled.
 press 750 63
 press 732 182
-until_true works
-sleep 0.5
+until_true works_on
+turns
 cancel
 until_true rests
 look cancelled_bake
@@ -101,6 +90,7 @@ press 750 138
 press 837 358
 until_true works
 until_true writes_movie
+turns
 cancel
 until_true rests
 look cancelled_movie
@@ -118,27 +108,29 @@ keys ctrl+a
 words 180
 keys Return
 keys 1
-sleep 1
+turns
 press 387 358
 until_true [ -s "$out/flight.mp4" ]
 until_true rests
 mv "$out/flight.mp4" "$out/made.mp4_"
 press 320 257 # saves the flight
 keys 0
-sleep 1
+turns
 look made_movie
 # A damaged file: what is open goes on, and the line can be copied.
+copies() {
+    for y in 65 79 93; do press 137 "$y"; done # under one to three lines
+    "$client" copied >"$out/failure.txt" 2>/dev/null
+}
 "$client" drop "$window" "$damaged" || fail "the drop was not taken"
-sleep 1
-for y in 65 79 93; do press 137 "$y"; done # under one to three lines
-"$client" copied >"$out/failure.txt" 2>>"$out/problems.txt" || fail "nothing was copied"
+at_rest
+until_true copies
 titled terrain || fail "a damaged file took the window"
 take
 # Closed while it bakes.
 press 750 63
 press 732 182
-until_true works
-sleep 0.5
+until_true works_on
 "$client" close "$window"
 ended closed_baking
 

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Drives the viewer's window through what changes in a volume seen from outside without loading it again; run it
-# inside xvfb-run.
+# inside own_display.sh.
 #   drive_look.sh PROGRAM FOLDER STUDY MOVED [OPTION ...]
 # Once the window shows STUDY it is moved to MOVED, so that reading it again would fail. Leaves pictures (one
 # for each step, named in steps.txt), the log and the exit status in FOLDER; view_look_window_test.cpp judges

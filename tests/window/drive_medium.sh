@@ -1,5 +1,5 @@
 #!/bin/bash
-# Drives the viewer's window through a medium: models, light, flight, ways to two eyes; run it inside xvfb-run.
+# Drives the viewer's window through a medium: models, light, flight, ways to two eyes; run it inside own_display.sh.
 #   drive_medium.sh PROGRAM FOLDER SCENE [OPTION ...]
 # Leaves pictures (one for each step, named in steps.txt), the log and the exit status in FOLDER;
 # view_medium_window_test.cpp judges them.
@@ -7,7 +7,7 @@
 shift 2
 
 open_window "$@"
-shot start
+settled start
 keys i
 settled emission start
 keys i i i

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Opens the viewer's window on a scene, flies a little and saves pictures, and notes the memory that it took;
-# run it inside xvfb-run.
+# run it inside own_display.sh.
 #   drive_memory.sh PROGRAM FOLDER SIZE SCENE [OPTION ...]
 # Leaves the most bytes that no file backs in FOLDER/taken.txt, what was asked for in FOLDER/asked.txt
 # (STEREONAV_MEMORY_ASKED), the log and the exit status; view_memory_window_test.cpp judges them.

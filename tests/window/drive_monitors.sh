@@ -8,26 +8,22 @@ place() {
     eval "$(xdotool getwindowgeometry --shell "$window" | grep -E '^(X|Y|WIDTH|HEIGHT)=')"
     echo "$X $Y $WIDTH $HEIGHT"
 }
-# placed STEP PLACE: within half a minute; else as it is then
+is_at() {
+    case "$(place)" in $1) true ;; *) false ;; esac
+}
+# placed STEP PLACE: as it is then; of the place * stands for any number.
 placed() {
-    for _ in $(seq 300); do
-        [ "$(place)" = "$2" ] && break
-        sleep 0.1
-    done
+    wait_for "$1 at $2" is_at "$2"
     echo "$1 $(place)" >>"$out/places.txt"
 }
 start_window terrain --mode ml --size 320x240 --full-screen 2
 placed option "1025 33 3840 1080"
 first_picture
 keys F11
-for _ in $(seq 300); do
-    case "$(place)" in *" 320 240") break ;; esac
-    sleep 0.1
-done
-echo "key $(place)" >>"$out/places.txt"
+placed key "* 320 240"
 # Onto the other one, which is filled next.
 xdotool windowmove --sync "$window" 100 50
-sleep 0.5
+turns
 keys F11
 placed again "0 0 1025 768"
 take

@@ -1,18 +1,15 @@
 #!/bin/bash
-# Does what a cat on the desk does, for so many seconds: keys, motion, clicks, drags, the wheel, sizes, minimising; run it
-# inside xvfb-run.
-#   drive_random.sh PROGRAM FOLDER SECONDS SEED [ARGUMENT ...]
+# Does what a cat on the desk does, so many times eight things: keys, motion, clicks, drags, the wheel, sizes,
+# minimising; run it inside own_display.sh.
+#   drive_random.sh PROGRAM FOLDER ROUNDS SEED [ARGUMENT ...]
 # The program is opened again where a random click closed it. Leaves a line for each opening in runs.txt (exit status,
-# threads, open files and resident KiB after 3 seconds and at the end; between them in states.txt), its output in
-# log.txt, and in events.txt what was done last.
-set -u
-program=$1
-out=$2
-seconds=$3
+# threads, open files and resident KiB once its first picture is shown and at the end; between them in states.txt), its
+# output in log.txt, and in events.txt what was done last.
+. "$(dirname "$0")/drive_window.sh"
+rounds=$3
 RANDOM=$4
 shift 4
 cd "$out" || exit 1
-export HOME=$out XDG_CACHE_HOME=$out/cache XDG_CONFIG_HOME=$out/config XDG_STATE_HOME=$out/state
 letters=(a b c d e f g h i j k l m n o p r s t u v w x y z 0 1 2 3 4 5 6 7 8 9 space Tab Return BackSpace Delete comma period
     minus equal bracketleft bracketright semicolon apostrophe Prior Next Left Right Up Down Home End F1 F2 F3 F4 F5 F6 F7 F9
     F11 F12 ctrl+p ctrl+o ctrl+n ctrl+s ctrl+b ctrl+z ctrl+y shift+z shift+t shift+o shift+m)
@@ -43,43 +40,42 @@ event() {
 state() {
     echo "$(ls "/proc/$pid/task" 2>/dev/null | wc -l) $(ls "/proc/$pid/fd" 2>/dev/null | wc -l) $(sed -n 's/^VmRSS:[^0-9]*\([0-9]*\).*/\1/p' "/proc/$pid/status" 2>/dev/null)"
 }
-end=$((SECONDS + seconds))
-while [ "$SECONDS" -lt "$end" ]; do
-    "$program" view "$@" --size 640x560 --mode sbsl --shots "$out/shots" >>log.txt 2>&1 &
+# soon COMMAND ...: until it succeeds, or the program has ended
+soon() {
+    local end=$((SECONDS + patience))
+    until "$@" || ! alive || [ "$SECONDS" -ge "$end" ]; do sleep 0.05; done
+}
+ended() { ! alive; }
+while [ "$rounds" -gt 0 ]; do
+    rm -f "$recent"
+    "$program" view "$@" --size 640x560 --mode sbsl --shots "$shots" >>log.txt 2>&1 &
     pid=$!
-    window=
-    for _ in $(seq 600); do
-        window=$(xdotool search --onlyvisible --name '^stereonav' 2>/dev/null | head -n 1)
-        [ -n "$window" ] && break
-        kill -0 "$pid" 2>/dev/null || break
-        sleep 0.1
-    done
+    soon found_window
     xdotool windowfocus "$window" 2>/dev/null
-    sleep 3
+    soon [ -s "$recent" ]
     first=$(state)
     last=$first
-    while [ "$SECONDS" -lt "$end" ] && kill -0 "$pid" 2>/dev/null; do
+    while [ "$rounds" -gt 0 ] && alive; do
         for _ in 1 2 3 4 5 6 7 8; do
             event
             echo "sleep 0.01"
         done >batch.txt
         cat batch.txt >>events.txt
         xdotool batch.txt >/dev/null 2>&1
+        "$client" turns "$window" 2 2>/dev/null
         last=$(state)
-        echo "$SECONDS $last" >>states.txt
+        rounds=$((rounds - 1))
+        echo "$rounds $last" >>states.txt
     done
     # What is open is closed: a text that is written keeps the keys.
     for _ in 1 2 3 4 5 6 7 8; do
-        kill -0 "$pid" 2>/dev/null || break
+        alive || break
         xdotool windowmap "$window" windowfocus "$window" key ctrl+q 2>/dev/null
-        sleep 1
+        "$client" turns "$window" 2 2>/dev/null
     done
-    for _ in $(seq 300); do
-        kill -0 "$pid" 2>/dev/null || break
-        sleep 0.1
-    done
-    kill -0 "$pid" 2>/dev/null && { echo "did not end" >>log.txt; kill -ABRT "$pid"; }
+    soon ended
+    alive && { echo "did not end" >>log.txt; kill -ABRT "$pid"; }
     wait "$pid"
     echo "status $? first $first last $last" >>runs.txt
 done
-rm -rf "$out/shots"
+rm -rf "$shots"

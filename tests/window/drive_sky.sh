@@ -1,5 +1,5 @@
 #!/bin/bash
-# Drives the viewer's window under baked light: the sky is turned and tilted; run it inside xvfb-run.
+# Drives the viewer's window under baked light: the sky is turned and tilted; run it inside own_display.sh.
 #   drive_sky.sh PROGRAM FOLDER SCENE [OPTION ...]
 # Leaves pictures (one for each step, named in steps.txt), the log and the exit status in FOLDER;
 # view_sky_window_test.cpp judges them.

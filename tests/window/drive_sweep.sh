@@ -1,6 +1,6 @@
 #!/bin/bash
 # Drives the viewer's window through two models of a medium, the second of which has a medium of its own, once
-# for each way to sweep; run it inside xvfb-run.
+# for each way to sweep; run it inside own_display.sh.
 #   drive_sweep.sh PROGRAM FOLDER "SWEEP ..." SCENE [OPTION ...]
 # Leaves pictures (one for each step, named in steps.txt), the log and the exit status in FOLDER/SWEEP;
 # view_sweep_window_test.cpp judges them.
@@ -14,7 +14,7 @@ for sweep in $sweeps; do
     shots=$out/shots
     mkdir -p "$shots"
     open_window "$@" --sweep "$sweep"
-    shot indirect
+    settled indirect
     keys i i
     settled surface indirect
     close_window

@@ -1,19 +1,19 @@
 #!/bin/bash
-# Drives the viewer's window with keys, mouse and resizes; run it inside xvfb-run.
+# Drives the viewer's window with keys, mouse and resizes; run it inside own_display.sh.
 #   drive_view.sh PROGRAM FOLDER
 # Leaves pictures (one for each step, named in steps.txt), the window's own pixels, the log and the
 # exit status in FOLDER; view_window_test.cpp judges them.
 . "$(dirname "$0")/drive_window.sh"
 # pixels NAME: the window's own, which it shows some time after its picture was made: once their middle, where no text
-# lies, is that of the last picture, or after a minute whatever they are.
+# lies, is that of the last picture.
 pixels() {
+    command -v import >/dev/null && wait_for "the pixels of $1" shows "$out/$1.png"
+}
+shows() {
     local middle="640x24+0+96" error
-    for _ in $(seq 120); do
-        import -window "$window" "$out/$1.png" 2>/dev/null || return
-        error=$(compare -metric MAE "$out/$1.png[$middle]" "$picture[$middle]" null: 2>&1)
-        awk -v share="${error##*(}" 'BEGIN { exit !(share + 0 < 0.5 / 255) }' && return
-        sleep 0.5
-    done
+    import -window "$window" "$1" 2>/dev/null || return
+    error=$(compare -metric MAE "$1[$middle]" "$picture[$middle]" null: 2>&1)
+    awk -v share="${error##*(}" 'BEGIN { exit !(share + 0 < 0.5 / 255) }'
 }
 
 # A screen of a known width, so that no question about it lies over the picture.
@@ -47,23 +47,31 @@ settled turned separated
 keys z
 shot recorded
 # Before the flight is played, since nothing is dragged meanwhile.
-xdotool mousemove --window "$window" 200 100
+at 200 100
+turns
 xdotool mousedown 1
-sleep 0.2
-xdotool mousemove_relative -- 60 20
-sleep 0.2
+turns
+at 260 120
+turns
 xdotool mouseup 1
 settled dragged recorded
-keys Z
-differing playing dragged
+# Its picture is asked for at once, so that it is one of the flight's begin, however long pictures take.
+take_while_it_plays() {
+    local before
+    before=$(pictures)
+    keys Z p
+    wait_for "a picture" more_pictures "$before"
+    picture=$(find "$shots" -name 'stereonav_*.png' | sort | tail -n 1)
+    is_step playing
+}
+take_while_it_plays
 settled played playing
 keys space
 settled home played
 xdotool windowsize "$window" 500 200
 settled resized home
 keys F1
-sleep 0.5
+turns
 keys Escape # of the help alone
-sleep 0.5
-kill -0 "$pid" || fail "Escape over the help ended the program"
+turns
 close_window

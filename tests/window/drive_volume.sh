@@ -1,5 +1,5 @@
 #!/bin/bash
-# Drives the viewer's window through a study: flight, slices, a seed, another search; run it inside xvfb-run.
+# Drives the viewer's window through a study: flight, slices, a seed, another search; run it inside own_display.sh.
 #   drive_volume.sh PROGRAM FOLDER STUDY [OPTION ...]
 # Leaves pictures (one for each step, named in steps.txt), the log and the exit status in FOLDER;
 # view_volume_window_test.cpp judges them.
@@ -24,18 +24,14 @@ keys t
 settled opaque translucent
 keys v
 settled axial opaque
-xdotool mousemove --window "$window" 160 120
-sleep 0.2
-xdotool mousedown 1
-sleep 0.15
-xdotool mouseup 1
+press 160 120
 settled seeded axial
 keys Next Next Next Next
 settled paged seeded
 keys v
 settled coronal paged
 keys Return
-sleep 3
+at_rest
 keys Escape
 settled back coronal
 close_window

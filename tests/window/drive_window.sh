@@ -1,10 +1,20 @@
 #!/bin/bash
 # What the scripts that drive the viewer's window share; sourced by them, with PROGRAM and FOLDER as the first
 # two arguments. The program leaves its pictures in FOLDER/shots and its log in FOLDER/log.txt.
+#
+# Nothing here depends on how fast or idle the machine is: what is waited for is seen, with a limit that only a failure
+# reaches, and a wait ends at once where the program has ended. What is slept is what a hand takes, or what the window's
+# own clock is to pass.
 set -u
 program=$1
 out=$2
 shots=$out/shots
+client=$(dirname "$program")/test_x_client
+patience=300 # seconds, of each wait; x_client has the same
+# The program keeps everything in FOLDER, whatever the user's settings are.
+export HOME=$out XDG_CACHE_HOME=$out/cache
+unset XDG_CONFIG_HOME XDG_DATA_HOME XDG_STATE_HOME
+recent=$HOME/.local/state/stereonav/recent.json # written with the first picture of a scene
 mkdir -p "$shots"
 
 fail() {
@@ -12,130 +22,149 @@ fail() {
     kill "$pid" 2>/dev/null
     exit 1
 }
-pictures() { find "$shots" -name 'stereonav_*.png' | wc -l; }
+alive() { kill -0 "$pid" 2>/dev/null; }
+# wait_for WHAT COMMAND ...: until the command succeeds
+wait_for() {
+    local what=$1 end=$((SECONDS + patience))
+    shift
+    until "$@"; do
+        alive || fail "the program ended before: $what"
+        [ "$SECONDS" -lt "$end" ] || fail "not within $patience seconds: $what"
+        sleep 0.05
+    done
+}
+until_true() { wait_for "$*" "$@"; }
+
 keys() { xdotool key --clearmodifiers "$@"; }
+# turns [N]: until the window has handled all that was done before, and has gone round so often since
+turns() { "$client" turns "$window" "${1:-3}" 2>>"$out/problems.txt" || fail "the window does not answer"; }
+# pass SECONDS: of the window's clock, while nothing is done to it
+pass() {
+    turns
+    sleep "$1"
+    turns
+}
 hold() {
     xdotool keydown "$1"
-    sleep "$2"
+    pass "$2"
     xdotool keyup "$1"
 }
+at() { xdotool mousemove --window "$window" "$1" "$2"; }
+# press X Y [BUTTON]
+press() {
+    at "$1" "$2"
+    turns
+    xdotool mousedown "${3:-1}"
+    turns
+    xdotool mouseup "${3:-1}"
+    turns
+}
+titled() { [ "$(xdotool getwindowname "$window")" = "stereonav - $1" ]; }
 
+# Of the program's threads but the window's own: how many run or want to, and the processor time that all have used, in
+# clock ticks. A thread that works wants to run, however busy the machine is.
+beside() {
+    cat "/proc/$pid/task/"*/stat 2>/dev/null | awk -v own="$pid" '
+        $1 != own { sub(/.*\) /, ""); running += $1 ~ /[RD]/; ticks += $12 + $13 }
+        END { print running + 0, ticks + 0 }'
+}
+# Until all that was asked for is done: no thread works for longer than any of them sleeps between two looks.
+at_rest() {
+    local quiet=0 ticks='' now end=$((SECONDS + patience))
+    turns
+    while [ "$quiet" -lt 12 ]; do
+        now=$(beside)
+        if [ "$now" = "0 $ticks" ]; then quiet=$((quiet + 1)); else quiet=0; fi
+        ticks=${now#* }
+        alive || fail "the program ended before it came to rest"
+        [ "$SECONDS" -lt "$end" ] || fail "not at rest within $patience seconds"
+        sleep 0.05
+    done
+    turns
+}
+
+found_window() {
+    window=$(xdotool search --onlyvisible --name '^stereonav' 2>/dev/null | head -n 1)
+    [ -n "$window" ]
+}
 # start_window ARGUMENT ...: of the program. Waits for its window. A picture that rests stays as it was made, so that two
 # of one place are the same.
 start_window() {
+    rm -f "$recent"
     "$program" view "$@" --refine off --shots "$shots" >"$out/log.txt" 2>&1 &
     pid=$!
-    window=
-    for _ in $(seq 1200); do
-        window=$(xdotool search --onlyvisible --name '^stereonav' 2>/dev/null | head -n 1)
-        [ -n "$window" ] && break
-        kill -0 "$pid" 2>/dev/null || fail "the program ended before its window opened"
-        sleep 0.1
-    done
-    [ -n "$window" ] || fail "no window within two minutes"
+    wait_for "its window" found_window
     xdotool search --onlyvisible --class '^stereonav$' 2>/dev/null | grep -qx "$window" ||
         fail "the window's class is not stereonav, by which packaging/entry.desktop knows it"
     xdotool windowfocus --sync "$window"
 }
-
 # open_window ARGUMENT ...: of the program; $size: of its pictures, where 320x240 will not do. Waits for its window and
 # for the first picture in it.
 open_window() {
     start_window "$@" --size "${size:-320x240}" --mode sbsl
     first_picture
-    # Those that were asked for once it was loaded, so that none of them is taken for a step's.
-    local before=0
-    while [ "$(pictures)" -gt "$before" ]; do
-        before=$(pictures)
-        sleep 2
-    done
 }
-
-# Waits for one that is not there yet.
+# The first one that is shown, and the first one that is saved: keys that come while the scene loads are dropped.
 first_picture() {
-    local before
-    before=$(pictures)
-    # Keys that come while the scene loads are dropped: ask until the first picture is there.
-    for n in $(seq 1200); do
-        [ $((n % 20)) -eq 1 ] && keys p
-        sleep 0.1
-        [ "$(pictures)" -gt "$before" ] && return
-        kill -0 "$pid" 2>/dev/null || fail "the program ended while it loaded"
-    done
-    fail "no picture within two minutes"
+    wait_for "its first picture" [ -s "$recent" ]
+    take
 }
 
-# until_true COMMAND ...: within half a minute
-until_true() {
-    for _ in $(seq 300); do
-        "$@" && return
-        kill -0 "$pid" 2>/dev/null || fail "the program ended before: $*"
-        sleep 0.1
-    done
-    fail "not within half a minute: $*"
-}
-titled() { [ "$(xdotool getwindowname "$window")" = "stereonav - $1" ]; }
-
+pictures() { find "$shots" -name 'stereonav_*.png' | wc -l; }
+more_pictures() { [ "$(pictures)" -gt "$1" ]; }
+of_step() { sed -n "s/^$1 //p" "$out/steps.txt"; }
+is_step() { echo "$1 $picture" >>"$out/steps.txt"; }
 # take [KEY]: the picture after everything pressed so far; its file in $picture.
 take() {
     local before
     before=$(pictures)
     keys "${1:-p}"
-    for _ in $(seq 1200); do
-        [ "$(pictures)" -gt "$before" ] && break
-        kill -0 "$pid" 2>/dev/null || fail "the program ended before a picture"
-        sleep 0.05
-    done
-    [ "$(pictures)" -gt "$before" ] || fail "no picture within a minute"
+    wait_for "a picture" more_pictures "$before"
     picture=$(find "$shots" -name 'stereonav_*.png' | sort | tail -n 1)
 }
-
+takes_other() {
+    take
+    ! cmp -s "$1" "$picture"
+}
+takes_other_at_rest() {
+    at_rest
+    takes_other "$1"
+}
 # shot STEP [KEY]: the picture at once, named in steps.txt: of what keys change in the next picture.
 shot() {
     take "${2:-p}"
-    echo "$1 $picture" >>"$out/steps.txt"
+    is_step "$1"
 }
-
 # differing STEP OTHER: the first picture that is not that of step OTHER, named in steps.txt.
 differing() {
-    local other
-    other=$(sed -n "s/^$2 //p" "$out/steps.txt")
-    for _ in $(seq 100); do
-        take
-        if ! cmp -s "$other" "$picture"; then
-            echo "$1 $picture" >>"$out/steps.txt"
-            return
-        fi
-    done
-    fail "step $1 shows what step $2 does"
+    wait_for "step $1 differs from step $2" takes_other "$(of_step "$2")"
+    is_step "$1"
 }
-
-# settled STEP [OTHER]: the picture once three in a row are the same, named in steps.txt: of what moves by itself, or
-# takes longer than a picture. Not before it differs from that of step OTHER.
+# settled STEP [OTHER]: the picture once all is done, named in steps.txt: of what moves by itself, or takes longer than a
+# picture. Not before it differs from that of step OTHER.
 settled() {
-    local same=0 last='' other=''
-    [ $# -gt 1 ] && other=$(sed -n "s/^$2 //p" "$out/steps.txt")
-    for _ in $(seq 100); do
+    if [ $# -gt 1 ]; then
+        wait_for "step $1 differs from step $2" takes_other_at_rest "$(of_step "$2")"
+    else
+        at_rest
         take
-        if [ -n "$last" ] && cmp -s "$last" "$picture"; then same=$((same + 1)); else same=0; fi
-        if [ "$same" -ge 2 ] && ! { [ -n "$other" ] && cmp -s "$other" "$picture"; }; then
-            echo "$1 $picture" >>"$out/steps.txt"
-            return
-        fi
-        last=$picture
-        sleep 0.3
-    done
-    fail "step $1 does not come to rest${2:+, or shows what step $2 does}"
+    fi
+    is_step "$1"
 }
 
+# await_end WHY: until the program has ended; its exit status in $status.
+await_end() {
+    local end=$((SECONDS + patience))
+    while alive; do
+        [ "$SECONDS" -lt "$end" ] || fail "$1 did not end the program"
+        sleep 0.05
+    done
+    wait "$pid"
+    status=$?
+}
 # Escape, and the exit status in status.txt.
 close_window() {
     keys Escape
-    for _ in $(seq 1200); do
-        kill -0 "$pid" 2>/dev/null || break
-        sleep 0.05
-    done
-    if kill -0 "$pid" 2>/dev/null; then fail "Escape did not end the program"; fi
-    wait "$pid"
-    echo $? >"$out/status.txt"
+    await_end Escape
+    echo "$status" >"$out/status.txt"
 }

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "tests/window/window_test.h"
 #include "tests/support/byte_study.h"
+#include "tests/window/window_test.h"
 
 namespace stereonav {
 namespace {

@@ -54,10 +54,12 @@ TEST_F(JobsWindow, AreCancelledAndEndWithTheWindow) {
     const fs::path large = mFolder / "large.toml", small = tube("small.nrrd", 200, 30), dem = ground(),
                    damaged = mFolder / "damaged.nrrd";
     tube("large.nrrd", 512, 130);
-    writeTextFile(large, "scene = \"large.nrrd\"\n[options]\nisosurface = true\nambient = 50\n");
+    writeTextFile(large,
+                  "scene = \"large.nrrd\"\n[options]\nisosurface = true\nambient = 50\nopacity = 0.1\n"
+                  "modulate = \"gradient\"\nmodulate-radius = 51\n");
     writeTextFile(damaged, "this is no volume\n");
-    std::string arguments = "'" STEREONAV_X_CLIENT "'";
-    for (const fs::path& file : {large, small, dem, damaged}) arguments += " '" + file.string() + "'";
+    std::string arguments;
+    for (const fs::path& file : {large, small, dem, damaged}) arguments += "'" + file.string() + "' ";
     ASSERT_EQ(drive("drive_jobs.sh", arguments), 0) << textOf("problems.txt") << textOf("log.txt");
     EXPECT_EQ(textOf("ends.txt"), "closed_loading 0\nclosed_baking 0\nclosed_movie 0\nstopped_movie 1\n");
     EXPECT_EQ(textOf("status.txt"), "0\n");

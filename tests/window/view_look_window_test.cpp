@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/window/window_test.h"
 #include "tests/support/byte_study.h"
+#include "tests/window/window_test.h"
 
 namespace stereonav {
 namespace {

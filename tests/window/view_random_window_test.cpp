@@ -18,11 +18,13 @@ protected:
 };
 
 TEST_F(RandomWindow, StandsWhatComesByChance) {
-    constexpr const char* kSecondsAndSeed = "8 20261123 ";
+    constexpr int kRounds = 10;
     setenv("MESA_DEBUG", "1", 1);  // wrong calls of OpenGL are told
-    ASSERT_EQ(drive("drive_random.sh", std::string(kSecondsAndSeed) + "terrain"), 0) << textOf("log.txt");
+    ASSERT_EQ(drive("drive_random.sh", std::to_string(kRounds) + " 20261123 terrain"), 0)
+        << textOf("log.txt");
     const std::string events = textOf("events.txt");
-    EXPECT_GT(std::count(events.begin(), events.end(), '\n'), 10) << "something was done";
+    EXPECT_EQ(std::count(events.begin(), events.end(), '\n'), 16 * kRounds)
+        << "eight things, a breath after each";
 
     std::istringstream runs(textOf("runs.txt"));
     int count = 0;

@@ -9,7 +9,7 @@ namespace {
 using SunWindow = WindowTest;
 
 // Without a place on the Earth: latitude and longitude are 0 until they are typed.
-std::filesystem::path writeGround(const std::filesystem::path& folder) {
+std::filesystem::path writeGroundNowhere(const std::filesystem::path& folder) {
     std::string text = "ncols 40\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 30\n";
     for (int y = 0; y < 40; ++y) {
         for (int x = 0; x < 40; ++x) text += std::to_string((x * x + 3 * y) % 97) + " ";
@@ -20,7 +20,7 @@ std::filesystem::path writeGround(const std::filesystem::path& folder) {
 }
 
 TEST_F(SunWindow, IsSetByDateAndTime) {
-    ASSERT_EQ(drive("drive_sun.sh", "'" + writeGround(mFolder).string() + "'"), 0)
+    ASSERT_EQ(drive("drive_sun.sh", "'" + writeGroundNowhere(mFolder).string() + "'"), 0)
         << textOf("problems.txt") << textOf("log.txt");
     EXPECT_EQ(textOf("status.txt"), "0\n") << textOf("log.txt");
     const auto sunOf = [&](const char* file) {

@@ -5,8 +5,8 @@
 
 #include "app/view/setting_texts.h"
 #include "engine/volume/transfer_text.h"
-#include "tests/window/window_test.h"
 #include "tests/support/byte_study.h"
+#include "tests/window/window_test.h"
 
 namespace stereonav {
 namespace {

@@ -1,7 +1,7 @@
 // The window with the wall laid flat below the flight: the picture makes room for it, and a click on the wall
 // flies there.
-#include "tests/window/window_test.h"
 #include "tests/support/byte_study.h"
+#include "tests/window/window_test.h"
 
 namespace stereonav {
 namespace {

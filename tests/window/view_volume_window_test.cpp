@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <functional>
 
-#include "tests/window/window_test.h"
 #include "tests/support/byte_study.h"
+#include "tests/window/window_test.h"
 
 namespace stereonav {
 namespace {

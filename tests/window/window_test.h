@@ -1,5 +1,5 @@
 // Runs the program in a window under Xvfb, driven by a script, and compares the pictures that it saves.
-// Needs xvfb-run and xdotool.
+// Needs Xvfb and xdotool.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -52,25 +52,22 @@ constexpr double kSame = 0.5, kDifferent = 1.5;
 class WindowTest : public testing::Test {
 protected:
     void SetUp() override {
-        for (const char* program : {"xvfb-run", "xdotool"})
+        for (const char* program : {"Xvfb", "xdotool"})
             if (!installed(program)) GTEST_SKIP() << program << " is not installed";
-        mFolder = std::filesystem::path(testing::TempDir()) / ("stereonav_view_" + std::to_string(getpid()));
-        std::filesystem::create_directories(mFolder);
+        std::string pattern = (std::filesystem::path(testing::TempDir()) / "stereonav_view_XXXXXX").string();
+        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+        mFolder = pattern;
     }
     void TearDown() override {
-        if (!HasFailure()) std::filesystem::remove_all(mFolder);
+        if (!HasFailure() && !mFolder.empty()) std::filesystem::remove_all(mFolder);
     }
 
     // arguments: after the program and the folder, quoted for the shell.
     int drive(const std::string& script, const std::string& arguments = "") {
-        // From a number of this process's own on: xvfb-run's way of finding a free display is a race.
-        const std::string display = std::to_string(200 + getpid() % 30000);
-        const std::string command = "HOME='" + mFolder.string() + "' XDG_CACHE_HOME='" + mFolder.string() +
-                                    "/cache' xvfb-run -a -n " + display +
-                                    " -s '-noreset -screen 0 1280x1024x24' "
-                                    "'" STEREONAV_SOURCE_DIR "/tests/display/" +
-                                    script + "' '" STEREONAV_PROGRAM "' '" + mFolder.string() + "' " +
-                                    arguments;
+        const std::string scripts = STEREONAV_SOURCE_DIR "/tests/window/",
+                          folder = "'" + mFolder.string() + "' ";
+        const std::string command = "'" + scripts + "own_display.sh' " + folder + "'" + scripts + script +
+                                    "' '" STEREONAV_PROGRAM "' " + folder + arguments;
         const int status = std::system(command.c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }

@@ -1,9 +1,11 @@
-// What a desktop does to a window and xdotool does not: asks it to close, and drops files on it (XDND,
-// version 5).
+// What a desktop does to a window and xdotool does not: asks it to close, drops files on it (XDND, version
+// 5), and asks whether it answers.
 //   x_client close WINDOW
 //   x_client drop WINDOW FILE ...
-// Exit status 0 once the message is sent, or the window has taken the files; else 1, with a line that says
-// why.
+//   x_client turns WINDOW N
+//   x_client copied
+// Exit status 0 once the message is sent, the window has taken the files, or it has gone round N times; else
+// 1, with a line that says why.
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
 
@@ -16,14 +18,17 @@
 
 namespace {
 
-constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::seconds kPatience{300};  // as tests/window/drive_window.sh
 
 class Client {
 public:
     Client(Display* display, Window target)
         : mDisplay(display),
           mTarget(target),
-          mOwn(XCreateSimpleWindow(display, DefaultRootWindow(display), 0, 0, 1, 1, 0, 0, 0)) {}
+          mOwn(XCreateSimpleWindow(display, DefaultRootWindow(display), 0, 0, 1, 1, 0, 0, 0)) {
+        // Answers to pings, and ends of windows.
+        XSelectInput(display, DefaultRootWindow(display), SubstructureNotifyMask);
+    }
 
     void close() {
         send("WM_PROTOCOLS", static_cast<long>(atom("WM_DELETE_WINDOW")), CurrentTime, 0, 0);
@@ -55,6 +60,19 @@ public:
         return false;
     }
 
+    // A window answers a ping when it handles what happened to it, in the order in which it happened. Each
+    // but the first is sent after such a time, and is answered at the next: between two answers is a whole
+    // turn, in which the window has used what happened and was drawn. False where the window is gone, or does
+    // not answer.
+    bool turns(int count) {
+        for (int ping = 0; ping <= count; ++ping) {
+            send("WM_PROTOCOLS", static_cast<long>(atom("_NET_WM_PING")), static_cast<long>(mOwn) + ping,
+                 static_cast<long>(mTarget), 0);
+            if (!pong(static_cast<long>(mOwn) + ping)) return false;
+        }
+        return true;
+    }
+
     // False where nobody has copied anything.
     bool copied() {
         XConvertSelection(mDisplay, atom("CLIPBOARD"), atom("UTF8_STRING"), atom("TEXT_TO_PRINT"), mOwn,
@@ -78,13 +96,24 @@ public:
     }
 
 private:
-    // False once it took too long.
+    bool pong(long number) const {
+        XEvent event;
+        while (next(event)) {
+            if (event.type == ClientMessage && event.xclient.message_type == atom("WM_PROTOCOLS") &&
+                event.xclient.data.l[0] == static_cast<long>(atom("_NET_WM_PING")) &&
+                event.xclient.data.l[1] == number)
+                return true;
+        }
+        return false;
+    }
+    // False once it took too long, or the window is gone.
     bool next(XEvent& event) const {
         while (XPending(mDisplay) == 0) {
             if (std::chrono::steady_clock::now() > mEnd) return false;
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
-        return XNextEvent(mDisplay, &event), true;
+        XNextEvent(mDisplay, &event);
+        return event.type != DestroyNotify || event.xdestroywindow.window != mTarget;
     }
     Atom atom(const char* name) const { return XInternAtom(mDisplay, name, False); }
     void send(const char* type, long a, long b, long c, long d, long e = 0) const {
@@ -130,7 +159,10 @@ int main(int count, char** words) {
     Client client(display, count > 2 ? std::strtoul(words[2], nullptr, 0) : None);
     if (what == "copied") return client.copied() ? 0 : fail("nothing was copied");
     if (what == "close" && count == 3) return client.close(), 0;
-    if (what != "drop" || count < 4) return fail("expected close WINDOW, drop WINDOW FILE ..., or copied");
+    if (what == "turns" && count == 4)
+        return client.turns(std::atoi(words[3])) ? 0 : fail("the window does not answer");
+    if (what != "drop" || count < 4)
+        return fail("expected close WINDOW, drop WINDOW FILE ..., turns WINDOW N, or copied");
     std::string uris;
     for (int n = 3; n < count; ++n) uris += std::string("file://") + words[n] + "\r\n";
     return client.drop(uris) ? 0 : fail("the window did not take the files");
