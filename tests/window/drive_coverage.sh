@@ -15,8 +15,11 @@ keys F9
 settled followed start
 until_true is_kept
 cp "$(kept)" "$out/first.json"
+# The flight there comes to rest slowly: it is seen once it has taken a while, and many steps.
 keys F8
-settled unseen followed
+pass 1.5
+turns 30
+shot unseen
 keys F9 space
 settled off unseen
 close_window

@@ -29,9 +29,10 @@ works() {
     [ -n "$process" ]
 }
 rests() { ! works; }
-# Ticks of processor time of the command, and of the program's threads beside the window's: they have begun to work.
-works_on() { works && [ "$(awk '{ sub(/.*\) /, ""); print $12 + $13 }' "/proc/$process/stat" 2>/dev/null || echo 0)" -gt 20 ]; }
-loads() { [ "$(beside | cut -d ' ' -f 2)" -gt $(($1 + 20)) ]; }
+# Clock ticks that a process has worked. What has used some is at work.
+ticks_of() { awk '{ sub(/.*\) /, ""); print $12 + $13 }' "/proc/$1/stat" 2>/dev/null || echo 0; }
+used_more() { [ "$(ticks_of "$1")" -gt $(($2 + 30)) ]; }
+works_on() { works && used_more "$process" 0; }
 writes_movie() { [ -n "$(find "$out" -maxdepth 1 -name '.flight.*.part.mp4')" ]; }
 # The button in the notice over the picture's middle, which may have another notice above; that one goes by itself.
 cancel() {
@@ -41,7 +42,7 @@ process=
 
 # Closed while it loads.
 start_window "$large" --size 320x240 --threads 1
-until_true loads 0
+until_true used_more "$pid" 0
 "$client" close "$window"
 ended closed_loading
 [ ! -e "$recent" ] || fail "it was loaded before it was closed"
@@ -63,9 +64,9 @@ turns
 press 750 38 # headings are closed, so that the next ones are at known places
 press 750 63
 # A load is cancelled, whose notice comes once it has taken half a second.
-before=$(beside | cut -d ' ' -f 2)
+before=$(ticks_of "$pid")
 "$client" drop "$window" "$large" || fail "the drop was not taken"
-until_true loads "$before"
+until_true used_more "$pid" "$before"
 pass 0.6
 cancel
 at_rest

@@ -43,7 +43,7 @@ state() {
 # soon COMMAND ...: until it succeeds, or the program has ended
 soon() {
     local end=$((SECONDS + patience))
-    until "$@" || ! alive || [ "$SECONDS" -ge "$end" ]; do sleep 0.05; done
+    until "$@" || ! alive || [ "$SECONDS" -ge "$end" ]; do nap; done
 }
 ended() { ! alive; }
 while [ "$rounds" -gt 0 ]; do

@@ -56,15 +56,7 @@ turns
 xdotool mouseup 1
 settled dragged recorded
 # Its picture is asked for at once, so that it is one of the flight's begin, however long pictures take.
-take_while_it_plays() {
-    local before
-    before=$(pictures)
-    keys Z p
-    wait_for "a picture" more_pictures "$before"
-    picture=$(find "$shots" -name 'stereonav_*.png' | sort | tail -n 1)
-    is_step playing
-}
-take_while_it_plays
+shot playing Z p
 settled played playing
 keys space
 settled home played

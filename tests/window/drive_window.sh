@@ -17,6 +17,10 @@ unset XDG_CONFIG_HOME XDG_DATA_HOME XDG_STATE_HOME
 recent=$HOME/.local/state/stereonav/recent.json # written with the first picture of a scene
 mkdir -p "$shots"
 
+# A moment, without a process for it: on a busy machine those take long.
+exec {never}<> <(:)
+nap() { read -rt 0.05 -u "$never"; }
+
 fail() {
     echo "$*" >>"$out/problems.txt"
     kill "$pid" 2>/dev/null
@@ -30,7 +34,7 @@ wait_for() {
     until "$@"; do
         alive || fail "the program ended before: $what"
         [ "$SECONDS" -lt "$end" ] || fail "not within $patience seconds: $what"
-        sleep 0.05
+        nap
     done
 }
 until_true() { wait_for "$*" "$@"; }
@@ -61,27 +65,8 @@ press() {
 }
 titled() { [ "$(xdotool getwindowname "$window")" = "stereonav - $1" ]; }
 
-# Of the program's threads but the window's own: how many run or want to, and the processor time that all have used, in
-# clock ticks. A thread that works wants to run, however busy the machine is.
-beside() {
-    cat "/proc/$pid/task/"*/stat 2>/dev/null | awk -v own="$pid" '
-        $1 != own { sub(/.*\) /, ""); running += $1 ~ /[RD]/; ticks += $12 + $13 }
-        END { print running + 0, ticks + 0 }'
-}
-# Until all that was asked for is done: no thread works for longer than any of them sleeps between two looks.
-at_rest() {
-    local quiet=0 ticks='' now end=$((SECONDS + patience))
-    turns
-    while [ "$quiet" -lt 12 ]; do
-        now=$(beside)
-        if [ "$now" = "0 $ticks" ]; then quiet=$((quiet + 1)); else quiet=0; fi
-        ticks=${now#* }
-        alive || fail "the program ended before it came to rest"
-        [ "$SECONDS" -lt "$end" ] || fail "not at rest within $patience seconds"
-        sleep 0.05
-    done
-    turns
-}
+# Until all that was asked for is done: no thread of the program works, and the window has taken what came of it.
+at_rest() { "$client" rest "$window" "$pid" 2>>"$out/problems.txt" || fail "the window does not come to rest"; }
 
 found_window() {
     window=$(xdotool search --onlyvisible --name '^stereonav' 2>/dev/null | head -n 1)
@@ -110,17 +95,25 @@ first_picture() {
     take
 }
 
-pictures() { find "$shots" -name 'stereonav_*.png' | wc -l; }
-more_pictures() { [ "$(pictures)" -gt "$1" ]; }
+# look_at_pictures: how many there are in $pictures, the last one in $picture
+look_at_pictures() {
+    local all=("$shots"/stereonav_*.png)
+    pictures=0
+    [ -e "${all[0]}" ] || return
+    pictures=${#all[@]}
+    picture=${all[-1]}
+}
+more_pictures() {
+    look_at_pictures
+    [ "$pictures" -gt "$1" ]
+}
 of_step() { sed -n "s/^$1 //p" "$out/steps.txt"; }
 is_step() { echo "$1 $picture" >>"$out/steps.txt"; }
-# take [KEY]: the picture after everything pressed so far; its file in $picture.
+# take [KEY ...]: the picture after everything pressed so far; its file in $picture.
 take() {
-    local before
-    before=$(pictures)
-    keys "${1:-p}"
-    wait_for "a picture" more_pictures "$before"
-    picture=$(find "$shots" -name 'stereonav_*.png' | sort | tail -n 1)
+    look_at_pictures
+    keys "${@:-p}"
+    wait_for "a picture" more_pictures "$pictures"
 }
 takes_other() {
     take
@@ -130,9 +123,9 @@ takes_other_at_rest() {
     at_rest
     takes_other "$1"
 }
-# shot STEP [KEY]: the picture at once, named in steps.txt: of what keys change in the next picture.
+# shot STEP [KEY ...]: the picture at once, named in steps.txt: of what keys change in the next picture.
 shot() {
-    take "${2:-p}"
+    take "${@:2}"
     is_step "$1"
 }
 # differing STEP OTHER: the first picture that is not that of step OTHER, named in steps.txt.
@@ -157,7 +150,7 @@ await_end() {
     local end=$((SECONDS + patience))
     while alive; do
         [ "$SECONDS" -lt "$end" ] || fail "$1 did not end the program"
-        sleep 0.05
+        nap
     done
     wait "$pid"
     status=$?

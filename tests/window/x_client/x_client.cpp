@@ -3,9 +3,10 @@
 //   x_client close WINDOW
 //   x_client drop WINDOW FILE ...
 //   x_client turns WINDOW N
+//   x_client rest WINDOW PROCESS
 //   x_client copied
-// Exit status 0 once the message is sent, the window has taken the files, or it has gone round N times; else
-// 1, with a line that says why.
+// Exit status 0 once the message is sent, the window has taken the files, it has gone round N times, or the
+// program does nothing more; else 1, with a line that says why.
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
 
@@ -13,6 +14,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <thread>
 
@@ -73,6 +77,29 @@ public:
         return true;
     }
 
+    // Until none of the program's threads works, and the window has used what came of their work. A thread
+    // that works runs or wants to, however busy the machine is; those that look for something now and then do
+    // so more often than this one counts. False as for turns().
+    bool rest(const std::string& process) {
+        constexpr int kQuiet = 10;
+        constexpr std::chrono::milliseconds kBetween{40};
+        if (!turns(3)) return false;
+        Threads before;
+        for (int quiet = 0; std::chrono::steady_clock::now() < mEnd;) {
+            const Threads now = threadsOf(process);
+            const bool same = !now.othersWork && now.othersTicks == before.othersTicks;
+            before = now;
+            if (!same)
+                quiet = 0;
+            else if (!now.ownWorks)
+                ++quiet;
+            if (quiet > kQuiet) return true;
+            if (quiet == kQuiet && !turns(3)) return false;
+            std::this_thread::sleep_for(kBetween);
+        }
+        return false;
+    }
+
     // False where nobody has copied anything.
     bool copied() {
         XConvertSelection(mDisplay, atom("CLIPBOARD"), atom("UTF8_STRING"), atom("TEXT_TO_PRINT"), mOwn,
@@ -96,6 +123,41 @@ public:
     }
 
 private:
+    // Of a program: its window's thread, and the others. Ticks: of processor time.
+    struct Threads {
+        bool ownWorks = false, othersWork = false;
+        long othersTicks = -1;
+    };
+    static Threads threadsOf(const std::string& process) {
+        Threads threads;
+        threads.othersTicks = 0;
+        std::error_code code;
+        for (std::filesystem::directory_iterator at("/proc/" + process + "/task", code), end;
+             !code && at != end; at.increment(code)) {
+            std::ifstream in(at->path() / "stat");
+            std::string line;
+            std::getline(in, line);
+            const std::size_t name = line.rfind(") ");  // of the thread, in brackets: it may have any letters
+            if (name == std::string::npos) continue;
+            std::istringstream fields(line.substr(name + 2));
+            std::string state;
+            fields >> state;
+            constexpr int kBetween = 10;  // fields from there to the times
+            std::string passed;
+            for (int n = 0; n < kBetween; ++n) fields >> passed;
+            long inProgram = 0, inSystem = 0;
+            fields >> inProgram >> inSystem;
+            const bool works = state == "R" || state == "D";
+            if (at->path().filename() == process) {
+                threads.ownWorks = works;
+            } else {
+                threads.othersWork = threads.othersWork || works;
+                threads.othersTicks += inProgram + inSystem;
+            }
+        }
+        return threads;
+    }
+
     bool pong(long number) const {
         XEvent event;
         while (next(event)) {
@@ -161,8 +223,11 @@ int main(int count, char** words) {
     if (what == "close" && count == 3) return client.close(), 0;
     if (what == "turns" && count == 4)
         return client.turns(std::atoi(words[3])) ? 0 : fail("the window does not answer");
+    if (what == "rest" && count == 4)
+        return client.rest(words[3]) ? 0 : fail("the program goes on working, or does not answer");
     if (what != "drop" || count < 4)
-        return fail("expected close WINDOW, drop WINDOW FILE ..., turns WINDOW N, or copied");
+        return fail(
+            "expected close WINDOW, drop WINDOW FILE ..., turns WINDOW N, rest WINDOW PROCESS, or copied");
     std::string uris;
     for (int n = 3; n < count; ++n) uris += std::string("file://") + words[n] + "\r\n";
     return client.drop(uris) ? 0 : fail("the window did not take the files");
