@@ -100,6 +100,46 @@ TEST(GroundColor, PlacedImageIsCutToTheGround) {
     expectPixelForPixel(color);
 }
 
+// Of a part of a ground, of all its samples or every second or fourth: a texel shows what lies in the picture
+// at the texel's own place. Samples and pixels are longer one way.
+TEST(GroundColor, PicturesLieWhereTheGroundLiesAtAnyOfItsLevels) {
+    const TempFolder folder;
+    RasterSpec spec;
+    spec.width = 81, spec.height = 61;
+    spec.transform = {500000, 30, 0, 5000000, 0, -20};
+    Progress progress;
+    const DemGrid dem = readDem(writeRaster(folder / "flat.tif", spec), 1, progress);
+    ASSERT_EQ(dem.spacing, glm::dvec2(30, 20));
+    RasterSpec picture = pictureSpec(700, 500);
+    picture.transform = {499900, 5, 0, 5000300, 0, -4};
+    const LaidPicture laid(writeRaster(folder / "picture.tif", picture), dem);
+    EXPECT_NEAR(laid.density(Heightfield(81, 61, dem.spacing, dem.heights, "all")).x, 6, 1e-3);
+    EXPECT_NEAR(laid.density(Heightfield(81, 61, dem.spacing, dem.heights, "all")).y, 5, 1e-3);
+    const glm::dvec2 first = -0.5 * glm::dvec2(80, 60) * dem.spacing;
+    for (const int step : {1, 2, 4})
+        for (const glm::ivec2& low : {glm::ivec2(0, 0), {8, 4}, {24, 32}}) {
+            const glm::ivec2 size = (glm::ivec2(80, 60) - low) / step + 1;
+            const Heightfield part(size.x, size.y, double(step) * dem.spacing,
+                                   std::vector<float>(static_cast<std::size_t>(size.x) * size.y, 9.0f),
+                                   "part", first + glm::dvec2(low) * dem.spacing);
+            const GroundTextureSize texels{3 * size.x, 2 * size.y + 1};
+            const auto pixels = laid.over(part, texels);
+            ASSERT_TRUE(pixels);
+            for (int row = 0; row < texels.height; row += 7)
+                for (int column = 0; column < texels.width; column += 7) {
+                    // Samples are as wide as they are apart: a texture begins half of that before the first.
+                    const glm::dvec2 grid = glm::dvec2((column + 0.5) * size.x / texels.width,
+                                                       (texels.height - row - 0.5) * size.y / texels.height) -
+                                            0.5;
+                    const glm::dvec2 world = part.worldFromGrid(grid);
+                    const double east = 500000 + 30 * 40.5 + world.x, north = 5000000 - 20 * 30.5 + world.y;
+                    const glm::dvec2 pixel = pixels->map.at(column, row);
+                    ASSERT_NEAR(pixel.x, (east - 499900) / 5, 0.02) << step << " " << low.x;
+                    ASSERT_NEAR(pixel.y, (5000300 - north) / 4, 0.02) << step << " " << low.y;
+                }
+        }
+}
+
 TEST(GroundColor, PackagedImageIsAsTheSameInAGeoTiff) {
     const TempFolder folder;
     const Place place = flatPlace(folder);

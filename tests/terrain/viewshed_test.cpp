@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <random>
 #include <vector>
@@ -169,6 +170,25 @@ TEST(Viewshed, TheBulgeOfACellIsFound) {
     EXPECT_NEAR(sight.at, std::sqrt(0.5), 1e-9);
     EXPECT_TRUE(lines.sees({0, 0, 0.51}, {1, 1, 0.51}));
     EXPECT_FALSE(lines.sees({0, 0, 0.49}, {1, 1, 0.49}));
+}
+
+// Over a peak halfway, on ground whose samples are farther apart one way: distances are metres over the plan.
+TEST(Viewshed, ALineIsMeasuredInMetresWhateverItsDirection) {
+    for (const glm::dvec2& spacing : {glm::dvec2(30, 20), {20, 30}}) {
+        const Heightfield ground =
+            sightGround(41, 21, spacing, [](int i, int j) { return i == 20 && j == 8 ? 70.0 : 0.0; });
+        const HeightPyramid maxima(ground);
+        const double way = glm::length(glm::dvec2(32, 12) * spacing), fall = 1e-4;
+        for (const double round : {0.0, fall}) {
+            const SightLines lines(ground, maxima, round);
+            // From (4, 2) to (36, 14): 50 m high in the middle, where the ground is lifted by fall * (way /
+            // 2)^2.
+            const Sight sight = lines.measure({4, 2, 40}, {36, 14, 60});
+            EXPECT_NEAR(sight.clearance, 50 - 70 - round * way * way / 4, 1e-9) << spacing.x;
+            EXPECT_NEAR(sight.at, way / 2, 1e-9) << spacing.x;
+            EXPECT_FALSE(sight.seen);
+        }
+    }
 }
 
 TEST(Viewshed, RoughGroundAsSteppedAlongEachLine) {
@@ -347,10 +367,33 @@ TEST(Viewshed, ThreadsAndReachChangeNothingElse) {
         }
 }
 
+// Samples within reach are those of an ellipse, on wide and on tall ground.
+TEST(Viewshed, CountsTheSamplesWithinReach) {
+    for (const glm::ivec2& size : {glm::ivec2(90, 40), {40, 90}}) {
+        const Heightfield ground = sightGround(size.x, size.y, {10, 14}, [&](int i, int j) {
+            return i == size.x - 2 && j == size.y - 2 ? std::nan("") : 5.0;
+        });
+        ViewshedSetting setting;
+        setting.eye = glm::dvec2(size) - 9.5;
+        setting.reach = 175;
+        Progress progress;
+        const Viewshed shed = viewshedOf(ground, setting, progress);
+        int within = 0;
+        for (int j = 0; j < size.y; ++j)
+            for (int i = 0; i < size.x; ++i)
+                within += std::hypot((i - setting.eye.x) * 10, (j - setting.eye.y) * 14) <= 175 &&
+                          std::isfinite(ground.sample(i, j));
+        EXPECT_EQ(shed.samples, within) << size.x;
+        EXPECT_EQ(shed.visible, within) << "of level ground all";
+    }
+}
+
 TEST(Viewshed, APlaceOffTheGroundIsRefused) {
-    const Heightfield ground = roughGround(20, 20, 1);
+    const Heightfield ground = roughGround(20, 30, 1);
     Progress progress;
-    for (const glm::dvec2 eye : {glm::dvec2(-0.01, 3), glm::dvec2(3, 19.01), glm::dvec2(std::nan(""), 3)}) {
+    for (const glm::dvec2 eye :
+         {glm::dvec2(-0.01, 3), glm::dvec2(3, 29.01), glm::dvec2(19.01, 3), glm::dvec2(3, -0.01),
+          glm::dvec2(25, 3), glm::dvec2(std::nan(""), 3), glm::dvec2(3, std::nan(""))}) {
         ViewshedSetting setting;
         setting.eye = eye;
         EXPECT_THROW(viewshedOf(ground, setting, progress), Error);
