@@ -82,6 +82,23 @@ TEST(KeyframeFlight, IsEvenWhereKeyframesAreEvenlyTimed) {
         EXPECT_NEAR(keyWay(curve.at(t), curve.at(t + 0.1)), 0.2, 0.002) << t;
 }
 
+// Keyframes of an even acceleration, unevenly timed: through the middle one the flight goes, and turns, as
+// fast as it does. The difference over both sides, each weighted by the time of the other, is exact for
+// parabolas.
+TEST(KeyframeFlight, GoesAndTurnsThroughAKeyframeAsFastAsItsNeighboursSay) {
+    const auto poseAt = [](double t) { return poseFromAngles({3 * t * t, 0, 0}, 0.1 * t * t, 0, 0); };
+    for (const auto& [before, after] : {std::pair(1.0, 1.0), {1.0, 2.0}, {2.0, 1.0}, {0.5, 1.75}}) {
+        const double first = 4 - before, last = 4 + after;
+        const KeyframeCurve curve({{first, poseAt(first)}, {4, poseAt(4)}, {last, poseAt(last)}}, false);
+        constexpr double h = 1e-4;
+        EXPECT_NEAR(keyWay(curve.at(4 - h), curve.at(4 + h)) / (2 * h), 2 * 3 * 4.0, 1e-2) << before;
+        EXPECT_NEAR(keyTurn(curve.at(4 - h), curve.at(4 + h)) / (2 * h), 2 * 0.1 * 4.0, 1e-3) << before;
+        // At the ends it keeps the mean of its piece.
+        EXPECT_NEAR(keyWay(curve.at(first), curve.at(first + h)) / h, 3 * (4 + first), 1e-1) << before;
+        EXPECT_NEAR(keyWay(curve.at(last - h), curve.at(last)) / h, 3 * (4 + last), 1e-1) << before;
+    }
+}
+
 TEST(KeyframeFlight, NeverTurnsBackOnALineAndStopsWhereKeyframesAreEqual) {
     Keyframes keys;
     const double places[] = {0, 1, 1, 1, 100, 101, 101, 300};

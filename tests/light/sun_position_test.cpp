@@ -87,6 +87,23 @@ TEST(SunPosition, RefractionLiftsNearTheHorizonAlone) {
               sunSeenAt(rise, latitude, 0, std::nullopt).elevation);
 }
 
+// Refraction is that of 1010 hPa and 10 degrees, times P / 1010 and 283 / (273 + T) (Meeus, chapter 16).
+TEST(SunPosition, RefractionGoesByPressureAndTemperatureOfTheAir) {
+    const double latitude = 10 * kRadiansOf, midnight = secondsFromUtc(2024, 3, 20),
+                 time = nextSunrise(midnight, latitude, 0).value() + 400;
+    const double still = sunSeenAt(time, latitude, 0, std::nullopt).elevation;
+    const auto lift = [&](const AirNow& air) { return sunSeenAt(time, latitude, 0, air).elevation - still; };
+    // Saemundsson's formula: 1.02 / tan(h + 10.3 / (h + 5.11)) minutes of arc, h in degrees.
+    const double degrees = still * kDegreesOf,
+                 usual = 1.02 / std::tan((degrees + 10.3 / (degrees + 5.11)) * kRadiansOf) / 60 * kRadiansOf;
+    EXPECT_GT(usual, 0.2 * kRadiansOf);
+    for (const AirNow& air : {AirNow{1010, 10}, AirNow{1010, 40}, AirNow{1010, -40}, AirNow{505, 10},
+                              AirNow{820, -25}, AirNow{300, 35}})
+        EXPECT_NEAR(lift(air), usual * air.pressure_hPa / 1010 * 283 / (273 + air.temperature_C),
+                    1e-6 * kRadiansOf)
+            << air.pressure_hPa << " " << air.temperature_C;
+}
+
 TEST(SunPosition, PolarDaysAndNightsHaveNoSunrise) {
     const double june = secondsFromUtc(2024, 6, 21), december = secondsFromUtc(2024, 12, 21);
     const double tromso = 69.65 * kRadiansOf, east = 18.96 * kRadiansOf;
