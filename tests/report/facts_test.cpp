@@ -71,7 +71,7 @@ TEST(Facts, KeepTheirKindInJson) {
                       factForJson("groups", std::vector<Facts>{})};
     EXPECT_EQ(jsonOf(facts).dump(), R"({"none":null,"flag":false,"sizes":[],"lengths":[1.0,0.5],)"
                                     R"("words":["\"a\""],"group":{},"groups":[]})");
-    EXPECT_EQ(jsonOf({}).dump(), "{}");
+    EXPECT_EQ(jsonOf(Facts{}).dump(), "{}");
 }
 
 TEST(Facts, SayWhatHoldsMemoryOnce) {
