@@ -1,6 +1,7 @@
 #include "app/view/job.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +13,8 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
 #include "engine/base/thread_priority.h"
 
 extern char** environ;
@@ -97,6 +100,12 @@ Job::~Job() {
         }
     }
     close(mPipe);
+}
+
+std::filesystem::path placeOfBake(const std::vector<std::string>& words) {
+    Hash hash;
+    for (const std::string& word : words) hash.add(word).add(std::string_view("\n"));
+    return cacheFolder() / fmt::format("window_{:016x}.light", hash.value());
 }
 
 JobFile::JobFile(std::filesystem::path path) : mPath(std::move(path)), mUnfinished(mPath.c_str()) {}

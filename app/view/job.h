@@ -45,6 +45,9 @@ private:
     Stopwatch mWatch;
 };
 
+// Where light is kept that a job with these words bakes: in the cache, a file for each bake.
+std::filesystem::path placeOfBake(const std::vector<std::string>& words);
+
 // A file that a job reads and nobody else wants: taken away with this, and where the run ends at once.
 class JobFile {
 public:

@@ -18,9 +18,7 @@ constexpr double kWeight = 0.1;     // of the newest cost in the mean
 
 bool sameView(const FrameRequest& a, const FrameRequest& b) {
     return a.pose.position == b.pose.position && a.pose.orientation == b.pose.orientation &&
-           a.lens.width == b.lens.width && a.lens.height == b.lens.height &&
-           a.lens.verticalFov == b.lens.verticalFov && a.stereo.separation == b.stereo.separation &&
-           a.stereo.zeroParallax == b.stereo.zeroParallax && a.twoEyes == b.twoEyes && a.guard == b.guard;
+           a.lens == b.lens && a.stereo == b.stereo && a.twoEyes == b.twoEyes && a.guard == b.guard;
 }
 
 double areaOf(const FrameRequest& request) {

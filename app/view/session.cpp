@@ -36,12 +36,10 @@ bool samePose(const Pose& a, const Pose& b) {
 }
 
 bool sameFrame(const FrameRequest& a, const FrameRequest& b) {
-    return samePose(a.pose, b.pose) && a.lens.width == b.lens.width && a.lens.height == b.lens.height &&
-           a.lens.verticalFov == b.lens.verticalFov && a.stereo.separation == b.stereo.separation &&
-           a.stereo.zeroParallax == b.stereo.zeroParallax && a.way.method == b.way.method &&
-           a.model == b.model && a.time == b.time && a.paint == b.paint && a.twoEyes == b.twoEyes &&
-           a.mode == b.mode && a.sun == b.sun && a.fitEyes == b.fitEyes && a.truth == b.truth &&
-           a.guard == b.guard;
+    return samePose(a.pose, b.pose) && a.lens == b.lens && a.stereo == b.stereo &&
+           a.way.method == b.way.method && a.model == b.model && a.time == b.time && a.paint == b.paint &&
+           a.twoEyes == b.twoEyes && a.mode == b.mode && a.sun == b.sun && a.fitEyes == b.fitEyes &&
+           a.truth == b.truth && a.guard == b.guard;
 }
 
 bool mixesEyes(OutputLayout layout) {

@@ -9,7 +9,6 @@
 #include "app/view/viewer.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/base/hash.h"
 #include "engine/image/stereo_picture_file.h"
 
 namespace stereonav {
@@ -106,10 +105,7 @@ void Viewer::bakeLight(const std::string& what, double minutes) {
         words.push_back("--what=" + what);
         const std::string time = fmt::format("{:.6g}", minutes);
         if (bakeTakes("minutes", time)) words.push_back("--minutes=" + time);
-        Hash hash;
-        for (const std::string& word : words) hash.add(word).add(std::string_view("\n"));
-        const std::filesystem::path folder = cacheFolder();
-        const std::string baked = (folder / fmt::format("window_{:016x}.light", hash.value())).string();
+        const std::string baked = placeOfBake(words).string();
         words.push_back("--out=" + baked);
         startJob("baked light", words);
         mBaked = baked;

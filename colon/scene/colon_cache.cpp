@@ -260,6 +260,14 @@ fs::path cacheFile(std::uint64_t key) {
 }
 }  // namespace
 
+std::uint64_t builtInColonKey(const BuiltInColonSetting& setting) {
+    Hash hash;
+    hash.add("the built-in colon 2").add(static_cast<std::int64_t>(setting.seed));
+    for (int axis = 0; axis < 3; ++axis) hash.add(static_cast<std::int64_t>(setting.size[axis]));
+    if (setting.bend != 0 || setting.inflation != 1) hash.add(setting.bend).add(setting.inflation);
+    return hash.value();
+}
+
 std::uint64_t colonCacheKey(std::uint64_t study, const ColonOptions& options) {
     Hash hash;
     hash.add(static_cast<std::int64_t>(kVersion)).add(static_cast<std::int64_t>(study));
@@ -267,7 +275,11 @@ std::uint64_t colonCacheKey(std::uint64_t study, const ColonOptions& options) {
     hash.add(s.air).add(s.tagged).add(s.wall).add(static_cast<std::int64_t>(s.seeds.size()));
     for (const glm::dvec3& seed : s.seeds) hash.add(seed.x).add(seed.y).add(seed.z);
     if (s.leavesFluid) hash.add("fluid is left");
-    hash.add(options.centreline.spacing).add(static_cast<std::int64_t>(options.centreline.reversed));
+    const CentrelineSetting& line = options.centreline;
+    hash.add(line.spacing).add(static_cast<std::int64_t>(line.reversed));
+    // Only where it is another one than usual, so that keys of before stay.
+    if (line.mostUneven != CentrelineSetting().mostUneven)
+        hash.add(static_cast<std::int64_t>(line.mostUneven));
     return hash.value();
 }
 

@@ -29,6 +29,9 @@ constexpr int kKeptMargin = 8;
 // Makes the field what the cache would give back of it, and gives the memory of all other values back.
 void dropFarValues(LumenField& lumen);
 
+// Of the built-in colon's voxels, as studyKey() is of a study's.
+std::uint64_t builtInColonKey(const BuiltInColonSetting& setting);
+
 // Of everything that finding depends on: the study (its content's key) and the settings.
 std::uint64_t colonCacheKey(std::uint64_t study, const ColonOptions& options);
 

@@ -16,7 +16,6 @@
 #include "colon/scene/saved_lumen.h"
 #include "colon/scene/transfer_presets.h"
 #include "engine/base/error.h"
-#include "engine/base/hash.h"
 #include "engine/volume/distance_transform.h"
 
 namespace stereonav {
@@ -26,14 +25,6 @@ namespace fs = std::filesystem;
 constexpr double kFov = 80 * std::numbers::pi / 180;  // vertical: 80 to 90 degrees are usual in colonography
 constexpr double kTranslucentMargin = 0.004;          // metres of flesh kept behind the wall
 constexpr double kFlesh = 150, kSolid = 100;          // HU before and behind the wall's isovalue
-
-std::uint64_t builtInKey(const BuiltInColonSetting& setting) {
-    Hash hash;
-    hash.add("the built-in colon 2").add(static_cast<std::int64_t>(setting.seed));
-    for (int axis = 0; axis < 3; ++axis) hash.add(static_cast<std::int64_t>(setting.size[axis]));
-    if (setting.bend != 0 || setting.inflation != 1) hash.add(setting.bend).add(setting.inflation);
-    return hash.value();
-}
 
 std::string nameOf(const ColonOptions& options) {
     return options.study.empty() ? "colon" : options.study.filename().string();
@@ -325,7 +316,7 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
     std::uint64_t key = 0, studysKey = 0;
     if (!options.isosurface && builtIn) refuseTurned(options);
     if (!options.isosurface && options.cache && !options.up) {
-        studysKey = builtIn ? builtInKey(options.builtIn) : studyKey(options.study, options.reading);
+        studysKey = builtIn ? builtInColonKey(options.builtIn) : studyKey(options.study, options.reading);
         key = colonCacheKey(studysKey, options);
         if (std::optional<FoundColon> kept = readColonCache(key, damaged)) {
             const bool reads = options.keepsStudy && !kept->ofMask;

@@ -15,11 +15,13 @@ struct Lens {
     double pixelAspect = 1.0;   // width / height of a pixel
     double nearDepth = 0.1;     // metres
     double fall = 0;            // of EarthBend: 0 where the Earth is level
+    bool operator==(const Lens&) const = default;
 };
 
 struct StereoSetting {
     double separation = 0.065;   // metres between the eyes, >= 0
     double zeroParallax = 1.95;  // metres along the view axis to the plane seen without parallax, > 0
+    bool operator==(const StereoSetting&) const = default;
 };
 
 struct StereoViews {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -26,12 +27,19 @@ GroundLevels::GroundLevels(StoredLevels stored)
       mOrigin(-0.5 * glm::dvec2(stored.size - 1) * stored.spacing),
       mLow(stored.low),
       mHigh(stored.high),
+      mContent(stored.content),
       mRead(std::move(stored.read)) {
     for (glm::ivec2 size = stored.size; mLevels.size() < stored.bounds.size(); size = coarserSize(size)) {
         std::vector<float>& bounds = stored.bounds[mLevels.size()];
         const float most = *std::max_element(bounds.begin(), bounds.end());
         mLevels.push_back({size, levelBlocks(size), {}, std::move(bounds), most});
     }
+}
+
+std::uint64_t GroundLevels::content() const {
+    if (stored()) return mContent;
+    const glm::ivec2 size = this->size(0);
+    return Hash().add(mGround->data(), sizeof(float) * static_cast<std::size_t>(size.x) * size.y).value();
 }
 
 LevelRows GroundLevels::rowsOf(int level) const {

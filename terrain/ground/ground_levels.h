@@ -1,6 +1,7 @@
 // A ground at coarser and coarser sampling, with a bound of how far each level lies from the ground itself.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -16,6 +17,7 @@ struct StoredLevels {
     glm::ivec2 size{0};                      // samples of the ground itself
     glm::dvec2 spacing{1.0};                 // metres between them
     float low = 0, high = 0;                 // metres, of all samples that are known
+    std::uint64_t content = 0;               // names the heights of all levels
     std::vector<std::vector<float>> bounds;  // of each level's blocks, row by row; metres
     // Samples low to low + size - 1 of a level; from several threads at once.
     std::function<void(int level, const glm::ivec2& low, const glm::ivec2& size, float* heights)> read;
@@ -41,6 +43,8 @@ public:
     glm::dvec2 gridFromWorld(const glm::dvec2& world) const { return (world - mOrigin) / mSpacing; }
     bool contains(const glm::dvec2& world) const;
     bool stored() const { return mGround == nullptr; }  // elsewhere than in memory
+    // Names the heights of all levels: a hash of them, or what was said of those that are stored.
+    std::uint64_t content() const;
 
     glm::ivec2 blocks(int level) const { return mLevels[level].blocks; }
     // Metres: the surface of that level is nowhere further from the ground's, above or below, over that
@@ -73,6 +77,7 @@ private:
     glm::dvec2 mSpacing{1.0}, mOrigin{0.0};
     float mLow = 0, mHigh = 0;
     std::vector<Level> mLevels;
+    std::uint64_t mContent = 0;  // of stored levels
     std::function<void(int, const glm::ivec2&, const glm::ivec2&, float*)> mRead;
 };
 

@@ -110,8 +110,7 @@ std::optional<TerrainLight> FineBake::tile(int level, const glm::ivec2& low, con
         const SentLight sent{mGround, mGrid, mSent, offset};
         const GatherSetting setting{mSettings.rays, mSettings.albedo, mSettings.seed, mCount};
         parallelFor(grid.height, [&](int j) {
-            const std::uint64_t number = (static_cast<std::uint64_t>(level) << 56) +
-                                         static_cast<std::uint64_t>(low.y + j) * all.x + low.x;
+            const std::uint64_t number = numberOfSample(level, all, {low.x, low.y + j});
             const std::size_t at = j * width * mCount;
             bakeBounceRow(rays, grid, j, mSettings.azimuths, number, sent, setting,
                           {&light.horizon[j * width], grid.count(), &direct[at], &total[at]}, each);
@@ -121,6 +120,11 @@ std::optional<TerrainLight> FineBake::tile(int level, const glm::ivec2& low, con
     return light;
 }
 
+std::uint64_t numberOfSample(int level, const glm::ivec2& all, const glm::ivec2& sample) {
+    return (static_cast<std::uint64_t>(level) << 56) + static_cast<std::uint64_t>(sample.y) * all.x +
+           sample.x;
+}
+
 FineLightShape fineLightShape(const GroundLevels& levels, int level, const TerrainLight& light, int finer) {
     FineLightShape shape;
     shape.settings = light.settings;
@@ -128,6 +132,7 @@ FineLightShape fineLightShape(const GroundLevels& levels, int level, const Terra
     shape.size = levels.size(0);
     shape.coarsest = level - 1;
     shape.finest = std::max(0, level - finer);
+    shape.content = levels.content();
     return shape;
 }
 

@@ -2,6 +2,7 @@
 // at its own samples, and beyond that the ground in memory, whose light is also what bounces.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -44,6 +45,10 @@ private:
     const SkyTransfer mSky;
     TransferField mSent;  // of the ground
 };
+
+// By which the rays of a sample are chosen, of a level of so many samples: one of its own, in all tiles and
+// levels.
+std::uint64_t numberOfSample(int level, const glm::ivec2& all, const glm::ivec2& sample);
 
 // What is baked for a ground whose light is `light`. finer: how many levels further than it, 1 or more, as
 // far as there are any.

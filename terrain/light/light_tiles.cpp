@@ -24,6 +24,7 @@ struct Head {
     std::array<char, 8> magic{};
     std::uint64_t key = 0;
     std::int32_t width = 0, height = 0, coarsest = 0, finest = 0;
+    std::uint64_t content = 0;
     std::uint64_t check = 0;  // of what is before
 };
 
@@ -37,6 +38,7 @@ Head headOf(const FineLightShape& shape) {
     head.key = shape.key;
     head.width = shape.size.x, head.height = shape.size.y;
     head.coarsest = shape.coarsest, head.finest = shape.finest;
+    head.content = shape.content;
     head.check = tileCheck(&head, offsetof(Head, check));
     return head;
 }

@@ -30,6 +30,7 @@ struct FineLightShape {
     std::uint64_t key = 0;
     glm::ivec2 size{0};            // samples of the ground's finest level, which is level 0
     int coarsest = 0, finest = 0;  // levels that tiles are of
+    std::uint64_t content = 0;     // names their heights: GroundLevels::content()
 };
 
 // Beside that light.

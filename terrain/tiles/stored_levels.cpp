@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
+
+#include "engine/base/hash.h"
 
 namespace stereonav {
 namespace {
@@ -24,6 +27,7 @@ StoredLevels storedLevels(std::shared_ptr<const TileStore> store, const glm::dve
     levels.spacing = spacing;
     levels.low = scaledHeight(store->low(), verticalScale);
     levels.high = scaledHeight(store->high(), verticalScale);
+    levels.content = Hash().add(static_cast<std::int64_t>(store->hash())).add(verticalScale).value();
     const double rounded =
         verticalScale == 1 ? 0 : kRounding * std::max(std::abs(levels.low), std::abs(levels.high));
     for (int level = 0; level < store->levels(); ++level) {

@@ -24,6 +24,7 @@ public:
     float low() const { return mHead.low; }  // metres, of all samples
     float high() const { return mHead.high; }
     long long missing() const { return mHead.missing; }
+    std::uint64_t hash() const { return mHead.indexCheck; }  // of the heights of all levels
     // Of a level, by rows of blocks; metres.
     const std::vector<float>& bounds(int level) const { return mBounds[level]; }
 

@@ -1,6 +1,7 @@
 // The map as it is felt: keyframes are taken, dragged and let go with a mouse; beside them a click flies.
 #include "app/view/panel/map_panel.h"
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 
@@ -19,16 +20,37 @@ namespace {
 
 constexpr int kMapSide = 400;  // of the window, pixels
 
+// Stands still, with walls everywhere in its way.
+class WalledIn final : public Flight {
+public:
+    void step(const FlightInput&, double) override {}
+    void turnBy(double, double) override {}
+    Pose pose() const override { return mPose; }
+    void setPose(const Pose& pose) override { mPose = pose; }
+    void goHome() override {}
+    int modeCount() const override { return 1; }
+    int mode() const override { return 0; }
+    void setMode(int) override {}
+    std::string_view modeName(int) const override { return "still"; }
+    double speed() const override { return 1; }
+    double clearanceNow() const override { return 1; }
+    bool wayIsClear(const glm::dvec3&, const glm::dvec3&) const override { return false; }
+
+private:
+    Pose mPose;
+};
+
 // 2000 m to each side, one pixel 10 m; the ground rises to the east.
 class Rising final : public Scene, MapFromAbove {
 public:
-    Rising() {
+    explicit Rising(bool walled = false) : mWalled(walled) {
         lens.verticalFov = 0.8;
         stereo = {20, 600};
         offer<MapFromAbove>(*this);
     }
     FrameMaker& frames() const override { return mFrames; }
     std::unique_ptr<Flight> makeFlight() const override {
+        if (mWalled) return std::make_unique<WalledIn>();
         return std::make_unique<Navigator>([](const glm::dvec2& at) { return 0.1 * at.x; },
                                            poseFromAngles({1000, 1000, 500}, 0, 0, 0), FlightSetting{});
     }
@@ -37,6 +59,7 @@ public:
     }
 
 private:
+    bool mWalled;
     mutable FakeFrames mFrames;
 };
 
@@ -50,8 +73,7 @@ protected:
         }
         mInterface = std::make_unique<Interface>(*mWindow);
         mPanel = std::make_unique<MapPanel>();
-        // It is drawn beside the window's thread.
-        ASSERT_TRUE(test::waitFor([&] { return layOut(), mSide > 0; }));
+        awaitMap();
         edit().start(timedKeyframes({at(400, 1000, 300), at(1000, 1500, 300), at(1600, 1000, 300)}, 100));
         layOut();
     }
@@ -75,6 +97,24 @@ protected:
             ImGui::End();
             ImGui::PopStyleVar();
         });
+    }
+    // It is drawn beside the window's thread.
+    void awaitMap() {
+        mSide = 0;
+        ASSERT_TRUE(test::waitFor([&] { return layOut(), mSide > 0; }));
+    }
+    // What the panel shows once its map is there.
+    std::vector<unsigned char> drawn() {
+        awaitMap();
+        layOut();
+        glViewport(0, 0, kMapSide, kMapSide);
+        glDisable(GL_SCISSOR_TEST);
+        glClear(GL_COLOR_BUFFER_BIT);
+        mInterface->render();
+        std::vector<unsigned char> pixels(std::size_t{kMapSide} * kMapSide * 3);
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glReadPixels(0, 0, kMapSide, kMapSide, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+        return pixels;
     }
     void point(double x, double y) {
         const double pixel = mSide / 2000.0;
@@ -122,6 +162,17 @@ TEST_F(MapPanelTest, AKeyframeIsDraggedOverTheGround) {
     // Beyond the map it stays at its border.
     drag({1000, 1500}, {5000, 1500});
     EXPECT_NEAR(edit().keys()[1].pose.position.x, 2000, 1);
+}
+
+// Whether a wall is in the way of the keyframes is a matter of the scene, also where they stay as they are.
+TEST_F(MapPanelTest, TheWayIsHeldAgainstTheSceneThatIsShown) {
+    const std::vector<unsigned char> free = drawn();
+    mSession.replaceScene(
+        std::make_shared<OpenScene>(OpenScene{std::make_shared<Rising>(true), {}, {}, 0, false}));
+    const std::vector<unsigned char> blocked = drawn();
+    EXPECT_NE(blocked, free) << "walls are in the way";
+    mPanel = std::make_unique<MapPanel>();
+    EXPECT_EQ(drawn(), blocked) << "a panel that is shown for the first time";
 }
 
 TEST_F(MapPanelTest, AClickChoosesOneOrFlies) {

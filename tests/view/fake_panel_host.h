@@ -37,7 +37,7 @@ public:
     void showPlaceLabels(bool) override {}
     KeyframeEdit& keyframes() override { return mKeyframes; }
     void openPath(const std::filesystem::path&) override {}
-    std::shared_ptr<const SliceStudy> study() override { return nullptr; }
+    std::shared_ptr<const SliceStudy> study() override { return slices; }
     const Job* job() const override { return nullptr; }
     void cancelJob() override {}
     void makeMovie(const MovieWish&) override {}
@@ -71,6 +71,7 @@ public:
 
     std::optional<glm::dvec3> marked;  // in the picture
     std::vector<FlatMark> flat;
+    std::shared_ptr<const SliceStudy> slices;
 
 private:
     ViewSession& mSession;

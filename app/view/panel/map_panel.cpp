@@ -72,6 +72,7 @@ void MapPanel::forget() {
     mMap.reset();
     mTexture.reset();
     mScene.reset();
+    mFlownVersion = -1;  // in another scene other walls are in the way
 }
 
 void MapPanel::look(const std::shared_ptr<const OpenScene>& scene) {

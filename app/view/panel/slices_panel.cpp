@@ -96,6 +96,7 @@ void SlicesPanel::drawView(PanelHost& host, ViewSession& session, const SliceStu
     const glm::dvec3 eye = session.pose().position;
     const bool stale = !view.texture.any() || view.width != width || view.slice != slice ||
                        view.zoom != mZoom || view.window != mWindow || view.level != mLevel ||
+                       view.follows != mFollows || view.scene.lock() != session.openShared() ||
                        glm::length(view.eye - eye) > kEyeMoves ||
                        glm::length(view.cross - mCross) > kEyeMoves;
     if (stale) {
@@ -111,6 +112,8 @@ void SlicesPanel::drawView(PanelHost& host, ViewSession& session, const SliceStu
         view.zoom = mZoom;
         view.window = mWindow;
         view.level = mLevel;
+        view.follows = mFollows;
+        view.scene = session.openShared();
     }
     ImGui::PushID(kAxisNames[static_cast<int>(axis)]);
     const ImVec2 from = ImGui::GetCursorScreenPos(),

@@ -25,6 +25,8 @@ private:
         int width = 0, height = 0, slice = -1;
         double zoom = 0;
         double window = 0, level = 0;
+        bool follows = true;
+        std::weak_ptr<const OpenScene> scene;  // whose lumen it shows
     };
     void drawView(PanelHost& host, ViewSession& session, const SliceStudy& study, SliceAxis axis);
     void windowControls(const SliceStudy& study);

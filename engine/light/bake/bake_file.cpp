@@ -6,6 +6,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -242,6 +243,11 @@ std::uint64_t bakeKey(const BakeInputs& in) {
     whole(in.choice.full);
     whole(in.choice.region != nullptr);
     if (!in.choice.full) hash.add(double{in.choice.lowest}).add(double{in.choice.highest});
+    // Only where they are others than those of the texels, so that keys of before stay.
+    const bool all = in.choice.full && std::isinf(s.lowest) && std::isinf(s.highest);
+    const bool same =
+        !in.choice.full && s.lowest == double{in.choice.lowest} && s.highest == double{in.choice.highest};
+    if (!all && !same) hash.add(s.lowest).add(s.highest);
     return hash.value();
 }
 
