@@ -51,6 +51,8 @@ bool isThere(const std::filesystem::path& place, const FineLightShape& shape) {
         const LightTiles tiles(place, shape);
         if (tiles.shape().finest > shape.finest) return false;
         if (tiles.isWhole()) return true;
+    } catch (const DiskError&) {
+        throw;
     } catch (const Error&) {
         return false;  // of other light, or cut off: made anew
     }

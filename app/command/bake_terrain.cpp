@@ -53,6 +53,8 @@ std::optional<TerrainLight> lightBefore(const std::filesystem::path& file, const
     try {
         TerrainLight light = loadTerrainLight(file, nullptr);
         if (light.key == terrainLightKey(ground, settings)) return light;
+    } catch (const DiskError&) {
+        throw;
     } catch (const Error& error) {
         if (!quiet) std::fprintf(stderr, "stereonav: %s: made anew\n", error.what());
     }

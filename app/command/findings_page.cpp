@@ -107,10 +107,12 @@ std::string findingsPage(const ColonScene& colon, const GreyVolume& study,
         "<th>from the rectum mm</th><th>segment</th><th>truth mm</th><th>notes</th></tr>\n";
     for (std::size_t n = 0; n < findings.size(); ++n) html += rowOf(findings[n], n + 1);
     html += "</table>\n";
+    constexpr const char* kMaking = "making the page";
+    progress.report(0, kMaking);
     const VolumeRenderer renderer(colon.volume);
     const LineOfSight sight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue);
     for (std::size_t n = 0; n < findings.size(); ++n) {
-        progress.report(static_cast<double>(n) / static_cast<double>(findings.size()), "making the page");
+        progress.report(static_cast<double>(n) / static_cast<double>(findings.size()), kMaking);
         if (!findings[n].polyp) continue;
         const MeasuredPolyp& polyp = *findings[n].polyp;
         html += fmt::format("<h2>{}: {:.1f} mm</h2>\n", n + 1, 1e3 * polyp.widest.length);
@@ -122,6 +124,7 @@ std::string findingsPage(const ColonScene& colon, const GreyVolume& study,
                 figure(sliceOf(study, polyp), fmt::format("{} slice, lung window, {:g} mm wide",
                                                           nameOfSlice(polyp.sliceAxis), 1e3 * kSliceExtent));
     }
+    progress.report(1, kMaking);
     return html + "</body></html>\n";
 }
 

@@ -145,6 +145,7 @@ void flyAlone(const FlownPart& flight, FlightFrames& frames, FrameSink& sink, Pr
                         fmt::format("frame {} of {}", k - flight.first + 1, flight.count()));
         sink.add(frames.make(k), k);
     }
+    progress.report(1, "flown");
 }
 
 // Any process makes any frame; this one writes them in their order.
@@ -163,6 +164,7 @@ void flyWithOthers(const PlayOptions& options, const FlownPart& flight, FlightFr
         sink.add(made, flight.first + n);
     };
     PieceDealer(peersOfThisRun()).deal(work);
+    progress.report(1, "flown");
 }
 
 }  // namespace

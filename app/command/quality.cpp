@@ -39,9 +39,12 @@ std::optional<QualityPlan> qualityOf(const SceneOptions& options, const Scene& s
                                      const std::string& method, Progress& progress) {
     const QualityOptions& q = options.quality;
     if (!wantsQuality(q)) return std::nullopt;
-    progress.report(0.85, "measuring what error is to be expected");
-    return scene.frames().meet({q.quality, q.targetPsnr_db, q.target_ms, false},
-                               method == "auto" ? "" : method, calibrationViews(scene));
+    constexpr const char* kMeasuring = "measuring what error is to be expected";
+    progress.report(0, kMeasuring);
+    const auto plan = scene.frames().meet({q.quality, q.targetPsnr_db, q.target_ms, false},
+                                          method == "auto" ? "" : method, calibrationViews(scene));
+    progress.report(1, kMeasuring);
+    return plan;
 }
 
 }  // namespace stereonav

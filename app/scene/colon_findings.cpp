@@ -58,7 +58,9 @@ SurfaceFinding ColonFindings::at(const glm::dvec3& place, const std::string& com
 
 // Under the mutex.
 FindingTool& ColonFindings::tool(const std::shared_ptr<const SliceStudy>& study, Progress& progress) const {
+    progress.report(0, "making the wall's mesh");
     if (!mTool) mTool = std::make_unique<FindingTool>(mColon, mWall.get(progress));
+    progress.report(1, "making the wall's mesh");
     if (study && study != mStudy && !study->ofMask) {
         mTool->useStudy(study->grey);
         mStudy = study;
@@ -88,8 +90,10 @@ SurfaceFinding ColonFindings::measured(const SurfaceFinding& finding,
                                        const std::shared_ptr<const SliceStudy>& study,
                                        Progress& progress) const {
     const std::lock_guard lock(mMutex);
-    Finding made = tool(study, progress).at(finding.asked);
+    Progress beginning(progress, 0, 0.9);
+    Finding made = tool(study, beginning).at(finding.asked);
     made.comment = finding.comment;
+    progress.report(1, "measuring");
     return shown(std::move(made));
 }
 
@@ -97,8 +101,9 @@ std::vector<SurfaceFinding> ColonFindings::candidates(const std::shared_ptr<cons
                                                       Progress& progress) const {
     const std::lock_guard lock(mMutex);
     std::vector<SurfaceFinding> list;
-    FindingTool& made = tool(study, progress);
-    for (Finding& finding : made.candidates(progress)) list.push_back(shown(std::move(finding)));
+    Progress beginning(progress, 0, 0.3), looking(progress, 0.3, 1);
+    FindingTool& made = tool(study, beginning);
+    for (Finding& finding : made.candidates(looking)) list.push_back(shown(std::move(finding)));
     return list;
 }
 

@@ -58,29 +58,34 @@ LitVolume litVolumeOf(const SceneOptions& options, Progress& progress, bool keep
     LitVolume made;
     ColonOptions reading = colonOptionsOf(options);
     reading.keepsStudy = keepsStudy;
-    made.world = std::make_unique<VolumeWorld>(loadColon(reading, progress), options);
+    Progress loading(progress, 0, 0.6), lighting(progress, 0.6, 0.7), occluding(progress, 0.7, 0.8),
+        modulating(progress, 0.8, 0.9), choosing(progress, 0.9, 1);
+    made.world = std::make_unique<VolumeWorld>(loadColon(reading, loading), options);
     ColonScene& colon = made.world->colon();
     VolumeLighting& light = made.light;
     checkShading(options.volume, made.world->side());
     noteGround(options, colon.notes);
-    light.sky = applyVolumeLight(options, colon, progress);
-    applyAmbient(options.volume, nullptr, colon, progress);
-    light.modulateSigma = applyModulation(options.volume, nullptr, std::nullopt, colon, progress);
+    light.sky = applyVolumeLight(options, colon, lighting);
+    applyAmbient(options.volume, nullptr, colon, occluding);
+    light.modulateSigma = applyModulation(options.volume, nullptr, std::nullopt, colon, modulating);
     if (light.modulateSigma)
         colon.notes.push_back(fmt::format("opacity modulated by {}, whole from {:.4g} on",
                                           nameOf(options.volume.modulate), *light.modulateSigma));
-    if (options.light.lazy()) light.lazy = std::make_shared<LazyLight>(options, colon, progress);
+    if (options.light.lazy()) light.lazy = std::make_shared<LazyLight>(options, colon, choosing);
     if (options.light.traced()) light.traced = std::make_shared<TracedLight>(options, colon);
     if (options.volume.isovalue) made.world->side().expectOutside("--isovalue");
+    progress.report(1, "loaded");
     return made;
 }
 
 std::unique_ptr<Scene> loadColonScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    LitVolume lit = litVolumeOf(options, progress, paintNeedsStudy(options));
+    Progress loading(progress, 0, 0.8), painting(progress, 0.8, 1);
+    LitVolume lit = litVolumeOf(options, loading, paintNeedsStudy(options));
     VolumeWorld& world = *lit.world;
     auto scene = std::make_unique<ShownVolume>(std::move(lit), options, options, simd);
-    scene->setPaint(wallPainters(world, options, scene->lens.verticalFov, progress));
+    scene->setPaint(wallPainters(world, options, scene->lens.verticalFov, painting));
     world.colon().study = {};
+    progress.report(1, "loaded");
     return scene;
 }
 

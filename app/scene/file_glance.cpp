@@ -20,7 +20,8 @@ Facts factsOfKind(const SceneType& type, const std::string& scene) {
 }  // namespace
 
 Facts glanceAt(const std::string& scene, Progress& progress) {
-    progress.report(0, "looking");
+    constexpr const char* kLooking = "looking";
+    progress.report(0, kLooking);
     const SceneType& type = sceneTypeNamed(scene);  // says of what is not there
     const std::string named = namedIn(scene);
     if (!named.empty()) {
@@ -30,9 +31,11 @@ Facts glanceAt(const std::string& scene, Progress& progress) {
         return facts;
     }
     Facts facts = factsOfKind(type, scene);
-    if (!type.glance || isBuiltIn(scene)) return facts;
-    const Facts more = type.glance(scene, progress);
-    facts.insert(facts.end(), more.begin(), more.end());
+    if (type.glance && !isBuiltIn(scene)) {
+        const Facts more = type.glance(scene, progress);
+        facts.insert(facts.end(), more.begin(), more.end());
+    }
+    progress.report(1, kLooking);
     return facts;
 }
 

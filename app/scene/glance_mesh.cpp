@@ -94,6 +94,7 @@ std::size_t sizeOf(const Json& model, const char* key) {
 }  // namespace
 
 Facts glanceAtMesh(const std::string& file, Progress& progress) {
+    progress.report(0, "looking at the mesh");
     const std::string text = descriptionIn(file);
     progress.report(0.5, "looking at the mesh");
     const Json model = Json::parse(text, nullptr, false);
@@ -115,6 +116,7 @@ Facts glanceAtMesh(const std::string& file, Progress& progress) {
     list.text("parts", fmt::format("{} meshes, {} materials, {} pictures", sizeOf(model, "meshes"),
                                    sizeOf(model, "materials"), sizeOf(model, "images")));
     list.text("unit", "m");
+    progress.report(1, "looking at the mesh");
     return std::move(list.facts());
 }
 

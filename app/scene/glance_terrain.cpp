@@ -11,6 +11,8 @@
 namespace stereonav {
 
 Facts glanceAtTerrain(const std::string& file, Progress& progress) {
+    constexpr const char* kLooking = "looking at the header";
+    progress.report(0, kLooking);
     const SceneFile scene = sceneFileFromName(file);
     FactList list;
     if (std::filesystem::path(file).extension() == ".toml") {
@@ -19,8 +21,8 @@ Facts glanceAtTerrain(const std::string& file, Progress& progress) {
         if (!scene.landmarks.empty()) words += fmt::format(", {} landmarks", scene.landmarks.size());
         list.text("scene of", words);
     }
+    progress.report(scene.builtIn ? 1 : 0.5, kLooking);
     if (scene.builtIn) return std::move(list.facts());
-    progress.report(0.5, "looking at the header");
     const DemGlance glance = glanceAtDem(scene.dem);
     list.both("driver", glance.driver, "read by");
     list.both(
@@ -32,6 +34,7 @@ Facts glanceAtTerrain(const std::string& file, Progress& progress) {
     if (!glance.band.empty()) list.both("band", glance.band, "band");
     if (!glance.heightUnit.empty()) list.both("height_unit", glance.heightUnit, "height unit");
     if (!glance.missingValue.empty()) list.both("missing_value", glance.missingValue, "missing");
+    progress.report(1, kLooking);
     return std::move(list.facts());
 }
 

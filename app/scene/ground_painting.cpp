@@ -73,9 +73,13 @@ GroundPainting::Layer GroundPainting::layerOf(const std::string& key) {
 
 void GroundPainting::paintAll(Progress& progress) {
     const std::string tracks = mOptions.ground.tracks, contours = contourText(mOptions);
+    double done = 0;
+    constexpr double kAll = kLayers;
     for (const auto& [layer, text] :
          {std::pair(kPaint, mOptions.paint), std::pair(kContours, contours), std::pair(kTracks, tracks)}) {
-        Painted made = painted(layer, {text, {}, mSun}, progress);
+        Progress part(progress, done / kAll, (done + 1) / kAll);
+        Painted made = painted(layer, {text, {}, mSun}, part);
+        ++done;
         const std::lock_guard lock(mMutex);
         show(layer, std::move(made));
     }
@@ -206,7 +210,8 @@ void GroundPainting::work(Layer layer, long long number, const Wish& wish, Progr
     }
     const std::lock_guard lock(mMutex);
     if (mNumbers[layer] != number) return;
-    if (done && mWishes[layer]) show(layer, std::move(made));  // else it was cancelled at its end
+    if (!mWishes[layer]) return;  // it was cancelled at its end
+    if (done) show(layer, std::move(made));
     mWishes[layer].reset();
     if (!problem.empty()) mProblem = problem;
 }
@@ -220,9 +225,12 @@ const SurveyGround& GroundPainting::survey(Progress& progress) {
 }
 
 GroundPainting::Painted GroundPainting::painted(Layer layer, const Wish& wish, Progress& progress) {
+    constexpr const char* kPainting = "painting the ground";
+    progress.report(0, kPainting);
+    Progress reading(progress, 0, 0.4), looking(progress, 0.4, 0.7), colouring(progress, 0.7, 1);
     Painted made{wish.text, nullptr, {}, {}};
     if (wish.seenFrom)
-        made.text = paintSeenFrom(survey(progress), wish.seenFrom->place, wish.seenFrom->height);
+        made.text = paintSeenFrom(survey(reading), wish.seenFrom->place, wish.seenFrom->height);
     if (layer == kContours) {
         made.painter = contoursOf(mTerrain, mFog, contourOptions(made.text), made.legend);
     } else if (layer == kTracks && !made.text.empty()) {
@@ -231,11 +239,12 @@ GroundPainting::Painted GroundPainting::painted(Layer layer, const Wish& wish, P
     } else if (layer == kPaint) {
         const GroundPaint paint = groundPaintOf(made.text);
         if (surveyed(made.text))
-            made.painter = surveyPainter(mTerrain, mFog, survey(progress), made.text, made.legend, progress);
+            made.painter = surveyPainter(mTerrain, mFog, survey(reading), made.text, made.legend, looking);
         if (Legend colors = legendOfPaint(paint); !colors.entries.empty())
             made.legend.legends.push_back(std::move(colors));
-        made.ground = groundAs(paint, wish.sun, progress);
+        made.ground = groundAs(paint, wish.sun, colouring);
     }
+    progress.report(1, kPainting);
     return made;
 }
 

@@ -16,6 +16,8 @@
 namespace stereonav {
 namespace {
 
+constexpr const char* kHashing = "looking at the values";
+
 void require(bool holds, const char* option, const std::string& problem, const std::string& advice) {
     if (!holds) throw Error(option, "", problem, advice);
 }
@@ -92,7 +94,10 @@ LightSetup lightSetupOf(const ColonScene& scene, const BakeOptions& options,
 }
 
 std::uint64_t contentOf(const ColonScene& scene, Progress& progress) {
-    return sideOf(scene)->content(progress);
+    progress.report(0, kHashing);
+    const std::uint64_t content = sideOf(scene)->content(progress);
+    progress.report(1, kHashing);
+    return content;
 }
 
 VolumeBakePlan planVolumeBake(const ColonScene& scene, const BakeOptions& options, Progress& progress) {
@@ -111,21 +116,25 @@ VolumeBakePlan planVolumeBake(const ColonScene& scene, const BakeOptions& option
         in.sampling.lowest = static_cast<double>(in.choice.lowest);
         in.sampling.highest = static_cast<double>(in.choice.highest);
     }
-    plan.bricks = wantedBricks(field, in.texels, in.choice, progress);
+    Progress choosing(progress, 0, 0.5), hashing(progress, 0.5, 1);
+    plan.bricks = wantedBricks(field, in.texels, in.choice, choosing);
     require(!plan.bricks.empty(), options.isovalues ? "--isovalues" : "SCENE",
             "no surface is there to be lit", "choose values inside the volume's");
-    in.content = side->content(progress);
+    in.content = side->content(hashing);
+    progress.report(1, kHashing);
     return plan;
 }
 
 BakedLight loadBakedLight(const std::filesystem::path& file, const ColonScene& scene, Progress& progress) {
-    progress.report(0.0, "reading baked light");
+    constexpr const char* kReading = "reading baked light";
+    progress.report(0.0, kReading);
     std::string problem;
     const auto read = readBakeFile(file, std::nullopt, problem);
     if (!read)
         throw Error(file.string(), "", problem.empty() ? "there is no such bake" : problem,
                     "make one with stereonav bake");
-    if (read->identity.content != contentOf(scene, progress))
+    Progress comparing(progress, 0.3, 0.7);
+    if (read->identity.content != contentOf(scene, comparing))
         throw Error(file.string(), "", "is the light of another volume", "bake this one");
     BakedLight light;
     light.kind = read->sums.shape().kind;
@@ -136,6 +145,7 @@ BakedLight loadBakedLight(const std::filesystem::path& file, const ColonScene& s
         if (light.kind == BakeKind::Irradiance) light.unit = lightUnitOf(read->sums);
         light.irradiance = illuminationOf(read->sums, light.unit);
     }
+    progress.report(1, kReading);
     return light;
 }
 

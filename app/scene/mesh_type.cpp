@@ -17,9 +17,10 @@ bool isMesh(const std::string& file) {
 }
 
 std::unique_ptr<Scene> loadMesh(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    TriangleMesh mesh = readMesh(options.scene, progress);
+    Progress reading(progress, 0, 0.5), sorting(progress, 0.5, 1);
+    TriangleMesh mesh = readMesh(options.scene, reading);
     const SunPlace sun = options.sun ? SunPlace{options.sun->azimuth, options.sun->elevation} : kSun;
-    auto scene = std::make_unique<ShownMesh>(MeshCaster(std::move(mesh), options.scene, progress), sun, simd);
+    auto scene = std::make_unique<ShownMesh>(MeshCaster(std::move(mesh), options.scene, sorting), sun, simd);
     adjustViews(options, *scene);
     return scene;
 }

@@ -234,15 +234,17 @@ std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progres
     SceneOptions options = mMade;
     applyChange(change, mFirst, options);
     refuseWhatDoesNotApply(options);
+    Progress changing(progress, 0, 0.5), occluding(progress, 0.5, 0.75), modulating(progress, 0.75, 1);
     LitVolume made;
     made.world = std::make_unique<VolumeWorld>(
-        changedScene(mWorld->colon(), colonOptionsOf(options), progress), options);
+        changedScene(mWorld->colon(), colonOptionsOf(options), changing), options);
     ColonScene& colon = made.world->colon();
     made.light = mLighting;
     made.light.traced = nullptr;  // of pictures
-    applyAmbient(options.volume, &mMade.volume, colon, progress);
+    applyAmbient(options.volume, &mMade.volume, colon, occluding);
     made.light.modulateSigma =
-        applyModulation(options.volume, &mMade.volume, mLighting.modulateSigma, colon, progress);
+        applyModulation(options.volume, &mMade.volume, mLighting.modulateSigma, colon, modulating);
+    progress.report(1, "changed");
     const float isovalue = colon.volume.cells.isovalue;
     auto scene =
         std::make_shared<ShownVolume>(std::move(made), mFirst, options, mRenderer.target(), &mValues);

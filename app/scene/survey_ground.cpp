@@ -51,8 +51,9 @@ DemGrid readHeights(const SceneFile& file, SurveyGround& survey, Progress& progr
         survey.tiles = std::make_shared<SurveyTiles>(std::move(tiled.levels));
         return std::move(tiled.place);
     }
-    DemGrid dem = readDem(file.dem, file.verticalScale, progress, bytesOfSurvey);
-    if (!file.openHoles) fillMissing(dem.heights, dem.width, dem.height, dem.spacing, progress);
+    Progress reading(progress, 0, file.openHoles ? 1 : 0.7), filling(progress, 0.7, 1);
+    DemGrid dem = readDem(file.dem, file.verticalScale, reading, bytesOfSurvey);
+    if (!file.openHoles) fillMissing(dem.heights, dem.width, dem.height, dem.spacing, filling);
     survey.ground =
         Heightfield(dem.width, dem.height, dem.spacing, std::move(dem.heights), file.dem.string());
     return dem;

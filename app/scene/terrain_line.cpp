@@ -61,6 +61,8 @@ void TerrainSurvey::addSpacing(const GroundSamples& samples, Facts& facts) const
 
 MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bool closed,
                                        Progress& progress) const {
+    constexpr const char* kMeasuring = "measuring";
+    progress.report(0, kMeasuring);
     std::vector<glm::dvec2> world;
     glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const glm::dvec3& place : places) {
@@ -75,7 +77,7 @@ MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bo
     FactList list;
     for (const GroundFigure& figure :
          closed ? figuresOfArea(ground, world, std::nullopt,
-                                [&](double share) { progress.report(share, "measuring"); })
+                                [&](double share) { progress.report(share, kMeasuring); })
                 : figuresOfLine(ground, world))
         list.both(figure.key, figure.value, figure.label,
                   fmt::format("{:.1f} {}{}", figure.value, figure.unit, errorText(figure)), figure.unit);
@@ -89,6 +91,7 @@ MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bo
         known = known || std::isfinite(point.height);
     }
     if (!known) throw Error("", "the ground there", "no height is known", "choose another place");
+    progress.report(1, kMeasuring);
     return measured;
 }
 

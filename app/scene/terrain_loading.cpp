@@ -113,9 +113,10 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
 }
 
 std::unique_ptr<Scene> loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progress& progress) {
-    auto shown = std::make_unique<ShownTerrain>(terrainOf(options, progress), simd,
+    Progress loading(progress, 0, 0.8), painting(progress, 0.8, 1);
+    auto shown = std::make_unique<ShownTerrain>(terrainOf(options, loading), simd,
                                                 options.lightLater && !options.light.given());
-    shown->paintGround(options, progress);
+    shown->paintGround(options, painting);
     return shown;
 }
 

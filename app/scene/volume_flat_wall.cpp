@@ -70,17 +70,18 @@ private:
 // Both strips. What each pixel shows is kept, so that painting casts no rays.
 class ColonPanoramaPicture final : public FlatPicture {
 public:
-    ColonPanoramaPicture(const ColonScene& colon, std::shared_ptr<const JoinedWall> wall, Progress& progress)
+    ColonPanoramaPicture(const ColonScene& colon, std::shared_ptr<const JoinedWall> wall, Progress& placing,
+                         Progress& drawing)
         : mWall(std::move(wall)),
           mSight(colon.volume.field, colon.volume.cells, colon.lumen.isovalue),
-          mPanorama(colon.volume.field, colon.centreline, mSight, UnfoldSetting{}.pixel, progress) {
+          mPanorama(colon.volume.field, colon.centreline, mSight, UnfoldSetting{}.pixel, placing) {
         checkMemory("panorama", static_cast<double>(sizeof(Shown)) * width() * height(),
                     "use the command unfold --panorama");
         mPlaces.resize(width(), height());
-        mPicture = mPanorama.picture(colon.volume.look, progress,
-                                     [this](int x, int y, const Panorama::Place& place) {
-                                         mPlaces.at(x, y) = {place.wall, place.eye, true};
-                                     });
+        mPicture =
+            mPanorama.picture(colon.volume.look, drawing, [this](int x, int y, const Panorama::Place& place) {
+                mPlaces.at(x, y) = {place.wall, place.eye, true};
+            });
     }
 
     int width() const override { return mPanorama.width(); }
@@ -134,11 +135,15 @@ private:
 }  // namespace
 
 std::shared_ptr<const FlatPicture> VolumeFlatWall::makeFlat(Progress& progress) const {
-    return std::make_shared<const ColonFlatPicture>(mColon, mWall.get(progress), progress);
+    Progress joining(progress, 0, 0.3), making(progress, 0.3, 1);
+    const std::shared_ptr<const JoinedWall> wall = mWall.get(joining);
+    return std::make_shared<const ColonFlatPicture>(mColon, wall, making);
 }
 
 std::shared_ptr<const FlatPicture> VolumeFlatWall::makePanorama(Progress& progress) const {
-    return std::make_shared<const ColonPanoramaPicture>(mColon, mWall.get(progress), progress);
+    Progress joining(progress, 0, 0.3), placing(progress, 0.3, 0.4), drawing(progress, 0.4, 1);
+    const std::shared_ptr<const JoinedWall> wall = mWall.get(joining);
+    return std::make_shared<const ColonPanoramaPicture>(mColon, wall, placing, drawing);
 }
 
 }  // namespace stereonav

@@ -30,8 +30,9 @@ std::vector<float> unseenOf(const VolumeWorld& world, const ColonInterior& insid
     CoverageSetting setting;
     setting.verticalFov = verticalFov;
     Coverage coverage(wall.mesh, wall.neighbours, sight, setting);
-    coverage.look(flights.there, progress);
-    if (both) coverage.look(flights.back, progress);
+    Progress there(progress, 0, both ? 0.5 : 1), back(progress, 0.5, 1);
+    coverage.look(flights.there, there);
+    if (both) coverage.look(flights.back, back);
     return unseenMarks(coverage.seen());
 }
 
@@ -78,7 +79,8 @@ std::vector<std::shared_ptr<const EyePainter>> wallPainters(VolumeWorld& world, 
     if (!inside)
         throw Error(fluid ? "--fluid" : "--paint", "", "expected a colon, whose wall is painted",
                     "leave it out");
-    const std::shared_ptr<const JoinedWall> joined = world.wall().get(progress);
+    Progress joining(progress, 0, 0.3), looking(progress, 0.3, 1);
+    const std::shared_ptr<const JoinedWall> joined = world.wall().get(joining);
     const WallMesh& wall = joined->mesh;
     std::vector<std::shared_ptr<const EyePainter>> painters;
     if (fluid) {
@@ -92,12 +94,13 @@ std::vector<std::shared_ptr<const EyePainter>> wallPainters(VolumeWorld& world, 
     }
     if (!options.paint.empty()) {
         const std::vector<float> marks =
-            unseenOf(world, *inside, *joined, paintAskedOf(options.paint).rest, verticalFov, progress);
+            unseenOf(world, *inside, *joined, paintAskedOf(options.paint).rest, verticalFov, looking);
         colon.notes.push_back(
             fmt::format("{:.1f} % of the wall is not seen: it is tinted blue", percentOf(wall, marks)));
         painters.push_back(
             wallPainter(wall, joined->neighbours, colon.volume.field.frame, marks, kUnseenTint));
     }
+    progress.report(1, "looking at the wall");
     return painters;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <future>
 #include <memory>
@@ -26,7 +27,8 @@ public:
 
     bool busy() const { return mWork.valid(); }
     double fraction() const { return mFraction; }
-    void cancel() {  // take() throws Cancelled soon
+    // take() throws Cancelled soon, also where the work comes to its end all the same, or fails.
+    void cancel() {
         if (mProgress) mProgress->cancel();
     }
     // Not while busy. wake: called from that thread when it is done.
@@ -47,7 +49,14 @@ public:
     std::optional<Result> take() {
         if (!busy() || mWork.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
             return std::nullopt;
-        return mWork.get();
+        const bool cancelled = mProgress->cancelled();
+        try {
+            Result result = mWork.get();
+            if (!cancelled) return result;
+        } catch (const std::exception&) {
+            if (!cancelled) throw;
+        }
+        throw Cancelled();
     }
 
 private:

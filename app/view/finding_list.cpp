@@ -165,6 +165,7 @@ void FindingList::judge() {
 
 void FindingList::cancel() {
     if (mProgress) mProgress->cancel();
+    mEnds = true;
     mFindsCandidates = false;
     mPage.clear(), mReport.clear();
 }
@@ -181,6 +182,7 @@ std::vector<std::pair<int, SurfaceFinding>> FindingList::unmeasured(bool values)
 void FindingList::start(const std::string& doing, bool values, Job job) {
     mDoing = doing;
     mWorksFor = mOpened;
+    mEnds = false;
     mFraction = std::make_shared<std::atomic<double>>(0);
     mProgress = std::make_shared<Progress>(
         [fraction = mFraction](double now, const std::string&) { *fraction = std::clamp(now, 0.0, 1.0); });
@@ -248,10 +250,15 @@ bool FindingList::beginReport() {
 
 void FindingList::take(Outcome outcome) {
     if (mWorksFor != mOpened) return;  // of a scene that is gone
+    // It may have come to its end all the same: what was written is there.
+    if (mProgress->cancelled() && outcome.told.empty()) {
+        outcome = {};
+        outcome.told = kCancelled;
+    }
     mTold = outcome.told;
     mProblem = outcome.problem;
     // What fails is not tried again and again.
-    if (!mProblem.empty() || mTold == kCancelled) mUsed = false, mStopped = true;
+    if (!mProblem.empty() || (mTold == kCancelled && mEnds)) mUsed = false, mStopped = true;
     for (auto& [id, finding] : outcome.measured) {
         const auto row = rowOf(mRows, id);
         if (row == mRows.end()) continue;

@@ -55,7 +55,7 @@ public:
     void use() { mUsed = !mStopped; }
     // It was cancelled or failed, and waits for goOn() or the next finding.
     bool stopped() const { return mStopped; }
-    void goOn() { mStopped = false, mUsed = true; }
+    void goOn() { mStopped = mEnds = false, mUsed = true; }
     // World. False: the list is full, or the scene measures none.
     bool add(const glm::dvec3& place);
     void remove(int id);
@@ -107,6 +107,7 @@ private:
     std::vector<std::pair<std::size_t, Row>> mRemoved;  // with the places that they had
     int mNext = 1, mOpened = 0, mWorksFor = 0;
     bool mUsed = false, mStopped = false, mClicks = false, mFindsCandidates = false;
+    bool mEnds = false;  // what is at work was cancelled, and nothing was asked for since
     std::string mSummary, mTold, mProblem, mDoing;
     std::shared_ptr<std::atomic<double>> mFraction = std::make_shared<std::atomic<double>>(0);
     std::shared_ptr<Progress> mProgress;

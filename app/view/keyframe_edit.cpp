@@ -119,6 +119,7 @@ void KeyframeEdit::start(Keyframes keys) {
 }
 
 void KeyframeEdit::add(const Pose& eye, double metresPerSecond) {
+    endDrag();
     Keyframes keys = mKeys;
     if (keys.empty()) {
         insertKeyframe(keys, {0, eye});
@@ -135,6 +136,7 @@ void KeyframeEdit::add(const Pose& eye, double metresPerSecond) {
 }
 
 void KeyframeEdit::removeChosen() {
+    endDrag();
     if (!mChosen) return;
     Keyframes keys = mKeys;
     removeKeyframe(keys, *mChosen);
@@ -142,6 +144,7 @@ void KeyframeEdit::removeChosen() {
 }
 
 void KeyframeEdit::beginDrag(std::size_t key) {
+    endDrag();
     if (key >= mKeys.size()) return;
     mChosen = mDragged = key;
     mBeforeDrag = mKeys;

@@ -29,7 +29,8 @@ public:
     void removeChosen();  // the one before it is chosen then
 
     // A place for the keyframe that is dragged; its head stays as it was. What lies beside it in time is
-    // moved on, so that it is flown there at the pace that it had.
+    // moved on, so that it is flown there at the pace that it had. Any other change ends a drag first, as a
+    // step of its own; a step back or forth drops it.
     void beginDrag(std::size_t key);
     bool dragging() const { return mDragged.has_value(); }
     const Pose& draggedFrom() const { return mBeforeDrag[*mDragged].pose; }  // while one is dragged

@@ -63,6 +63,7 @@ struct LiveCoverage::Work {
     bool stop = false;
     bool read = false;     // what was flown before
     bool forgets = false;  // ... it is not to be read
+    int times = 0;         // times that it was begun again
     WallLooking looking;
     long long judgement = 0;  // another one: all is looked at again
     FlownWay flown;
@@ -165,10 +166,11 @@ void LiveCoverage::Work::flyOwn() {
     std::unique_lock lock(mutex);
     while (!ownFlights.empty()) {
         const OwnFlight wish = ownFlights.front();
+        const int of = times;
         lock.unlock();
         const std::vector<Pose> poses = scene->offered<WallToSee>()->ownFlight(wish.back);
         lock.lock();
-        if (ownFlights.empty()) return;  // begun again meanwhile
+        if (times != of) continue;  // again meanwhile
         ownFlights.erase(ownFlights.begin());
         for (const Pose& pose : poses)
             if (flown.eyes.size() < FlownWay::kMost) flown.eyes.push_back(eyeAt(pose, wish.shape));
@@ -335,6 +337,7 @@ void LiveCoverage::startAgain() {
         const std::lock_guard lock(mWork->mutex);
         mWork->flown = {};
         mWork->forgets = true;
+        ++mWork->times;
         mWork->ownFlights.clear();
         mWork->problem.clear();
         mWork->written = false;

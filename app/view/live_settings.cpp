@@ -39,11 +39,16 @@ std::string sunText(const SunPlace& sun) {
     return degreeText(std::remainder(sun.azimuth, 2 * std::numbers::pi)) + "," + degreeText(sun.elevation);
 }
 
+std::string turnText(const SunPlace& sky) {
+    return degreeText(std::remainder(-sky.azimuth, 2 * std::numbers::pi));
+}
+
 struct Live {
     const char* key;
     bool (*has)(const ViewSession&);
     std::string (*now)(const ViewSession&);
-    bool (*asBegun)(const ViewSession&);  // what need not be said
+    // What need not be said. Light that was turned there and back differs by rounding: its texts count.
+    bool (*asBegun)(const ViewSession&);
     void (*set)(ViewSession&, const OptionValue&);
     void (*reset)(ViewSession&);
 };
@@ -143,21 +148,21 @@ constexpr Live kLive[] = {
      [](ViewSession& s) { s.setFov(std::nullopt); }},
     {"sun", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::Sun; },
      [](const ViewSession& s) { return sunText(s.sun()); },
-     [](const ViewSession& s) { return s.sun() == s.open().sun; },
+     [](const ViewSession& s) { return sunText(s.sun()) == sunText(s.open().sun); },
      [](ViewSession& s, const OptionValue& value) {
          s.placeSun({value.numbers[0] * kDegree, value.numbers[1] * kDegree});
      },
      [](ViewSession& s) { s.placeSun(s.open().sun); }},
     {"light-from", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::LightFrom; },
      [](const ViewSession& s) { return sunText(s.sun()); },
-     [](const ViewSession& s) { return s.sun() == s.open().sun; },
+     [](const ViewSession& s) { return sunText(s.sun()) == sunText(s.open().sun); },
      [](ViewSession& s, const OptionValue& value) {
          s.placeSun({value.numbers[0] * kDegree, value.numbers[1] * kDegree});
      },
      [](ViewSession& s) { s.placeSun(s.open().sun); }},
     {"turn", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::Sky; },
-     [](const ViewSession& s) { return degreeText(std::remainder(-s.sun().azimuth, 2 * std::numbers::pi)); },
-     [](const ViewSession& s) { return s.sun().azimuth == s.open().sun.azimuth; },
+     [](const ViewSession& s) { return turnText(s.sun()); },
+     [](const ViewSession& s) { return turnText(s.sun()) == turnText(s.open().sun); },
      [](ViewSession& s, const OptionValue& value) {
          s.placeSun({-value.number() * kDegree, s.sun().elevation});
      },
@@ -166,7 +171,7 @@ constexpr Live kLive[] = {
      }},
     {"tilt", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::Sky; },
      [](const ViewSession& s) { return degreeText(s.sun().elevation); },
-     [](const ViewSession& s) { return s.sun().elevation == s.open().sun.elevation; },
+     [](const ViewSession& s) { return degreeText(s.sun().elevation) == degreeText(s.open().sun.elevation); },
      [](ViewSession& s, const OptionValue& value) {
          s.placeSun({s.sun().azimuth, value.number() * kDegree});
      },

@@ -1,7 +1,6 @@
 #include "app/view/loading.h"
 
-#include <algorithm>
-#include <chrono>
+#include <exception>
 #include <utility>
 
 #include "app/command/quality.h"
@@ -24,10 +23,11 @@ OpenScene opened(std::shared_ptr<Scene> shown, const ViewOptions& options, bool 
     if (const auto plan = qualityOf(options.scene, scene, options.method, progress)) {
         open.way = {nameOf(plan->setting.method), plan->setting};
     } else if (measure && options.method == "auto" && !scene.offered<SurfaceChoices>()) {
-        progress.report(1.0, "measuring how to make the right eye");
+        progress.report(0, "measuring how to make the right eye");
         if (const auto measured = planScene(scene)) open.way.method = nameOf(measured->method);
     }
     open.way.edges = edgesOf(options.scene, scene);
+    progress.report(1, "opened");
     return open;
 }
 
@@ -35,18 +35,20 @@ OpenScene opened(std::shared_ptr<Scene> shown, const ViewOptions& options, bool 
 
 OpenScene openScene(const ViewOptions& options, bool measure, const SizeOption& window, ViewSweep* sweep,
                     Progress& progress) {
-    std::shared_ptr<Scene> scene = loadScene(options.scene, options.size, progress, kNoPicture);
+    Progress reading(progress, 0, 0.9), opening(progress, 0.9, 1);
+    std::shared_ptr<Scene> scene = loadScene(options.scene, options.size, reading, kNoPicture);
     checkSize(window, options.scene, kViewBytes);
     // A recorded flight is looked at once, with the scene that it was given for.
     if (measure && !options.path.empty()) scene->check(readPath(options.path), options.path);
     if (sweep) sweep->use(*scene);
-    return opened(std::move(scene), options, measure, progress);
+    return opened(std::move(scene), options, measure, opening);
 }
 
 OpenScene changedScene(const OpenScene& now, const SurfaceChange& change, const ViewOptions& options,
                        Progress& progress) {
-    std::shared_ptr<Scene> scene = now.scene->offered<SurfaceChoices>()->changed(change, progress);
-    OpenScene open = opened(std::move(scene), options, false, progress);
+    Progress changing(progress, 0, 0.9), opening(progress, 0.9, 1);
+    std::shared_ptr<Scene> scene = now.scene->offered<SurfaceChoices>()->changed(change, changing);
+    OpenScene open = opened(std::move(scene), options, false, opening);
     open.sun = now.sun;  // frames are made meanwhile, which may turn it
     open.changed = true;
     return open;
@@ -58,10 +60,6 @@ void applyChange(const SceneChange& change, const SceneOptions& first, SceneOpti
     options.volume.seeds = *change.seeds;
 }
 
-void SliceReading::cancel() {
-    if (mProgress) mProgress->cancel();
-}
-
 void SliceReading::abandon() {
     mAbandoned = true;
     cancel();
@@ -70,30 +68,17 @@ void SliceReading::abandon() {
 void SliceReading::start(std::shared_ptr<const OpenScene> scene, std::function<void()> wake) {
     const auto* const source = scene->scene->offered<SliceSource>();
     if (busy() || !source) return;
-    mFraction = 0;
     mAbandoned = false;
-    mProgress = std::make_unique<Progress>(
-        [this](double fraction, const std::string&) { mFraction = std::clamp(fraction, 0.0, 1.0); });
-    mReading =
-        std::async(std::launch::async, [this, source, scene = std::move(scene), wake = std::move(wake)] {
-            try {
-                auto study = source->readSlices(*mProgress);
-                wake();
-                return study;
-            } catch (...) {
-                wake();
-                throw;
-            }
-        });
+    mReading.start(
+        [source, scene = std::move(scene)](Progress& progress) { return source->readSlices(progress); },
+        std::move(wake));
 }
 
 std::shared_ptr<const SliceStudy> SliceReading::take() {
-    if (!busy() || mReading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
-    if (!mAbandoned) return mReading.get();
     try {
-        mReading.get();
+        return mReading.take().value_or(nullptr);
     } catch (const std::exception&) {
-        // Nobody waits for it.
+        if (!mAbandoned) throw;
     }
     return nullptr;
 }

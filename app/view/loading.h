@@ -1,12 +1,12 @@
 // Scenes for the viewer: loaded, measured, and loaded again with what the user changed in the window.
 #pragma once
 
-#include <atomic>
-#include <future>
+#include <functional>
 #include <memory>
 
 #include "app/command/commands.h"
 #include "app/scene/scene_loading.h"
+#include "app/view/beside_work.h"
 #include "app/view/session.h"
 #include "app/view/worker.h"
 
@@ -29,22 +29,18 @@ void applyChange(const SceneChange& change, const SceneOptions& first, SceneOpti
 // Reads the slices of a scene beside the window's thread.
 class SliceReading {
 public:
-    ~SliceReading() { cancel(); }  // and waits for the end
-
-    bool busy() const { return mReading.valid(); }
-    double fraction() const { return mFraction; }  // of what is being read
-    void cancel();                                 // take() throws Cancelled soon
-    void abandon();                                // of a scene that is gone: take() will tell nothing of it
+    bool busy() const { return mReading.busy(); }
+    double fraction() const { return mReading.fraction(); }  // of what is being read
+    void cancel() { mReading.cancel(); }                     // take() throws Cancelled soon
+    void abandon();  // of a scene that is gone: take() will tell nothing of it
     // Nothing while busy, or for a scene without slices. wake: called when it is done.
     void start(std::shared_ptr<const OpenScene> scene, std::function<void()> wake);
     // Null while it is not done; throws what reading threw.
     std::shared_ptr<const SliceStudy> take();
 
 private:
-    std::atomic<double> mFraction = 0;
-    std::unique_ptr<Progress> mProgress;  // of this reading alone
     bool mAbandoned = false;
-    std::future<std::shared_ptr<const SliceStudy>> mReading;
+    BesideWork<std::shared_ptr<const SliceStudy>> mReading;  // last: its end is waited for first
 };
 
 }  // namespace stereonav

@@ -177,16 +177,22 @@ MeasuredLine::Outcome MeasuredLine::outcomeOf(const Scene& scene, const std::vec
     }
 }
 
-bool MeasuredLine::poll() {
-    bool isNew = false;
-    if (std::optional<Outcome> outcome = mWork.take()) {
-        isNew = true;
-        if (!mDue && mPlaces.size() > 1) {  // else something newer is wanted
-            mProblem = outcome->problem;
-            mMeasured.reset();
-            if (mProblem.empty()) mMeasured = std::move(outcome->measured);
-        }
+// What was begun before a change is cancelled by it.
+bool MeasuredLine::takeMeasured() {
+    try {
+        std::optional<Outcome> outcome = mWork.take();
+        if (!outcome) return false;
+        mProblem = outcome->problem;
+        mMeasured.reset();
+        if (mProblem.empty()) mMeasured = std::move(outcome->measured);
+        return true;
+    } catch (const Cancelled&) {
+        return false;
     }
+}
+
+bool MeasuredLine::poll() {
+    const bool isNew = takeMeasured();
     if (!mDue || mWork.busy() || !mScene) return isNew;
     mDue = false;
     mWork.start(

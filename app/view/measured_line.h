@@ -60,6 +60,7 @@ private:
     static Outcome outcomeOf(const Scene& scene, const std::vector<glm::dvec3>& places, bool closed,
                              double eyeHeight, Progress& progress);
     void measureAgain();
+    bool takeMeasured();
     void changed();
     void write();
 

@@ -35,8 +35,10 @@ bool ScenePreparation::take() {
         mEnded = mName;
         throw;
     }
+    // It may be shown again: then what was done is found done.
+    if (mDropped) return false;
     mEnded = mName;
-    return !mDropped;
+    return true;
 }
 
 std::optional<PaintWork> ScenePreparation::work() const {

@@ -86,7 +86,7 @@ void SecondStudy::look(const SecondPlace& place, const glm::ivec2& size) {
     const Wish wish{place, size};
     {
         const std::lock_guard lock(mMutex);
-        if (mLast == wish || mWish == wish) return;
+        if ((mWish ? mWish : mLast) == wish) return;
         mWish = wish;
     }
     if (!mDrawer.joinable()) mDrawer = std::thread([this] { draw(); });

@@ -41,7 +41,11 @@ public:
     void close();
     bool loading() const { return mLoading.busy() || mNext; }
     double fraction() const { return mLoading.fraction(); }
-    void cancel() { mLoading.cancel(); }  // poll() throws Cancelled soon
+    // poll() throws Cancelled soon; what was only to be loaded after that is not begun.
+    void cancel() {
+        mLoading.cancel();
+        mNext = nullptr;
+    }
     // Takes what was loaded; true once when it is there. Throws what loading and matching threw.
     bool poll();
 

@@ -347,6 +347,7 @@ void ViewSession::setFov(std::optional<double> verticalFov) {
 
 void ViewSession::goTo(const Pose& pose) {
     stopPlaying();
+    mGoal.reset();
     mFlight->setPose(pose);
     mResting = false;
     mLooked = true;

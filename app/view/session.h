@@ -306,7 +306,11 @@ private:
     Pose mPlayed;
     MotionAhead mAhead;
     bool mOwnPath = false;  // mPath is the scene's own
-    std::vector<RecordedPath> mPathsBefore;
+    struct PathBefore {
+        RecordedPath path;
+        bool own;  // the scene's: given back, it is that of the scene that is shown then
+    };
+    std::vector<PathBefore> mPathsBefore;
     ViewStereo mStereo;
     double mDepthAhead = 0;  // metres
     SunPlace mSun;
@@ -314,6 +318,7 @@ private:
     bool mTranslucent = false;
     std::string mTransfer, mTriedTransfer;  // the second may not have gone
     std::optional<AmbientChoice> mAmbient;
+    std::string mMethodUnlit;  // its method, before ambient light was turned on
     std::optional<SceneChange> mChange;
     std::optional<SliceView> mSlices;
     std::shared_ptr<const SliceStudy> mStudy;

@@ -44,6 +44,7 @@ void ViewSession::togglePlaying() {
     if (mPlaying) return stopPlaying();
     if (mRecorder.recording()) saveFlight();
     if (mPath.samples().size() < 2) return notify("there is no flight to play; z records one");
+    mGoal.reset();
     mPlaying = true;
     mPlayTime = 0;
     mPlayed = mPath.at(mPath.startTime());
@@ -68,7 +69,7 @@ void ViewSession::editPath(const std::function<RecordedPath(const RecordedPath&)
     stopPlaying();
     try {
         RecordedPath edited = edit(mPath);
-        mPathsBefore.push_back(mPath);
+        mPathsBefore.push_back({mPath, mOwnPath});
         takePath(std::move(edited));
         if (mPathsBefore.size() > kKept) mPathsBefore.erase(mPathsBefore.begin());
         mOwnPath = false;
@@ -92,8 +93,10 @@ void ViewSession::setPath(RecordedPath path) {
 void ViewSession::undoPath() {
     if (mPathsBefore.empty()) return notify("the path was not changed");
     stopPlaying();
-    takePath(std::move(mPathsBefore.back()));
+    PathBefore before = std::move(mPathsBefore.back());
     mPathsBefore.pop_back();
+    mOwnPath = before.own;
+    takePath(before.own ? shown().path : std::move(before.path));
     notify(mPath.samples().empty() ? "no flight" : fmt::format("a flight of {:.1f} s", mPath.duration()));
 }
 

@@ -45,7 +45,7 @@ void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
         takePath(shown().path);
     } else if (raised) {
         setPath(raised->moved(mPath));
-        for (RecordedPath& path : mPathsBefore) path = raised->moved(path);
+        for (PathBefore& step : mPathsBefore) step.path = raised->moved(step.path);
     }
     if (!lightStays) mSun = mScene->sun;
     mModel = mScene->model;
@@ -170,8 +170,10 @@ void ViewSession::stepAmbient(int by) {
                                mAmbient->method.empty() ? methods.front() : mAmbient->method);
     const int at = mAmbient->lit ? static_cast<int>(now - methods.begin()) % (count - 1) + 1 : 0;
     const int next = (at + by + count) % count;
+    // Opacity may be modulated by the same: what held without ambient light holds again.
+    if (!mAmbient->lit) mMethodUnlit = mAmbient->method;
     mAmbient->lit = next > 0;
-    mAmbient->method = next > 0 ? methods[static_cast<std::size_t>(next - 1)] : "";
+    mAmbient->method = next > 0 ? methods[static_cast<std::size_t>(next - 1)] : mMethodUnlit;
     askForChange();
     notify(mAmbient->lit ? ambientText() : "the lamp in place of ambient light");
 }

@@ -13,7 +13,8 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSettling = 2;           // seconds at rest before the flight: eyes that follow have arrived
+constexpr double kSettling = 2;  // seconds at rest before the flight: eyes that follow have arrived
+constexpr const char* kJudging = "judging";
 constexpr std::size_t kSweptSamples = 4;  // of media one of so many is judged: a pair takes seconds
 constexpr int kTruthSide = 8;             // 64 rays a pixel
 constexpr int kMovingTruthSide = 4;       // 16, of pictures in motion
@@ -124,11 +125,12 @@ void addFine(const Scene& scene, const ShownPicture& picture, ErrorMean& error, 
     if (swept) swept->setEffort(kTruthEffort);
     const StereoViews views = viewsAt(picture.of, picture);
     lookFrom(scene, views);
-    const Plane<PackedColor> left = fineEye(scene, views.left, picture.of.time, progress);
+    Progress ofLeft(progress, 0, picture.of.twoEyes ? 0.5 : 1), ofRight(progress, 0.5, 1);
+    const Plane<PackedColor> left = fineEye(scene, views.left, picture.of.time, ofLeft);
     error.add(left, picture.left);
     if (other) ofOther.add(left, other->left);
     if (picture.of.twoEyes) {
-        const Plane<PackedColor> right = fineEye(scene, views.right, picture.of.time, progress);
+        const Plane<PackedColor> right = fineEye(scene, views.right, picture.of.time, ofRight);
         error.add(right, picture.right);
         if (other) ofOther.add(right, other->right);
     }
@@ -140,9 +142,10 @@ void addMovingTruth(const Scene& scene, const ShownPicture& picture, ErrorMean& 
     setLight(scene, picture.of);
     const StereoViews views = viewsAt(picture.of, picture);
     lookFrom(scene, views);
-    error.add(fineEye(scene, views.left, picture.of.time, progress, kMovingTruthSide), picture.left);
+    Progress ofLeft(progress, 0, picture.of.twoEyes ? 0.5 : 1), ofRight(progress, 0.5, 1);
+    error.add(fineEye(scene, views.left, picture.of.time, ofLeft, kMovingTruthSide), picture.left);
     if (picture.of.twoEyes)
-        error.add(fineEye(scene, views.right, picture.of.time, progress, kMovingTruthSide), picture.right);
+        error.add(fineEye(scene, views.right, picture.of.time, ofRight, kMovingTruthSide), picture.right);
 }
 
 FactValue valueOf(const std::optional<double>& number) {
@@ -221,12 +224,17 @@ void ViewBench::judge(const Scene& scene, Progress& progress) {
     if (auto* const detail = scene.offered<LateDetail>()) detail->waitForAll();
     EyePair pair;
     const bool fine = scene.offered<RayCast>() != nullptr;
-    for (std::size_t n = 0; n < mSamples.size(); n += fine ? 1 : kSweptSamples) {
+    const std::size_t each = fine ? 1 : kSweptSamples;
+    const double steps = std::ceil(static_cast<double>(mSamples.size()) / static_cast<double>(each)) + 1;
+    progress.report(0, kJudging);
+    for (std::size_t n = 0; n < mSamples.size(); n += each) {
         const Kept& kept = mSamples[n];
-        progress.report(0, "judging");
+        const double step = static_cast<double>(n / each);
+        Progress judging(progress, step / steps, (step + 1) / steps);
+        judging.report(0, kJudging);
         ++mJudged;
         addExact(scene, kept.picture.of, kept.picture, pair, moving);
-        if (fine) addMovingTruth(scene, kept.picture, movingTrue, progress);
+        if (fine) addMovingTruth(scene, kept.picture, movingTrue, judging);
         if (sameMoment(kept.now, kept.picture.of))
             addPair(pair, kept.picture, present);
         else
@@ -235,7 +243,9 @@ void ViewBench::judge(const Scene& scene, Progress& progress) {
     mMovingPsnr = moving.psnr();
     mMovingTruePsnr = movingTrue.psnr();
     mNowPsnr = present.psnr();
-    judgeRest(scene, progress);
+    Progress rest(progress, (steps - 1) / steps, 1);
+    judgeRest(scene, rest);
+    progress.report(1, kJudging);
 }
 
 void ViewBench::judgeRest(const Scene& scene, Progress& progress) {
@@ -245,8 +255,9 @@ void ViewBench::judgeRest(const Scene& scene, Progress& progress) {
     mTruthRays = swept ? kSweptTruthSide * kSweptTruthSide : kTruthSide * kTruthSide;
     mTruthEffort = swept ? kTruthEffort : 1;
     // One truth for both, where nothing moved between them.
-    addFine(scene, *mAfterOne, one, same ? &*mAfterTen : nullptr, ten, progress);
-    if (!same) addFine(scene, *mAfterTen, ten, nullptr, ten, progress);
+    Progress first(progress, 0, same ? 1 : 0.5), second(progress, 0.5, 1);
+    addFine(scene, *mAfterOne, one, same ? &*mAfterTen : nullptr, ten, first);
+    if (!same) addFine(scene, *mAfterTen, ten, nullptr, ten, second);
     mOnePsnr = one.psnr();
     mTenPsnr = ten.psnr();
     if (!swept) return;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <string_view>
 
@@ -272,8 +271,7 @@ void Viewer::saveScene(const std::filesystem::path& file) {
         settings.erase("SCENE");
         const std::string text = savedScene(before, named, isToml ? mSaid : SettingTexts(), settings);
         // The scene file itself was read, and is to be written: what else was read is not.
-        const auto write = [&](const std::filesystem::path& temporary) { std::ofstream(temporary) << text; };
-        writeFileAtomically(place, write, same ? Over::Anything : Over::NothingRead);
+        writeTextFile(place, text, Flush::ToDisk, same ? Over::Anything : Over::NothingRead);
         mSession->notify("saved " + place.string());
     });
 }

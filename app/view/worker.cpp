@@ -223,7 +223,7 @@ void ViewWorker::loadOne(const Load& load) {
         const std::lock_guard lock(mMutex);
         if (!mScene)
             mFailure = std::current_exception();
-        else
+        else if (!mProgress->cancelled() && !mLoad && !mChange)  // else something newer is wanted
             mReloadProblem = error.what();
     }
 }
@@ -233,6 +233,7 @@ void ViewWorker::reload(Load load) {
         const std::lock_guard lock(mMutex);
         mLoad = std::move(load);
         mChange.reset();  // it is part of the newer wish
+        mReloadProblem.clear();
         mLoading = {true, 0, ""};
         if (mProgress && mScene) mProgress->cancel();
     }
@@ -243,6 +244,7 @@ void ViewWorker::change(Change change) {
     {
         const std::lock_guard lock(mMutex);
         mChange = std::move(change);
+        mReloadProblem.clear();
         mLoading.busy = true;
     }
     mAsked.notify_all();

@@ -118,7 +118,8 @@ public:
         std::string what;
     };
     Loading loading() const;
-    // What the last reload failed with, "" when it did not; told once.
+    // What the last reload or change failed with, "" when it did not, or when another one is asked for since;
+    // told once.
     std::string takeReloadProblem();
 
     // Ends what is being loaded, or is to be; the present scene stays.

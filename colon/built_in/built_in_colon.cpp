@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -198,10 +197,10 @@ BuiltInColon builtInColon(const BuiltInColonSetting& setting, Progress& progress
     const BuiltInAnatomy anatomy(setting.seed, gap, 1000 * setting.bend, setting.inflation);
     Sampler sampler(anatomy, colon.grey, setting.seed);
     const int slabs = (setting.size.z + kBlock - 1) / kBlock;
-    std::atomic<int> done = 0;
+    ProgressSteps filled(progress, slabs, "making the built-in colon");
     parallelFor(slabs, [&](int slab) {
         sampler.fillSlab(slab);
-        progress.report(static_cast<double>(++done) / slabs, "making the built-in colon");
+        filled.done();
     });
     for (const BuiltInPolyp& polyp : anatomy.polyps()) colon.polyps.push_back(polyp.data);
     colon.axis = axisLine(anatomy);

@@ -14,6 +14,8 @@
 namespace stereonav {
 namespace {
 
+constexpr const char* kFinding = "finding the centreline";
+
 void check(const LumenField& lumen, const DistanceVolume& distance, const CentrelineSetting& setting) {
     if (!(setting.spacing > 0) || !std::isfinite(setting.spacing))
         throw Error("", "centreline spacing",
@@ -65,9 +67,7 @@ Centreline findCentreline(const LumenField& lumen, const DistanceVolume& distanc
     Centreline line;
     const int count = static_cast<int>(lumen.segments.size());
     for (int segment = 1; segment <= count; ++segment) {
-        const auto poll = [&] {
-            progress.report(static_cast<double>(segment - 1) / count, "finding the centreline");
-        };
+        const auto poll = [&] { progress.report(static_cast<double>(segment - 1) / count, kFinding); };
         poll();
         std::vector<glm::dvec3> piece = linePoints(lumen, segment, distance, setting, poll);
         if (!line.points.empty()) {  // goes on at the end that is nearer
@@ -79,6 +79,7 @@ Centreline findCentreline(const LumenField& lumen, const DistanceVolume& distanc
         for (const glm::dvec3& p : piece) line.points.push_back({p, probe.radius(p), segment});
     }
     if (setting.reversed) std::reverse(line.points.begin(), line.points.end());
+    progress.report(1, kFinding);
     return line;
 }
 

@@ -6,6 +6,8 @@
 namespace stereonav {
 namespace {
 
+constexpr const char* kLookingForTips = "looking for candidates";
+
 // Of each cluster of vertices that may be tips, the one that bulges most.
 std::vector<std::uint32_t> tipsOf(const WallNeighbours& neighbours, const std::vector<Curvatures>& curvatures,
                                   const CandidateSetting& setting) {
@@ -37,6 +39,9 @@ std::vector<std::uint32_t> tipsOf(const WallNeighbours& neighbours, const std::v
 
 std::vector<Candidate> polypCandidates(const WallMesh& mesh, const WallNeighbours& neighbours,
                                        const CandidateSetting& setting, Progress* progress) {
+    Progress quiet;
+    Progress& told = progress ? *progress : quiet;
+    told.report(0, kLookingForTips);
     const std::vector<Curvatures> curvatures =
         wallCurvatures(mesh, neighbours, setting.polyp.curvatureRadius);
     std::vector<Candidate> found;
@@ -44,9 +49,7 @@ std::vector<Candidate> polypCandidates(const WallMesh& mesh, const WallNeighbour
     const std::vector<std::uint32_t> tips = tipsOf(neighbours, curvatures, setting);
     std::size_t done = 0;
     for (const std::uint32_t tip : tips) {
-        if (progress)
-            progress->report(static_cast<double>(done++) / static_cast<double>(tips.size()),
-                             "looking for candidates");
+        told.report(static_cast<double>(done++) / static_cast<double>(tips.size()), kLookingForTips);
         if (taken[tip]) continue;  // of a head that was found by another tip of it
         std::string why;
         auto polyp = polypAt(mesh, neighbours, tip, setting.polyp, why);
@@ -59,6 +62,7 @@ std::vector<Candidate> polypCandidates(const WallMesh& mesh, const WallNeighbour
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+    told.report(1, kLookingForTips);
     return found;
 }
 

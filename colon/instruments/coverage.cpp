@@ -1,7 +1,6 @@
 #include "colon/instruments/coverage.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -123,11 +122,11 @@ void Coverage::look(std::span<const EyeView> eyes, Progress& progress) {
 }
 
 void Coverage::lookHere(std::span<const EyeView> eyes, Progress& progress) {
-    std::atomic<std::size_t> done = 0;
+    ProgressSteps chunks(progress, mChunks.size(), kLooking);
     // A chunk is one task: no two write the same vertex.
     parallelFor(static_cast<int>(mChunks.size()), [&](int n) {
         lookAt(static_cast<std::size_t>(n), eyes);
-        progress.report(static_cast<double>(++done) / static_cast<double>(mChunks.size()), kLooking);
+        chunks.done();
     });
 }
 
@@ -172,10 +171,10 @@ void Coverage::lookShared(std::span<const EyeView> eyes, Progress& progress) {
         return ByteWriter().putAll(std::span<const std::uint8_t>(seenOfPiece(piece))).take();
     };
     work.make = make;
-    std::size_t done = 0;
+    ProgressSteps pieces(progress, work.count, kLooking);
     work.take = [&](std::size_t piece, std::span<const std::byte> made) {
         ByteReader(made).getAll(seenOfPiece(piece));
-        progress.report(static_cast<double>(++done) / static_cast<double>(work.count), kLooking);
+        pieces.done();
     };
     PieceDealer(*mPeers).deal(work);
 }
@@ -257,6 +256,7 @@ std::vector<UnseenPatch> Coverage::patches(const FreeDistance& freeDistance, dou
 int Coverage::visit(const std::vector<UnseenPatch>& patches, const FreeDistance& freeDistance,
                     double clearance, Progress& progress) {
     int views = 0;
+    ProgressSteps visits(progress, patches.size(), "looking at unseen patches");
     for (std::size_t n = 0; n < patches.size(); ++n) {
         std::optional<Pose> view = patches[n].view;
         double left = patches[n].area;
@@ -270,8 +270,7 @@ int Coverage::visit(const std::vector<UnseenPatch>& patches, const FreeDistance&
             left = rest.front().area;
             view = viewOf(rest.front().vertices[rest.front().vertices.size() / 2], freeDistance, clearance);
         }
-        progress.report(static_cast<double>(n + 1) / static_cast<double>(patches.size()),
-                        "looking at unseen patches");
+        visits.done();
     }
     return views;
 }

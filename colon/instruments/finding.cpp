@@ -107,11 +107,14 @@ std::vector<Finding> FindingTool::candidates(Progress& progress) const {
     std::vector<Finding> findings;
     CandidateSetting setting;
     setting.polyp = polypSettingOf(mColon.volume.field.frame);
-    for (const Candidate& candidate : polypCandidates(mWall->mesh, mWall->neighbours, setting, &progress)) {
-        progress.report(1, "measuring candidates");
+    Progress looking(progress, 0, 0.5), measuring(progress, 0.5, 1);
+    const std::vector<Candidate> found = polypCandidates(mWall->mesh, mWall->neighbours, setting, &looking);
+    ProgressSteps measured(measuring, found.size(), "measuring candidates");
+    for (const Candidate& candidate : found) {
         findings.push_back(at(glm::dvec3(wall().places[candidate.polyp.tip])));
         findings.back().comment =
             fmt::format("candidate {}, score {:.2f} mm", findings.size(), 1e3 * candidate.score);
+        measured.done();
     }
     return findings;
 }

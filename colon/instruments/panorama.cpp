@@ -57,6 +57,7 @@ Panorama::Panorama(const GreyVolume& field, const Centreline& line, const LineOf
     mWidth = static_cast<int>(wide);
     mHeight = std::max(static_cast<int>(std::lround(high)), 1);
     checkMemory("panorama", 4.0 * mWidth * (2.0 * mHeight + kGap), "use larger pixels");
+    progress.report(1, "drawing the panorama");
 }
 
 // So far before what it looks at that a wall of the mean radius lies in its column.
@@ -81,8 +82,8 @@ std::optional<Panorama::Ray> Panorama::rayOf(int x, int y) const {
 Plane<PackedColor> Panorama::picture(const VolumeLook& look, Progress& progress, const Seen& seen) const {
     Plane<PackedColor> picture(mWidth, rows());
     const PackedColor white = packColor(glm::vec3(1)), black = packColor(glm::vec3(0));
+    ProgressSteps columns(progress, mWidth, "drawing the panorama");
     parallelFor(mWidth, [&](int x) {
-        if (x % 64 == 0) progress.report(0.5, "drawing the panorama");
         if (progress.cancelled()) throw Cancelled();
         for (int y = 0; y < picture.height(); ++y) {
             picture.at(x, y) = white;
@@ -100,6 +101,7 @@ Plane<PackedColor> Panorama::picture(const VolumeLook& look, Progress& progress,
         const bool isMark = x == 0 || marks != static_cast<int>(std::floor((x - 1) * mPixel / 0.01 + 1e-9));
         const int tall = !isMark ? 1 : marks % 10 == 0 ? kLongMark : kLongMark / 2;
         for (int y = 0; y < tall; ++y) picture.at(x, mHeight + 2 + y) = black;
+        columns.done();
     });
     return picture;
 }
@@ -151,14 +153,15 @@ Panorama::Shares Panorama::shares(const WallMesh& wall, Progress& progress) cons
     const int count = static_cast<int>(wall.places.size()), tasks = (count + kOneTask - 1) / kOneTask;
     std::vector<std::uint8_t> seen(wall.places.size(), 0);
     const double lifted = 0.5 * mSight.smallestSpacing();  // lines of sight end before the wall
+    ProgressSteps parts(progress, tasks, "looking at the wall from both ends");
     parallelFor(tasks, [&](int task) {
-        if (task % 64 == 0) progress.report(0.7, "looking at the wall from both ends");
         if (progress.cancelled()) throw Cancelled();
         for (int v = task * kOneTask; v < std::min((task + 1) * kOneTask, count); ++v) {
             const glm::dvec3 place = glm::dvec3(wall.places[v]) + lifted * glm::dvec3(wall.normals[v]);
             seen[v] = static_cast<std::uint8_t>((shows(End::Rectum, place) ? 1 : 0) |
                                                 (shows(End::Caecum, place) ? 2 : 0));
         }
+        parts.done();
     });
     Shares shares;
     double all = 0;

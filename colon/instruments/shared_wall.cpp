@@ -12,7 +12,9 @@ std::shared_ptr<const JoinedWall> joinedWall(const ColonScene& colon, Progress& 
 std::shared_ptr<const JoinedWall> SharedWall::get(Progress& progress) const {
     const std::lock_guard lock(mMutex);
     std::shared_ptr<const JoinedWall> wall = mWall.lock();
+    progress.report(0, "making the wall's mesh");
     if (!wall) mWall = wall = joinedWall(mColon, progress);
+    progress.report(1, "making the wall's mesh");
     return wall;
 }
 

@@ -27,6 +27,7 @@ constexpr double kEnds = 0.02;              // metres of the line whose height d
 constexpr double kTallShare = 0.98;         // of the line that keeps its length
 constexpr double kLongestTriangle = 0.012;  // metres along the line; longer ones join two loops
 constexpr int kMostPixels = 32768;
+constexpr const char* kUnfolding = "unfolding the wall";
 
 }  // namespace
 
@@ -35,12 +36,13 @@ UnfoldedWall::UnfoldedWall(const WallMesh& mesh, const WallNeighbours& neighbour
     : mMesh(mesh), mNeighbours(neighbours), mSetting(setting), mLine(line, sight) {
     if (mesh.triangles.empty() || !(mesh.area() > 0))
         throw Error("unfold", "", "expected a colon with a wall", "choose another study");
-    placeAlong(sight, progress);
-    placeAround(progress);
+    Progress along(progress, 0, 0.6), around(progress, 0.6, 0.9);
+    placeAlong(sight, along);
+    placeAround(around);
     makeColumns();
     makeEqual();
-    progress.report(0.9, "unfolding the wall");
     draw();
+    progress.report(1, kUnfolding);
 }
 
 // The nearest place of the line that a vertex sees: not that of a loop beside its own.
@@ -49,8 +51,10 @@ void UnfoldedWall::placeAlong(const LineOfSight& sight, Progress& progress) {
     const std::vector<UnfoldingLine::Frame>& frames = mLine.frames();
     std::vector<glm::vec3> values(mMesh.places.size(), glm::vec3(0));
     std::vector<std::uint8_t> known(mMesh.places.size(), 0);
-    parallelFor((count + kVertices - 1) / kVertices, [&](int task) {
-        if (task % 64 == 0) progress.report(0.2, "unfolding the wall");
+    const int tasks = (count + kVertices - 1) / kVertices;
+    Progress looking(progress, 0, 0.7);
+    ProgressSteps parts(looking, tasks, kUnfolding);
+    parallelFor(tasks, [&](int task) {
         std::vector<std::pair<double, std::size_t>> near;
         for (int v = task * kVertices; v < std::min((task + 1) * kVertices, count); ++v) {
             const glm::dvec3 place(mMesh.places[v]);
@@ -70,11 +74,12 @@ void UnfoldedWall::placeAlong(const LineOfSight& sight, Progress& progress) {
                 break;
             }
         }
+        parts.done();
     });
-    progress.report(0.5, "unfolding the wall");
     values = smoothOverWall(mMesh, mNeighbours, std::move(values), std::move(known), mSetting.stiff);
     mAlong.resize(values.size());
     std::transform(values.begin(), values.end(), mAlong.begin(), [](const glm::vec3& v) { return v.x; });
+    progress.report(1, kUnfolding);
 }
 
 void UnfoldedWall::placeAround(Progress& progress) {
@@ -92,10 +97,11 @@ void UnfoldedWall::placeAround(Progress& progress) {
             mAway[v] = static_cast<float>(away);
         }
     });
-    progress.report(0.7, "unfolding the wall");
+    progress.report(0.3, kUnfolding);
     ways = smoothOverWall(mMesh, mNeighbours, std::move(ways), std::vector<std::uint8_t>(mAlong.size(), 1),
                           mSetting.stiff);
     for (std::size_t v = 0; v < ways.size(); ++v) mTurn[v] = std::atan2(ways[v].y, ways[v].x);
+    progress.report(1, kUnfolding);
 }
 
 // Where the wall of the line's ends closes, much of it has the same number along the line: there columns take

@@ -42,15 +42,18 @@ LumenField lumenOfGrey(Study& study, const ColonOptions& options, std::vector<st
                        Progress& progress) {
     const bool keeps = options.cache && !options.study.empty();
     const std::uint64_t key = savedLumenKey(study.key, options.segmentation);
+    const double found = keeps ? 0.2 : 0;  // of the progress: none is looked for where none is kept
     if (keeps) {
-        SavedLumen saved = readSavedLumen(options.study, study.grey, options.segmentation, key, progress);
+        Progress reading(progress, 0, found);
+        SavedLumen saved = readSavedLumen(options.study, study.grey, options.segmentation, key, reading);
         notes.insert(notes.end(), saved.notes.begin(), saved.notes.end());
         if (saved.lumen) return std::move(*saved.lumen);
     }
+    Progress finding(progress, found, 1);
     LumenField lumen =
         options.keepsStudy
-            ? segmentColon(study.grey, options.segmentation, progress, std::move(study.air))
-            : segmentColon(std::move(study.grey), options.segmentation, progress, std::move(study.air));
+            ? segmentColon(study.grey, options.segmentation, finding, std::move(study.air))
+            : segmentColon(std::move(study.grey), options.segmentation, finding, std::move(study.air));
     if (keeps) notes.push_back(saveLumen(lumen.lumen, key));
     return lumen;
 }
@@ -73,14 +76,15 @@ FoundColon findColon(Study& study, const ColonOptions& options, Progress& progre
     found.ofMask = study.isMask;
     found.studyFrame = study.isMask ? study.mask.frame : study.grey.frame;
     found.notes = study.notes;
-    found.lumen = study.isMask ? lumenFromMask(study.mask, options.segmentation, progress)
-                               : lumenOfGrey(study, options, found.notes, progress);
+    Progress findingLumen(progress, 0, 0.7), findingLine(progress, 0.7, 1);
+    found.lumen = study.isMask ? lumenFromMask(study.mask, options.segmentation, findingLumen)
+                               : lumenOfGrey(study, options, found.notes, findingLumen);
     study.mask = {};
     if (!options.keepsStudy) study.grey = {};
     found.values = wholeRangeOf(found.lumen.field);
     dropFarValues(found.lumen);
     const DistanceVolume distance = distanceToOutside(found.lumen.lumen);
-    found.centreline = findCentreline(found.lumen, distance, options.centreline, progress);
+    found.centreline = findCentreline(found.lumen, distance, options.centreline, findingLine);
     return found;
 }
 
@@ -185,7 +189,7 @@ ColonScene sceneOf(FoundColon found, const ColonOptions& options, Progress& prog
     const GreyVolume& field = scene.volume.field;
     const double wall = scene.lumen.isovalue * field.scale + field.offset;
     scene.volume.look.transfer = wallTransfer(options, wall, scene.volume.look.surface);
-    progress.report(0.9, "preparing the wall");
+    progress.report(0, "preparing the wall");
     scene.volume.cells = wallCells(scene, progress);
     placeViewer(scene, options);
     return scene;
@@ -255,6 +259,22 @@ ColonScene sharing(const ColonScene& scene) {
     return same;
 }
 
+void changeWall(ColonScene& scene, const ColonOptions& options, Progress& progress) {
+    constexpr const char* kChanging = "changing the wall";
+    progress.report(0, kChanging);
+    VolumeLook& look = scene.volume.look;
+    const GreyVolume& field = scene.volume.field;
+    const double wall = scene.lumen.isovalue * field.scale + field.offset;
+    TransferFunction transfer = wallTransfer(options, wall, look.surface);
+    // Colours, and opacities that stay above 0, change no cell.
+    const bool same =
+        transfer == look.transfer || (!transfer.empty() && !look.transfer.empty() &&
+                                      shownNumbers(field, transfer) == shownNumbers(field, look.transfer));
+    look.transfer = std::move(transfer);
+    if (!same) scene.volume.cells = wallCells(scene, progress);
+    progress.report(1, kChanging);
+}
+
 // key: the study's, as far as it is asked for.
 Study readOrMake(const ColonOptions& options, std::uint64_t key, std::vector<Polyp>& polyps,
                  Progress& progress) {
@@ -292,20 +312,10 @@ double ColonScene::freeDistanceAt(const glm::dvec3& world, double upTo) const {
 
 ColonScene changedScene(const ColonScene& scene, const ColonOptions& options, Progress& progress) {
     ColonScene next = sharing(scene);
-    VolumeLook& look = next.volume.look;
-    if (!next.isColon()) {
+    if (next.isColon())
+        changeWall(next, options, progress);
+    else
         setSurface(next, options.isovalue, options, progress);
-        return next;
-    }
-    const GreyVolume& field = next.volume.field;
-    const double wall = next.lumen.isovalue * field.scale + field.offset;
-    TransferFunction transfer = wallTransfer(options, wall, look.surface);
-    if (transfer == look.transfer) return next;
-    // Colours, and opacities that stay above 0, change no cell.
-    const bool same = !transfer.empty() && !look.transfer.empty() &&
-                      shownNumbers(field, transfer) == shownNumbers(field, look.transfer);
-    look.transfer = std::move(transfer);
-    if (!same) next.volume.cells = wallCells(next, progress);
     return next;
 }
 
@@ -320,21 +330,24 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
         key = colonCacheKey(studysKey, options);
         if (std::optional<FoundColon> kept = readColonCache(key, damaged)) {
             const bool reads = options.keepsStudy && !kept->ofMask;
-            ColonScene scene = sceneOf(std::move(*kept), options, progress);
+            Progress making(progress, 0, reads ? 0.5 : 1), reading(progress, 0.5, 1);
+            ColonScene scene = sceneOf(std::move(*kept), options, making);
             scene.name = name;
-            if (reads) scene.study = readOrMake(options, 0, scene.polyps, progress).grey;
+            if (reads) scene.study = readOrMake(options, 0, scene.polyps, reading).grey;
             return scene;
         }
     }
     std::vector<Polyp> polyps;
-    Study study = readOrMake(options, studysKey, polyps, progress);
+    Progress reading(progress, 0, 0.5);
+    Study study = readOrMake(options, studysKey, polyps, reading);
     const bool foreign = !study.isMask && !looksLikeHounsfield(study.grey);
     if (options.isosurface || foreign) {
         if (foreign && !options.isosurface) refuseOfColons(options);
         const std::string note = foreign && !options.isosurface
                                      ? "no values near those of air: shown from outside, as a surface"
                                      : "";
-        ColonScene scene = surfaceOf(std::move(study), options, note, progress);
+        Progress making(progress, 0.5, 1);
+        ColonScene scene = surfaceOf(std::move(study), options, note, making);
         scene.name = name;
         return scene;
     }
@@ -342,10 +355,11 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
     if (study.isMask && options.segmentation.leavesFluid)
         throw Error("--fluid left", "", "a mask tells nothing of fluid",
                     "name the study that it was made from, or leave it out");
-    FoundColon found = inTheNameOf(options, [&] { return findColon(study, options, progress); });
+    Progress finding(progress, 0.5, 0.9), making(progress, 0.9, 1);
+    FoundColon found = inTheNameOf(options, [&] { return findColon(study, options, finding); });
     found.polyps = std::move(polyps);
     if (options.cache) writeColonCache(key, found);
-    ColonScene scene = sceneOf(std::move(found), options, progress);
+    ColonScene scene = sceneOf(std::move(found), options, making);
     scene.name = name;
     scene.study = std::move(study.grey);  // nothing of a mask
     if (damaged) scene.notes.push_back("the cache was damaged and is made again");

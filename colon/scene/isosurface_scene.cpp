@@ -198,10 +198,12 @@ SurfaceCells cellsAt(const GreyVolume& field, double isovalue, const TransferFun
     if (!std::isfinite(isovalue))
         throw Error("--isovalue", "", fmt::format("expected a number, got {}", isovalue),
                     "300 shows bone in CT");
-    SurfaceCells cells = findSurfaceCells(field, cellsShown(field, isovalue, transfer), progress);
+    Progress first(progress, 0, transfer.empty() ? 1 : 0.5), second(progress, 0.5, 1);
+    SurfaceCells cells = findSurfaceCells(field, cellsShown(field, isovalue, transfer), first);
     // A function that shows none of the values that there are shows the background.
     if (cells.active == 0 && !transfer.empty())
-        cells = findSurfaceCells(field, cellsShown(field, isovalue, {}), progress);
+        cells = findSurfaceCells(field, cellsShown(field, isovalue, {}), second);
+    progress.report(1, "storing what rays need");
     if (cells.active > 0) return cells;
     const Range16 range = storedRangeOf(field);
     throw Error("--isovalue", "", fmt::format("expected a value inside the volume's, got {:g}", isovalue),
@@ -270,18 +272,21 @@ ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progres
 
 void setSurface(ColonScene& scene, const std::optional<double>& isovalue, const ColonOptions& options,
                 Progress& progress) {
+    constexpr const char* kChanging = "changing the surface";
+    progress.report(0, kChanging);
     const GreyVolume& field = scene.volume.field;
     VolumeLook& look = scene.volume.look;
     const float now = scene.volume.cells.isovalue;
     const double value = isovalue.value_or(valueOf(field, now));
     TransferFunction transfer = transferOf(options, value, look.surface);
-    if ((!isovalue || storedIsovalue(field, value) == now) && transfer == look.transfer) return;
+    const bool nothing = (!isovalue || storedIsovalue(field, value) == now) && transfer == look.transfer;
     // Colours, and opacities that stay above 0, change no cell.
-    const bool same =
-        look.transfer.empty() == transfer.empty() && std::isfinite(value) &&
-        sameCells(cellsShown(field, value, transfer), cellsShown(field, valueOf(field, now), look.transfer));
+    const bool same = nothing || (look.transfer.empty() == transfer.empty() && std::isfinite(value) &&
+                                  sameCells(cellsShown(field, value, transfer),
+                                            cellsShown(field, valueOf(field, now), look.transfer)));
     if (!same) scene.volume.cells = cellsAt(field, value, transfer, progress);
     look.transfer = std::move(transfer);
+    progress.report(1, kChanging);
 }
 
 }  // namespace stereonav

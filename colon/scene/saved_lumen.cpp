@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kSavedVersion = 1;
 constexpr const char *kKeyField = "stereonav lumen key", *kHashField = "stereonav lumen hash";
 constexpr std::size_t kLongestHeader = 64 << 10;
+constexpr const char* kReading = "reading the lumen that was kept";
 
 std::string hexOf(std::uint64_t value) {
     return fmt::format("{:016x}", value);
@@ -106,7 +107,11 @@ std::string saveLumen(const MaskVolume& lumen, std::uint64_t key) {
 SavedLumen readSavedLumen(const fs::path& study, const GreyVolume& grey, const SegmentationSetting& setting,
                           std::uint64_t key, Progress& progress) {
     SavedLumen saved;
+    progress.report(0, kReading);
+    double from = 0;
     for (const fs::path& file : {fileInCache(key), lumenBeside(study)}) {
+        Progress reading(progress, from, from + 0.5);
+        from += 0.5;
         const std::string header = headerText(file), found = fieldOf(header, kKeyField);
         if (found.empty()) continue;  // nothing, or another's
         if (found != hexOf(key)) {
@@ -114,17 +119,18 @@ SavedLumen readSavedLumen(const fs::path& study, const GreyVolume& grey, const S
             continue;
         }
         try {
-            saved.lumen = restoreLumen(grey, readMask(file, header, progress), setting);
+            saved.lumen = restoreLumen(grey, readMask(file, header, reading), setting);
             if (saved.lumen) {
                 saved.notes.push_back("lumen read back from " + file.string());
                 noteUse(fileInCache(key));
-                return saved;
+                break;
             }
             saved.notes.push_back(file.string() + " does not fit the study: the lumen is found again");
         } catch (const Error&) {
             saved.notes.push_back(file.string() + " is damaged: the lumen is found again");
         }
     }
+    progress.report(1, kReading);
     return saved;
 }
 

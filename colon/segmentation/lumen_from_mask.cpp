@@ -104,7 +104,8 @@ LumenField lumenFromMask(const MaskVolume& mask, const SegmentationSetting& sett
     lumen.field = GreyVolume(crop.frame);
     lumen.isovalue = kMaskWall;
     setSegments(cut, orderOf(cut, all, crop.frame), lumen);
-    smoothMask(cut.runs, MaskSmoothing{}, lumen.field, progress);
+    Progress smoothing(progress, 0.3, 1);
+    smoothMask(cut.runs, MaskSmoothing{}, lumen.field, smoothing);
     progress.report(1, "found the lumen");
     return lumen;
 }

@@ -154,15 +154,17 @@ private:
 void smoothMask(const VoxelRuns& inside, const MaskSmoothing& setting, GreyVolume& field,
                 Progress& progress) {
     const glm::ivec3 size = inside.size, tiles = (size + (kTile - 1)) / kTile;
+    ProgressSteps rows(progress, tiles.y * tiles.z, "smoothing the wall");
     parallelFor(tiles.y * tiles.z, [&](int n) {
+        if (progress.cancelled()) throw Cancelled();
         TileSmoother smoother(inside, setting, field);
         const glm::ivec2 row(n % tiles.y, n / tiles.y);
-        if (row.x == 0) progress.report(static_cast<double>(row.y) / tiles.z, "smoothing the wall");
         for (int x = 0; x < tiles.x; ++x) {
             const Box tile{{x * kTile, row.x * kTile, row.y * kTile},
                            glm::min(glm::ivec3(x + 1, row.x + 1, row.y + 1) * kTile, size)};
             smoother.run(tile);
         }
+        rows.done();
     });
 }
 

@@ -319,8 +319,8 @@ void noteFluid(std::size_t pools, const SegmentationSetting& setting, LumenField
 LumenField segmentStudy(const GreyVolume& study, const SegmentationSetting& setting,
                         std::optional<VoxelRuns> known, const SliceDone& done, Progress& progress) {
     checkSetting(setting);
-    progress.report(0, "looking for air");
-    AirPieces air = findAir(study, setting, std::move(known), progress);
+    Progress findingAir(progress, 0, 0.4);
+    AirPieces air = findAir(study, setting, std::move(known), findingAir);
     takeSeeds(study, setting, air);
     progress.report(0.4, "looking for tagged fluid");
     FluidPools fluid = findFluid(study, setting, air);

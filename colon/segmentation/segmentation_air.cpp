@@ -197,6 +197,7 @@ int voxelAxisOf(const VolumeFrame& frame, int worldAxis) {
 
 AirPieces findAir(const GreyVolume& study, const SegmentationSetting& setting, std::optional<VoxelRuns> known,
                   Progress& progress) {
+    progress.report(0, "looking for air");
     AirPieces air;
     air.pieces.runs = known ? std::move(*known) : runsBelow(study, storedOf(study, setting.air));
     const std::size_t voxels = air.pieces.runs.voxelCount();
@@ -206,7 +207,7 @@ AirPieces findAir(const GreyVolume& study, const SegmentationSetting& setting, s
     if (voxels == study.frame.count())
         throw Error("", "study", fmt::format("nothing but air: all voxels lie below {:g} HU", setting.air),
                     "give a CT in Hounsfield units");
-    progress.report(0.2, "telling pieces of air apart");
+    progress.report(0.5, "telling pieces of air apart");
     air.pieces.parts = connectedComponents(air.pieces.runs);
     const AirJudge judge(study, air);
     for (std::size_t n = 0; n < air.pieces.parts.list.size(); ++n)
@@ -215,6 +216,7 @@ AirPieces findAir(const GreyVolume& study, const SegmentationSetting& setting, s
         dropRoundPieces(study, judge, air);
         noteCutPieces(study, air);
     }
+    progress.report(1, "telling pieces of air apart");
     return air;
 }
 

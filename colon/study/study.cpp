@@ -160,10 +160,12 @@ std::vector<SeriesInfo> listSeries(const fs::path& folder) {
 
 StudyGlance glanceAtStudy(const fs::path& path, Progress& progress) {
     if (isDicom(path)) return glanceAtSlices(path, progress);
+    progress.report(0, "looking at the header");
     const VolumeHeader header = readVolumeHeader(path);
     checkSampleFiles(path, header);
     StudyGlance glance{header.format, header.description, nameOf(header.type), header.size, {}, 1, 1};
     for (int axis = 0; axis < 3; ++axis) glance.spacing_mm.push_back(glm::length(header.steps[axis]));
+    progress.report(1, "looking at the header");
     return glance;
 }
 
@@ -191,7 +193,8 @@ std::uint64_t studyKey(const fs::path& path, const StudyOptions& options) {
 Study readStudy(const fs::path& path, const StudyOptions& options, Progress& progress) {
     const bool dicom = isDicom(path, options);
     Study study;
-    VolumeFile file = dicom ? readDicom(path, options, progress) : readVolumeFile(path, options, progress);
+    Progress reading(progress, 0, 0.8);
+    VolumeFile file = dicom ? readDicom(path, options, reading) : readVolumeFile(path, options, reading);
     progress.report(0.8, "looking at the values");
     study.format = file.format;
     study.description = file.description;

@@ -8,7 +8,6 @@
 #include <functional>
 #include <glm/trigonometric.hpp>
 #include <map>
-#include <mutex>
 
 #include "colon/study/picture_decoder.h"
 #include "colon/study/study_facts.h"
@@ -83,8 +82,7 @@ void takeSlices(const DicomSeries& series, RawStudy& raw, PixelCounts& counts, P
                 const std::function<void(int k)>& use) {
     const std::size_t slices = series.slices.size(), perSlice = raw.frame.count() / slices;
     const auto groups = byFile(series);
-    std::size_t done = 0;
-    std::mutex reporting;
+    ProgressSteps steps(progress, slices, fmt::format("reading {} slices", slices));
     PictureDecoder decoder;
     raw.bytes = LazyArray<unsigned char>(raw.frame.count() * sizeof(T));
     parallelFor(static_cast<int>(groups.size()), [&](int n) {
@@ -94,9 +92,7 @@ void takeSlices(const DicomSeries& series, RawStudy& raw, PixelCounts& counts, P
             const auto k = static_cast<std::size_t>(&slice - series.slices.data());
             takeHu(slice, stored, reinterpret_cast<T*>(raw.bytes.data()) + perSlice * k, counts);
             use(static_cast<int>(k));
-            const std::lock_guard lock(reporting);
-            progress.report(0.1 + 0.7 * static_cast<double>(++done) / static_cast<double>(slices),
-                            fmt::format("reading {} slices", slices));
+            steps.done();
         });
     });
 }
@@ -109,7 +105,8 @@ std::size_t decodeAll(const DicomSeries& series, RawStudy& raw, const StudyOptio
     raw.type = SampleType::Int16;
     std::vector<SliceLook> slices(series.slices.size());
     std::atomic<bool> many = false;
-    takeSlices<std::int16_t>(series, raw, whole, progress, [&](int k) {
+    Progress first(progress, 0, 0.8), again(progress, 0.8, 1);
+    takeSlices<std::int16_t>(series, raw, whole, first, [&](int k) {
         SliceLook& look = slices[static_cast<std::size_t>(k)];
         look = lookAtSlice(raw, k, many, options.airBelow);
         if (look.facts.many) many = true;
@@ -126,7 +123,7 @@ std::size_t decodeAll(const DicomSeries& series, RawStudy& raw, const StudyOptio
                                   raw.frame.count()));  // beside the whole numbers, which are given back then
     raw.bytes = {};
     raw.type = SampleType::Float32;
-    takeSlices<float>(series, raw, fractions, progress, [](int) {});
+    takeSlices<float>(series, raw, fractions, again, [](int) {});
     return fractions.padding;
 }
 
@@ -251,7 +248,7 @@ VolumeFile readDicom(const fs::path& place, const StudyOptions& options, Progres
                                                static_cast<std::uint64_t>(size.y),
                                                static_cast<std::uint64_t>(size.z)};
     checkSize(place.string(), voxels, bytesHeld(voxels, sizeof(std::int16_t), options));
-    progress.report(0.1, fmt::format("reading {} slices", size.z));
+    Progress reading(progress, 0.1, 0.9);
     VolumeFile result;
     result.format = "DICOM";
     result.description = joined({first.modality, first.description, first.kernel});
@@ -260,11 +257,13 @@ VolumeFile readDicom(const fs::path& place, const StudyOptions& options, Progres
     if (first.table) result.notes.push_back("values by the file's table (modality LUT)");
     result.raw.frame = places.frame;
     SliceLooks looks;
-    if (const std::size_t padded = decodeAll(series, result.raw, options, looks, progress); padded > 0)
+    if (const std::size_t padded = decodeAll(series, result.raw, options, looks, reading); padded > 0)
         result.notes.push_back(
             fmt::format("{} voxels of padding or below {} HU were set to {} HU", padded, kLeastHu, kLeastHu));
+    const std::string doing = fmt::format("reading {} slices", size.z);
     if (places.upright) {
         result.looks = std::move(looks);
+        progress.report(1, doing);
         return result;
     }
     result.raw = resampleSlices(result.raw, places, place.string());
@@ -272,6 +271,7 @@ VolumeFile readDicom(const fs::path& place, const StudyOptions& options, Progres
         fmt::format("resampled onto an even upright grid of {:.3f} mm steps: the largest gap was {:.2f} mm, "
                     "the tilt {:.2f} degrees",
                     places.frame.spacing.z * 1e3, places.largestGap * 1e3, glm::degrees(places.tilt)));
+    progress.report(1, doing);
     return result;
 }
 

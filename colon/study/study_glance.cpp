@@ -15,6 +15,7 @@ constexpr std::size_t kMostFiles = 100'000;  // that are counted
 constexpr std::size_t kMostLooks = 16;       // that are opened
 
 std::vector<fs::path> filesAt(const fs::path& place, Progress& progress) {
+    progress.report(0, "listing");
     std::error_code code;
     if (!fs::is_directory(place, code)) return {place};
     std::vector<fs::path> files;
@@ -62,6 +63,7 @@ StudyGlance glanceAtSlices(const fs::path& place, Progress& progress) {
             if (problem.empty()) problem = error.what();
         }
     }
+    progress.report(1, "looking at the slices");
     glance.series = series.size();
     if (!series.empty()) return glance;
     if (!problem.empty()) throw Error("", "", problem, "");

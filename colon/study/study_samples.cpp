@@ -65,7 +65,7 @@ struct Reading {
         come(done);
         const double share =
             static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(expected, 1));
-        progress.report(0.7 * share, "reading " + file.filename().string());
+        progress.report(share, "reading " + file.filename().string());
     }
 };
 
@@ -261,6 +261,7 @@ void checkSampleFiles(const fs::path& file, const VolumeHeader& header) {
 void readSamples(const fs::path& file, const VolumeHeader& header, unsigned char* to, Progress& progress,
                  const std::function<void(std::uint64_t bytes)>& come) {
     const SamplePlace& place = header.place;
+    progress.report(0, "reading " + file.filename().string());
     Reading reading{file, header, progress, come, bytesExpected(header)};
     const std::uint64_t share = reading.expected / place.files.size();
     for (const fs::path& data : place.files) {

@@ -106,7 +106,8 @@ VolumeFile readVolumeFile(const fs::path& file, const StudyOptions& options, Pro
     result.raw.bytes = LazyArray<unsigned char>(result.raw.frame.count() * bytesOf(header.type));
     const bool asTheyCome = places.upright && !header.place.turned;
     FactsBeside facts(result.raw, showsAir(result.raw) ? options.airBelow : std::nullopt);
-    readSamples(file, header, result.raw.bytes.data(), progress, [&](std::uint64_t bytes) {
+    Progress reading(progress, 0, 0.7);
+    readSamples(file, header, result.raw.bytes.data(), reading, [&](std::uint64_t bytes) {
         if (asTheyCome) facts.come(bytes);
     });
     result.looks = facts.take();
@@ -117,6 +118,7 @@ VolumeFile readVolumeFile(const fs::path& file, const StudyOptions& options, Pro
             fmt::format("resampled: slices sheared by {:.2f} degrees (gantry tilt) stand upright",
                         glm::degrees(places.tilt)));
     }
+    progress.report(1, "reading " + file.filename().string());
     return result;
 }
 

@@ -14,6 +14,7 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 constexpr std::uint32_t kNone = 0xFFFFFFFF;
 constexpr int kRun = 4096;  // vertices that one task makes triangles of
+constexpr const char* kMaking = "making the wall's mesh";
 
 class Maker {
 public:
@@ -21,12 +22,14 @@ public:
         : mField(field), mCells(cells), mLumen(lumen) {}
 
     WallMesh make(Progress& progress) {
+        progress.report(0, kMaking);
         findCells(progress);
-        progress.report(0.3, "making the wall's mesh");
+        progress.report(0.3, kMaking);
         placeVertices();
-        progress.report(0.6, "making the wall's mesh");
+        progress.report(0.6, kMaking);
         makeTriangles();
         addUp();
+        progress.report(1, kMaking);
         return std::move(mMesh);
     }
 
@@ -52,7 +55,7 @@ private:
                     static_cast<double>(vertices) * (sizeof(glm::vec3) * 3 + 4 + 4 * sizeof(Triangle)) +
                         static_cast<double>(mCells.records.size()) * 4,
                     "use a coarser study");
-        progress.report(0.1, "making the wall's mesh");
+        progress.report(0.1, kMaking);
         mVertexOf.assign(mCells.records.size(), kNone);
         mMesh.cells.reserve(vertices);
         for (const auto& part : found)

@@ -31,6 +31,14 @@ private:
     }
 };
 
+// A file that can not be read now, though it may be whole: no reason to make it anew, as damage is.
+class DiskError : public Error {
+public:
+    explicit DiskError(const std::string& file)
+        : Error(file, "", "can not be read to its end: the disk reports an error",
+                "copy it to another disk, or name another") {}
+};
+
 // Thrown out of a long job when its Progress was cancelled.
 class Cancelled : public std::runtime_error {
 public:

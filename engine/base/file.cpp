@@ -298,10 +298,10 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
     file.finish();
 }
 
-void writeTextFile(const fs::path& path, const std::string& content, Flush flush) {
+void writeTextFile(const fs::path& path, const std::string& content, Flush flush, Over over) {
     if (isStandardOutput(path) || isStream(path))
         return intoStream(path, [&](const auto& write) { write(content.data(), content.size()); });
-    PendingFile file(path);
+    PendingFile file(path, over);
     OpenFile out(path, file.temporary(), O_WRONLY | O_CREAT | O_TRUNC);
     out.write(content.data(), content.size());
     out.finish();

@@ -73,8 +73,8 @@ void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path&)>& write,
                          Over over = Over::NothingRead);
 
-void writeTextFile(const std::filesystem::path& path, const std::string& content,
-                   Flush flush = Flush::ToDisk);
+void writeTextFile(const std::filesystem::path& path, const std::string& content, Flush flush = Flush::ToDisk,
+                   Over over = Over::NothingRead);
 
 // Where computed things are kept between runs: $XDG_CACHE_HOME/stereonav or ~/.cache/stereonav.
 std::filesystem::path cacheFolder();

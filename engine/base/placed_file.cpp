@@ -29,15 +29,15 @@ PlacedFile& PlacedFile::operator=(PlacedFile&& other) noexcept {
     return *this;
 }
 
-bool PlacedFile::read(std::uint64_t at, void* to, std::size_t bytes) const {
+int PlacedFile::read(std::uint64_t at, void* to, std::size_t bytes) const {
     auto* out = static_cast<char*>(to);
     while (bytes > 0) {
         const ssize_t got = pread(mDescriptor, out, bytes, static_cast<off_t>(at));
         if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return false;
+        if (got <= 0) return got < 0 ? errno : ENODATA;
         out += got, at += static_cast<std::uint64_t>(got), bytes -= static_cast<std::size_t>(got);
     }
-    return true;
+    return 0;
 }
 
 int PlacedFile::write(std::uint64_t at, const void* from, std::size_t bytes) const {

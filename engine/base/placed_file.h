@@ -23,8 +23,8 @@ public:
     PlacedFile& operator=(PlacedFile&& other) noexcept;
 
     int error() const { return mError; }  // of opening, as errno; 0: it is open
-    // All of these bytes, or false.
-    bool read(std::uint64_t at, void* to, std::size_t bytes) const;
+    // 0 where all of these bytes were read, or the error as errno; ENODATA where the file ends before.
+    int read(std::uint64_t at, void* to, std::size_t bytes) const;
     // 0, or the error as errno.
     int write(std::uint64_t at, const void* from, std::size_t bytes) const;
     // Gives it that size, and all of its room at once: a full disk shows before the work is done. 0, or the

@@ -1,10 +1,14 @@
 // Progress of a long job, and the wish to stop it. The job calls report() now and then, from any
 // thread; the listener (a bar, a window) may ask to cancel, which throws Cancelled out of report(), as a wish
-// to stop the whole run does (stop.h).
+// to stop the whole run does (stop.h). A function that takes a Progress tells 0 first, never less than it
+// told before, and 1 last; what it hands on is a part of its own.
 #pragma once
 
 #include <atomic>
+#include <cmath>
+#include <cstddef>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -18,9 +22,15 @@ public:
     using Listener = std::function<void(double fraction, const std::string& what)>;
     Progress() = default;
     explicit Progress(Listener listener) : mListener(std::move(listener)) {}
+    // The part of another between two of its fractions. The other outlives it.
+    Progress(Progress& whole, double from, double to)
+        : mListener([&whole, from, to](double fraction, const std::string& what) {
+              whole.report(std::lerp(from, to, fraction), what);
+          }),
+          mWhole(&whole) {}
 
     void cancel() { mCancelled = true; }
-    bool cancelled() const { return mCancelled || stopWished(); }
+    bool cancelled() const { return mCancelled || stopWished() || (mWhole && mWhole->cancelled()); }
 
     // fraction in [0, 1]. Throws Cancelled once cancel() was called, or the run is to stop.
     void report(double fraction, const std::string& what) {
@@ -32,6 +42,32 @@ public:
 private:
     Listener mListener;
     std::atomic<bool> mCancelled = false;
+    const Progress* mWhole = nullptr;  // of a part
+};
+
+// Steps of one job that are done in any order, on any threads. They are told one after the other: without
+// that, two threads could tell theirs the wrong way round.
+class ProgressSteps {
+public:
+    ProgressSteps(Progress& progress, std::size_t count, std::string what)
+        : mProgress(progress), mCount(count), mWhat(std::move(what)) {
+        mProgress.report(0, mWhat);
+        if (mCount == 0) mProgress.report(1, mWhat);
+    }
+
+    // Once a step, after it.
+    void done() {
+        const std::lock_guard lock(mMutex);
+        ++mDone;
+        mProgress.report(static_cast<double>(mDone) / static_cast<double>(mCount), mWhat);
+    }
+
+private:
+    Progress& mProgress;
+    const std::size_t mCount;
+    const std::string mWhat;
+    std::mutex mMutex;
+    std::size_t mDone = 0;  // guarded by mMutex
 };
 
 }  // namespace stereonav

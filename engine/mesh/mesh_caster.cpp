@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <mutex>
 
 #include "engine/base/error.h"
 
@@ -58,11 +59,27 @@ void castPacket(RTCScene scene, const glm::vec3& origin, float tNear, const glm:
     }
 }
 
-// Asked by Embree now and then while it builds, on any of its threads; false ends that.
+// What Embree tells while it builds, on any of its threads; never less than before.
+class BuildProgress {
+public:
+    explicit BuildProgress(Progress& progress) : mProgress(progress) { tell(0); }
+
+    void tell(double fraction) {
+        const std::lock_guard lock(mMutex);
+        mTold = std::clamp(fraction, mTold, 1.0);
+        mProgress.report(mTold, "sorting the mesh's triangles");
+    }
+
+private:
+    Progress& mProgress;
+    std::mutex mMutex;
+    double mTold = 0;
+};
+
+// Asked by Embree now and then; false ends its work.
 bool goesOn(void* asked, double fraction) {
-    Progress& progress = *static_cast<Progress*>(asked);
     try {
-        progress.report(std::clamp(fraction, 0.0, 1.0), "sorting the mesh's triangles");
+        static_cast<BuildProgress*>(asked)->tell(fraction);
     } catch (const Cancelled&) {
         return false;
     }
@@ -137,11 +154,13 @@ void MeshCaster::State::build(const std::string& name, Progress& progress) {
     }
     rtcReleaseGeometry(geometry);
     if (!vertices || !indices) failed();
-    rtcSetSceneProgressMonitorFunction(tree.get(), goesOn, &progress);
+    BuildProgress building(progress);
+    rtcSetSceneProgressMonitorFunction(tree.get(), goesOn, &building);
     rtcCommitScene(tree.get());
     rtcSetSceneProgressMonitorFunction(tree.get(), nullptr, nullptr);
     if (progress.cancelled()) throw Cancelled();
     if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE) failed();
+    building.tell(1);
 }
 
 void MeshCaster::State::cast(const glm::vec3& origin, float tNear, const glm::dvec3* direction,

@@ -265,7 +265,9 @@ void MeshReader::readTriangles(const tinygltf::Primitive& primitive, std::size_t
 TriangleMesh readMesh(const std::filesystem::path& path, Progress& progress) {
     progress.report(0, "reading the mesh");
     const GltfFile file = readGltf(path);
-    return MeshReader(file, progress).read();
+    TriangleMesh mesh = MeshReader(file, progress).read();
+    progress.report(1, "reading the mesh");
+    return mesh;
 }
 
 TriangleMesh readMesh(const std::filesystem::path& path) {

@@ -105,16 +105,15 @@ private:
         Plane<PackedColor> left, right;
     };
 
-    // The third of a frame's truths that begins at `from`.
-    Plane<PackedColor> castTruth(const EyeView& view, double time, double from, Progress& progress) {
-        Progress part(
-            [&](double share, const std::string& what) { progress.report(from + share / 3, what); });
+    // third: of a frame's progress, 0 to 2.
+    Plane<PackedColor> castTruth(const EyeView& view, double time, int third, Progress& progress) {
+        Progress part(progress, third / 3.0, (third + 1) / 3.0);
         return renderSupersampled(mFrames, view, time, mSetting.truthFactor, part);
     }
 
     void castTruths(const StereoViews& views, double time, Progress& progress) {
-        mTruth.left = castTruth(views.left, time, 1.0 / 3, progress);
-        mTruth.right = castTruth(views.right, time, 2.0 / 3, progress);
+        mTruth.left = castTruth(views.left, time, 1, progress);
+        mTruth.right = castTruth(views.right, time, 2, progress);
     }
 
     // What errors are counted in: the right eye, or both.
@@ -314,10 +313,10 @@ std::vector<MethodFigures> compareMethods(FrameMaker& frames, const std::vector<
     std::vector<std::vector<MethodFigures>> byMethod(setting.methods.size());
     const std::size_t count = poses.size();
     for (std::size_t n = 0; n < count; ++n) {
-        Progress ofFrame([&](double share, const std::string& what) {
-            progress.report((static_cast<double>(n) + share) / static_cast<double>(count), what);
-        });
-        ofFrame.report(0, fmt::format("frame {} of {}", n + 1, count));
+        Progress ofFrame(progress, static_cast<double>(n) / static_cast<double>(count),
+                         static_cast<double>(n + 1) / static_cast<double>(count));
+        const std::string what = fmt::format("frame {} of {}", n + 1, count);
+        ofFrame.report(0, what);
         const auto shotAt = [&](const TimedPose& at) {
             return Shot{makeStereoViews(at.pose, lens, setting.eyes.empty() ? stereo : setting.eyes[n]),
                         at.time};
@@ -327,6 +326,7 @@ std::vector<MethodFigures> compareMethods(FrameMaker& frames, const std::vector<
         const auto figures = comparison.measure(shotAt(poses[n]), beside ? &*beside : nullptr,
                                                 static_cast<int>(n), ofFrame, listener);
         for (std::size_t k = 0; k < figures.size(); ++k) byMethod[k].push_back(figures[k]);
+        ofFrame.report(1, what);
     }
     std::vector<MethodFigures> result;
     for (const auto& ofFrames : byMethod) result.push_back(medianOf(ofFrames));

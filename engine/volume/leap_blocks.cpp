@@ -72,11 +72,13 @@ public:
         codeFarBricks();
         const glm::ivec3 blocks = (mFrame.size + (kLeapBlock - 1)) / kLeapBlock;
         const int count = blocks.x * blocks.y * blocks.z;
+        constexpr const char* kMeasuring = "measuring distances to the surface";
         for (int n = 0; n < count; ++n) {
-            progress.report(0.3 + 0.4 * n / count, "measuring distances to the surface");
+            progress.report(static_cast<double>(n) / count, kMeasuring);
             codeBlock(kLeapBlock *
                       glm::ivec3(n % blocks.x, n / blocks.x % blocks.y, n / (blocks.x * blocks.y)));
         }
+        progress.report(1, kMeasuring);
     }
 
 private:

@@ -203,7 +203,8 @@ SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& se
     const std::size_t mostAtOnce =
         setting.region ? SurfaceSetting::kRegionAtOnce : SurfaceSetting::kCellsAtOnce;
     if (frame.count() > setting.atOnce.value_or(mostAtOnce)) {
-        codeLeapsByBlocks(volume, setting, progress, cells);
+        Progress measuring(progress, 0.3, 0.7);
+        codeLeapsByBlocks(volume, setting, measuring, cells);
         progress.report(0.7, "storing what rays need");
         writeRecords(
             volume, setting,

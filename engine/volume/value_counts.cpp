@@ -89,14 +89,19 @@ ValueCounts countValues(const GreyVolume& grey, int border, const MaskVolume* ne
     const Span z = spanOf(grey.frame.size.z, border);
     if (grey.empty() || z.last < z.first) return result;
     result.counts.assign(kNumbers, 0);
+    const int layers = (z.last - z.first) / kBlock + 1;
+    ProgressSteps steps(progress, layers, "counting values");
     std::mutex mutex;
-    parallelFor((z.last - z.first) / kBlock + 1, [&](int layer) {
-        progress.report(0, "counting values");
+    parallelFor(layers, [&](int layer) {
+        if (progress.cancelled()) throw Cancelled();
         Counts counts(kNumbers);
         countLayer(grey, border, near, z.first + layer * kBlock, counts);
-        const std::lock_guard lock(mutex);
-        std::transform(counts.begin(), counts.end(), result.counts.begin(), result.counts.begin(),
-                       std::plus<>());
+        {
+            const std::lock_guard lock(mutex);
+            std::transform(counts.begin(), counts.end(), result.counts.begin(), result.counts.begin(),
+                           std::plus<>());
+        }
+        steps.done();
     });
     return result;
 }

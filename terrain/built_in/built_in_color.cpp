@@ -220,10 +220,11 @@ vec3 litBy(const Site& s, const vec3& normal, const vec3& toSun) {
 
 Plane<PackedColor> makeBuiltInColor(const Relief& relief, std::uint64_t seed, const TerrainLook* look,
                                     Progress& progress) {
+    progress.report(0, "lighting the ground");
     const Noise cover(seed * 31 + 11), bumps(seed * 31 + 12), grain(seed * 31 + 13);
     const vec3 toSun = directionToSun(look ? *look : TerrainLook());
     const std::vector<Site> sites = surveyed(relief, bakeLight(relief, toSun), cover);
-    progress.report(0.75, "painting the ground");
+    progress.report(0.4, "painting the ground");
     const int n = kBuiltInTexels * relief.size;
     Plane<PackedColor> color(n, n);
     const float scale = static_cast<float>(relief.size - 1) / static_cast<float>(n);

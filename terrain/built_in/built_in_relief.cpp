@@ -150,7 +150,7 @@ Landscape evolve(std::uint64_t seed, int size, Progress& progress) {
         const int rounds = level == 0 ? 90 : level == 1 ? 30 : level == 2 ? 14 : 9;
         for (int k = 0; k < rounds; ++k) {
             erode(land, level == 0 ? 160.0f : 80.0f, kErodibility, seed);
-            progress.report(0.5 * (static_cast<double>(level) + double(k) / rounds) / double(sizes.size()),
+            progress.report(0.8 * (static_cast<double>(level) + double(k) / rounds) / double(sizes.size()),
                             "raising mountains");
         }
     }
@@ -229,13 +229,13 @@ Relief makeRelief(std::uint64_t seed, int size, Progress& progress) {
     Landscape land = evolve(seed, size, progress);
     const Valleys valleys = findValleys(land);
     widenValleys(land, valleys);
-    progress.report(0.52, "shaping valleys");
+    progress.report(0.85, "shaping valleys");
     Relief relief = finished(land, valleys, seed);
     const auto [low, high] = std::minmax_element(relief.heights.begin(), relief.heights.end());
 
     const float base = *low, scale = kSummit / std::max(1.0f, *high - base);
     for (float& h : relief.heights) h = (h - base) * scale;
-    progress.report(0.6, "shaping valleys");
+    progress.report(1, "shaping valleys");
     return relief;
 }
 

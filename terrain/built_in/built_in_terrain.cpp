@@ -113,11 +113,12 @@ void checkSize(int size) {
 BuiltInTerrain generateBuiltInTerrain(std::uint64_t seed, int size, Progress& progress,
                                       const std::optional<TerrainLook>& look) {
     checkSize(size);
-    const Relief relief = makeRelief(seed, size, progress);
+    Progress shaping(progress, 0, 0.6), painting(progress, 0.6, 1);
+    const Relief relief = makeRelief(seed, size, shaping);
     BuiltInTerrain terrain;
     terrain.size = size;
     terrain.spacing = static_cast<double>(kBuiltInExtent) / (size - 1);
-    terrain.color = makeBuiltInColor(relief, seed, look ? &*look : nullptr, progress);
+    terrain.color = makeBuiltInColor(relief, seed, look ? &*look : nullptr, painting);
     terrain.heights = relief.heights;
     return terrain;
 }
@@ -125,7 +126,11 @@ BuiltInTerrain generateBuiltInTerrain(std::uint64_t seed, int size, Progress& pr
 BuiltInTerrain builtInTerrain(std::uint64_t seed, int size, Progress& progress) {
     checkSize(size);
     const fs::path file = cacheFile(seed, size);
-    if (auto cached = readCache(file, seed, size)) return std::move(*cached);
+    progress.report(0, "reading the ground");
+    if (auto cached = readCache(file, seed, size)) {
+        progress.report(1, "reading the ground");
+        return std::move(*cached);
+    }
     BuiltInTerrain terrain = generateBuiltInTerrain(seed, size, progress);
     writeCache(file, terrain, seed);
     return terrain;

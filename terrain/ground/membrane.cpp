@@ -229,6 +229,7 @@ void solveMembrane(const std::vector<std::size_t>& missing, std::vector<float>& 
         }
     }
     for (std::size_t k = 0; k < missing.size(); ++k) heights[missing[k]] += static_cast<float>(x[k]);
+    progress.report(1, "filling missing samples");
 }
 
 }  // namespace stereonav

@@ -84,8 +84,13 @@ void guessMissing(std::vector<float>& heights, int width, int height) {
 
 long long fillMissing(std::vector<float>& heights, int width, int height, const glm::dvec2& spacing,
                       Progress& progress) {
+    constexpr const char* kFilling = "filling missing samples";
+    progress.report(0, kFilling);
     const auto missingCount = static_cast<std::size_t>(countMissing(heights));
-    if (missingCount == 0 || missingCount == heights.size()) return 0;
+    if (missingCount == 0 || missingCount == heights.size()) {
+        progress.report(1, kFilling);
+        return 0;
+    }
     const double solved = missingCount <= kMostSolved ? kSolverBytes * static_cast<double>(missingCount) : 0;
     const double guess = 1.4 * sizeof(float) * static_cast<double>(heights.size());  // a pyramid of them
     checkMemory(fmt::format("filling {} missing samples", missingCount),
@@ -97,6 +102,7 @@ long long fillMissing(std::vector<float>& heights, int width, int height, const 
         if (!std::isfinite(heights[k])) missing.push_back(k);
     guessMissing(heights, width, height);
     if (missing.size() <= kMostSolved) solveMembrane(missing, heights, width, height, spacing, progress);
+    progress.report(1, kFilling);
     return static_cast<long long>(missing.size());
 }
 

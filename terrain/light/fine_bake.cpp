@@ -160,6 +160,7 @@ void bakeFineLight(const FineBake& bake, const std::filesystem::path& place,
     for (std::size_t n = 0; n < tiles.count(); ++n)
         if (!tiles.has(n)) missing.push_back(n);
     std::size_t done = tiles.count() - missing.size();
+    progress.report(0, "light at finer samples");
     const auto tell = [&] {
         progress.report(static_cast<double>(done) / static_cast<double>(tiles.count()),
                         fmt::format("light at finer samples, tile {} of {}",
@@ -181,6 +182,7 @@ void bakeFineLight(const FineBake& bake, const std::filesystem::path& place,
         ++done;
     };
     PieceDealer(peers).deal(work);
+    tell();
     tiles.finish(place);
 }
 

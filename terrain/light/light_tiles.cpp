@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <cstring>
 #include <fstream>
@@ -52,8 +53,9 @@ std::size_t bytesASample(const TerrainLightSettings& settings) {
 Head headIn(const std::filesystem::path& file) {
     Head head;
     std::ifstream in(file, std::ios::binary);
-    if (!in.read(reinterpret_cast<char*>(&head), sizeof head)) return {};
-    return head;
+    if (in.read(reinterpret_cast<char*>(&head), sizeof head)) return head;
+    if (in.bad()) throw DiskError(file.string());
+    return {};
 }
 
 // With the finest level that the file has, where it is such a file.
@@ -119,10 +121,11 @@ LightTiles::LightTiles(const std::filesystem::path& file, const FineLightShape& 
 
 LightTiles::LightTiles(const std::filesystem::path& file, const FineLightShape& shape)
     : LightTiles(file, asFineAs(file, shape), PlacedFile::For::Reading) {
+    std::error_code failed;
+    if (mPlaced.error() != 0 && std::filesystem::exists(file, failed)) throw DiskError(file.string());
     if (mPlaced.error() != 0) refuse("", std::string("cannot be opened: ") + std::strerror(mPlaced.error()));
     if (!isFineLight(file)) refuse("", "expected light at finer samples, found something else");
     if (!readIndex()) refuse("", "is of another bake, or of other ground, than the light beside it");
-    std::error_code failed;
     const std::uintmax_t bytes = std::filesystem::file_size(file, failed);
     if (failed || bytes != byteCount())
         refuse("", fmt::format("expected {} bytes, found {}: cut off or damaged", byteCount(),
@@ -158,8 +161,13 @@ LightTiles LightTiles::begin(const std::filesystem::path& file, const FineLightS
 bool LightTiles::readIndex() {
     Head head;
     const Head wanted = headOf(mShape);
-    return mPlaced.read(0, &head, sizeof head) && std::memcmp(&head, &wanted, sizeof head) == 0 &&
-           mPlaced.read(sizeof head, mChecks.data(), sizeof(std::uint64_t) * mChecks.size());
+    return isRead(mPlaced.read(0, &head, sizeof head)) && std::memcmp(&head, &wanted, sizeof head) == 0 &&
+           isRead(mPlaced.read(sizeof head, mChecks.data(), sizeof(std::uint64_t) * mChecks.size()));
+}
+
+bool LightTiles::isRead(int error) const {
+    if (error != 0 && error != ENODATA) throw DiskError(mFile.string());
+    return error == 0;
 }
 
 void LightTiles::refuse(const std::string& place, const std::string& problem) const {
@@ -191,7 +199,7 @@ glm::ivec2 LightTiles::sizeOf(const Tile& tile) const {
 
 std::vector<std::byte> LightTiles::bytesAt(std::size_t n) const {
     std::vector<std::byte> bytes(mAt[n + 1] - mAt[n]);
-    if (!mPlaced.read(mAt[n], bytes.data(), bytes.size()) ||
+    if (!isRead(mPlaced.read(mAt[n], bytes.data(), bytes.size())) ||
         tileCheck(bytes.data(), bytes.size()) != mChecks[n])
         return {};
     return bytes;

@@ -83,7 +83,8 @@ private:
         std::size_t first = 0;  // number of its first tile
     };
     LightTiles(const std::filesystem::path& file, const FineLightShape& shape, PlacedFile::For what);
-    bool readIndex();  // whether it is of this shape
+    bool isRead(int error) const;  // of PlacedFile::read(); false where the file ends. Throws DiskError
+    bool readIndex();              // whether it is of this shape
     // The bytes of a tile that is there; none where they can not be read, or are damaged.
     std::vector<std::byte> bytesAt(std::size_t n) const;
     [[noreturn]] void refuse(const std::string& place, const std::string& problem) const;

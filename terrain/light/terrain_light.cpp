@@ -127,6 +127,7 @@ private:
     bool helps() const { return mPeers && !mPeers->first(); }
 
     TerrainLight bake() {
+        mProgress.report(0, "baking");
         mLight.settings = mSettings;
         mLight.grid = mGrid;
         mLight.key = terrainLightKey(mGround, mSettings);

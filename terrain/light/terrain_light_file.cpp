@@ -130,6 +130,7 @@ TerrainLight emptyLight(const LightHeader& h) {
 LightHeader readHeader(std::istream& in, const std::string& name, std::uintmax_t fileSize) {
     LightHeader h;
     in.read(reinterpret_cast<char*>(&h), sizeof h);
+    if (in.bad()) throw DiskError(name);
     if (!in || std::memcmp(h.magic, kMagic, sizeof kMagic) != 0)
         throw Error(name, "", "expected light baked for a terrain, found something else",
                     "make one with stereonav bake");
@@ -186,6 +187,7 @@ TerrainLight loadTerrainLight(const std::filesystem::path& file, const Heightfie
     std::error_code code;
     const std::uintmax_t size = std::filesystem::file_size(file, code);
     std::ifstream in(file, std::ios::binary);
+    if (!in && std::filesystem::exists(file, code)) throw DiskError(name);
     if (code || !in) throw Error(name, "", "can not be read", "make it with stereonav bake");
     const LightHeader header = readHeader(in, name, size);
     const Sizes sizes = sizesOf(header);
@@ -196,8 +198,7 @@ TerrainLight loadTerrainLight(const std::filesystem::path& file, const Heightfie
     read(in, sizes.transfer, light.bounced);
     std::uint64_t sum = 0;
     in.read(reinterpret_cast<char*>(&sum), sizeof sum);
-    // What can not be read now may be whole: unlike damage this is no reason to make it anew.
-    if (in.bad()) throw std::runtime_error(name + ": can not be read to its end; check the disk it is on");
+    if (in.bad()) throw DiskError(name);
     if (!in || sum != checksum(header, light))
         throw Error(name, "", "the checksum does not fit the content: the file is damaged", kBakeAgain);
     if (ground != nullptr) checkGround(name, light, *ground);

@@ -22,6 +22,7 @@ namespace stereonav {
 namespace {
 
 constexpr int kLeastRoom = 1 << 14;
+constexpr double kHoles = 0.1;  // of the progress, where there are any
 constexpr double kTriangleBytes =
     160;  // with its share of the vertices, its place in the queue and in the file
 
@@ -64,10 +65,12 @@ public:
     }
 
     TerrainMesh run() {
+        mProgress.report(0, "simplifying");
         if (mGround.hasHoles()) insertHoleBorders();
         mCandidates.resize(mMesh.triangleCount());
         for (int t = 0; t < mMesh.triangleCount(); ++t) measure(t);
-        refine();
+        Progress refining(mProgress, mGround.hasHoles() ? kHoles : 0, 1);
+        refine(refining);
         return result();
     }
 
@@ -102,7 +105,7 @@ private:
     void insertOnce(const glm::ivec2& point);
     void measure(int triangle);
     void makeRoom();
-    void refine();
+    void refine(Progress& progress);
     TerrainMesh result() const;
 
     const Heightfield& mGround;
@@ -131,7 +134,7 @@ void Simplifier::insertHoleBorders() {
     for (const glm::ivec2 corner : {glm::ivec2(0, 0), {w - 1, 0}, {w - 1, h - 1}, {0, h - 1}})
         mInserted[static_cast<std::size_t>(corner.y) * w + corner.x] = true;
     for (int j = 0; j + 1 < h; ++j) {
-        mProgress.report(0.1 * j / h, "outlining holes");
+        mProgress.report(kHoles * j / h, "outlining holes");
         for (int i = 0; i + 1 < w; ++i) {
             const bool open = isOpenCell(i, j);
             if (i + 2 < w && open != isOpenCell(i + 1, j)) insertOnce({i + 1, j}), insertOnce({i + 1, j + 1});
@@ -182,7 +185,8 @@ void Simplifier::makeRoom() {
                 kTriangleBytes * mRoom, fmt::format("give a larger --error than {:g} m", mError));
 }
 
-void Simplifier::refine() {
+void Simplifier::refine(Progress& progress) {
+    double told = 0;  // a new triangle may be worse than the last
     const double first = mQueue.empty() ? 0.0 : mQueue.top().error;
     for (long long steps = 0; !mQueue.empty(); ++steps) {
         const Entry worst = mQueue.top();
@@ -190,15 +194,16 @@ void Simplifier::refine() {
         const Candidate candidate = mCandidates[worst.triangle];
         if (candidate.version != worst.version) continue;
         // Errors fall about as a power of the number of vertices.
-        if (steps % 4096 == 0)
-            mProgress.report(
-                std::clamp(std::log(first / worst.error) / std::log(first / mError + 1e-9), 0.0, 1.0),
-                "simplifying");
+        if (steps % 4096 == 0) {
+            told = std::clamp(std::log(first / worst.error) / std::log(first / mError + 1e-9), told, 1.0);
+            progress.report(told, "simplifying");
+        }
         mMesh.insert(candidate.sample, worst.triangle, mChanged);
         if (mMesh.triangleCount() > mRoom) makeRoom();
         mCandidates.resize(mMesh.triangleCount());
         for (const int t : mChanged) measure(t);
     }
+    progress.report(1, "simplifying");
 }
 
 TerrainMesh Simplifier::result() const {

@@ -19,6 +19,7 @@ constexpr double kMostRaised = 6;     // times that flatter ground is raised by 
 constexpr double kShadeShare = 0.8;   // of the light's variation that is laid over colours
 constexpr int kHatch = 3;             // pixels of a hatch's stripe
 constexpr float kHatchDark = 0.02f, kHatchLight = 0.16f;  // linear
+constexpr const char* kDrawing = "drawing the map";
 
 // From the north-west, half way up: as relief maps are lit.
 glm::dvec3 mapSun() {
@@ -32,8 +33,9 @@ glm::dvec2 worldOf(const GroundMap& map, double x, double y) {
 // Mean heights; NaN where most of the pixel is open.
 Plane<float> coarseHeights(const Heightfield& ground, const GroundMap& map, Progress& progress) {
     Plane<float> heights(map.picture.width(), map.picture.height());
+    ProgressSteps rows(progress, heights.height(), kDrawing);
     parallelFor(heights.height(), [&](int y) {
-        progress.report(0.7 * y / heights.height(), "drawing the map");
+        if (progress.cancelled()) throw Cancelled();
         for (int x = 0; x < heights.width(); ++x) {
             double sum = 0;
             int count = 0;
@@ -47,6 +49,7 @@ Plane<float> coarseHeights(const Heightfield& ground, const GroundMap& map, Prog
             heights.at(x, y) = 2 * count > kReads * kReads ? static_cast<float>(sum / count)
                                                            : std::numeric_limits<float>::quiet_NaN();
         }
+        rows.done();
     });
     return heights;
 }
@@ -122,11 +125,13 @@ GroundMap mapOfGround(const TerrainScene& terrain, int most, Progress& progress)
         return std::clamp(static_cast<int>(std::lround(length / map.metresPerPixel)), 1, most);
     };
     map.picture.resize(side(extent.x), side(extent.y));
-    const Plane<float> heights = coarseHeights(ground, map, progress);
+    Progress reading(progress, 0, 0.7), drawing(progress, 0.7, 1);
+    const Plane<float> heights = coarseHeights(ground, map, reading);
     const MapColors colors = colorsOf(terrain, map.metresPerPixel);
     const double raise = raiseOf(heights, map.metresPerPixel);
+    ProgressSteps rows(drawing, map.picture.height(), kDrawing);
     parallelFor(map.picture.height(), [&](int y) {
-        progress.report(0.7 + 0.3 * y / map.picture.height(), "drawing the map");
+        if (progress.cancelled()) throw Cancelled();
         for (int x = 0; x < map.picture.width(); ++x) {
             if (!std::isfinite(heights.at(x, y))) {
                 map.picture.at(x, y) = hatchAt(x, y);
@@ -138,8 +143,8 @@ GroundMap mapOfGround(const TerrainScene& terrain, int most, Progress& progress)
                 color *= static_cast<float>(shadeOf(raise * slopeAt(heights, x, y, map.metresPerPixel)));
             map.picture.at(x, y) = packColor(color);
         }
+        rows.done();
     });
-    progress.report(1, "drawing the map");
     return map;
 }
 

@@ -14,8 +14,9 @@ ColorTexture groundTexture(const Heightfield& ground, const GroundTextureSize& s
         glm::dvec2(ground.width(), ground.height()) / glm::dvec2(size.width, size.height);
     Plane<PackedColor> texels(size.width, size.height);
     constexpr int kBand = 64;
+    constexpr const char* kColouring = "colouring the ground";
     for (int first = 0; first < size.height; first += kBand) {
-        progress.report(double(first) / size.height, "colouring the ground");
+        progress.report(double(first) / size.height, kColouring);
         parallelFor(std::min(kBand, size.height - first), [&](int k) {
             const int row = first + k;
             for (int i = 0; i < size.width; ++i) {
@@ -24,7 +25,9 @@ ColorTexture groundTexture(const Heightfield& ground, const GroundTextureSize& s
             }
         });
     }
-    return ColorTexture(texels, origin, perTexel);
+    ColorTexture texture(texels, origin, perTexel);
+    progress.report(1, kColouring);
+    return texture;
 }
 
 GroundTextureSize groundTextureSize(const Heightfield& ground, glm::dvec2 density) {

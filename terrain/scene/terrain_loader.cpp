@@ -104,8 +104,9 @@ double bytesOfPicturedGround(double samples) {
 LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progress) {
     const auto bytesOf = file.image.empty() ? bytesOfTintedGround : bytesOfPicturedGround;
     const bool tiled = goesIntoTiles(file, bytesOf);
-    DemGrid dem = tiled ? readTiledGround(file, scene, progress)
-                        : readDem(file.dem, file.verticalScale, progress, bytesOf);
+    Progress reading(progress, 0, tiled ? 1 : 0.7), filling(progress, 0.7, 1);
+    DemGrid dem = tiled ? readTiledGround(file, scene, reading)
+                        : readDem(file.dem, file.verticalScale, reading, bytesOf);
     TerrainReport& report = scene.report;
     reportDem(dem, report);
     if (dem.georeferenced) scene.earth = earthPlaces(dem.grid, dem.spacing);
@@ -113,7 +114,7 @@ LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progr
     if (file.openHoles)
         report.openSamples = countMissing(dem.heights);
     else
-        report.filledSamples = fillMissing(dem.heights, dem.width, dem.height, dem.spacing, progress);
+        report.filledSamples = fillMissing(dem.heights, dem.width, dem.height, dem.spacing, filling);
     scene.ground = Heightfield(dem.width, dem.height, dem.spacing, std::move(dem.heights), file.dem.string());
     return {std::move(dem), std::nullopt};
 }
@@ -187,7 +188,7 @@ std::shared_ptr<const FineLight> finerLight(const std::filesystem::path& place, 
 }
 
 void loadLight(const SceneFile& file, TerrainScene& scene, Progress& progress) {
-    progress.report(0.9, "reading baked light");
+    progress.report(0, "reading baked light");
     const std::filesystem::path place = file.light == "auto" ? terrainLightCache(scene.ground) : file.light;
     if (file.light == "auto" && !std::filesystem::exists(place))
         throw Error(file.file.string(), "light", "none was baked for this ground yet",
@@ -208,6 +209,7 @@ void loadLight(const SceneFile& file, TerrainScene& scene, Progress& progress) {
                                               photo ? TerrainIllumination::kPhotoShare : 1.0f);
     scene.illumination->takeFiner(finer);
     scene.illumination->apply(scene.look, scene.color);
+    progress.report(1, "reading baked light");
 }
 
 // The highest ground within a cell of a place, for standing above it where the place is a hole.
@@ -288,10 +290,12 @@ TerrainScene loadTerrain(const SceneFile& file, Progress& progress) {
         throw Error(file.file.string(), "vertical scale",
                     fmt::format("expected a number above 0, got {:g}", file.verticalScale), "");
     TerrainScene scene;
-    LoadedGround loaded = file.builtIn ? loadBuiltIn(file, scene, progress) : loadDem(file, scene, progress);
+    progress.report(0, "reading the ground");
+    Progress reading(progress, 0, 0.6), colouring(progress, 0.6, 0.9), lighting(progress, 0.9, 1);
+    LoadedGround loaded = file.builtIn ? loadBuiltIn(file, scene, reading) : loadDem(file, scene, reading);
     scene.verticalScale = file.verticalScale;
     scene.look = file.look;
-    loadColor(file, loaded, scene, progress);
+    loadColor(file, loaded, scene, colouring);
     const glm::dvec2 spacing = scene.tiled     ? scene.tiled->levels->spacing(0)
                                : scene.standIn ? scene.standIn->spacing
                                                : scene.ground.spacing();
@@ -301,7 +305,7 @@ TerrainScene loadTerrain(const SceneFile& file, Progress& progress) {
     scene.lens.nearDepth = std::min(kNearPerSpacing * std::min(spacing.x, spacing.y), 0.25 * scene.clearance);
     scene.startPose = startPoseOf(file, scene);
     loadSky(file, scene);
-    if (!file.light.empty()) loadLight(file, scene, progress);
+    if (!file.light.empty()) loadLight(file, scene, lighting);
     if (!file.landmarks.empty())
         scene.landmarks = std::make_unique<LandmarkSet>(file.landmarks, scene.ground, scene.look);
     scene.path = pathOf(file, scene);

@@ -25,6 +25,8 @@
 namespace stereonav {
 namespace {
 
+constexpr const char* kMaking = "making tiles";
+
 std::filesystem::path tilesPlace(std::uint64_t content) {
     return cacheFolder() / fmt::format("ground_{:016x}.tiles", content);
 }
@@ -51,11 +53,14 @@ void makeStore(const std::filesystem::path& dem, DemRows& rows, const TileSource
     writeFileAtomically(
         place,
         [&](const std::filesystem::path& temporary) {
-            makeTiles(source, temporary, progress);
-            if (rows.mustBeReadAgain()) makeTiles(source, temporary, progress);
+            constexpr double kOnce = 0.9;  // of the progress: few are read again
+            Progress first(progress, 0, kOnce), again(progress, kOnce, 1);
+            makeTiles(source, temporary, first);
+            if (rows.mustBeReadAgain()) makeTiles(source, temporary, again);
             rows.checkHeights(1);  // before it is kept: who opens it later reads no row
         },
         Over::Anything);
+    progress.report(1, kMaking);
 }
 
 // What tiles are made of, and where they lie.
@@ -85,6 +90,18 @@ std::shared_ptr<const TileStore> storeThere(const StorePlan& plan) {
     }
 }
 
+// What is there, or made now.
+std::shared_ptr<const TileStore> storeOrMade(const std::filesystem::path& dem, DemRows& rows,
+                                             const StorePlan& plan, Progress& progress) {
+    progress.report(0, kMaking);
+    if (auto store = storeThere(plan)) {
+        progress.report(1, kMaking);
+        return store;
+    }
+    makeStore(dem, rows, plan.source, plan.place, progress);
+    return std::make_shared<TileStore>(plan.place, plan.source.content);
+}
+
 // The store itself is made by a reader of its own, on whatever thread.
 bool standsIn(const SceneFile& file, const StorePlan& plan, const DemGrid& dem, TerrainScene& scene) {
     std::optional<Heightfield> ground = standInGround(file, dem);
@@ -98,7 +115,7 @@ bool standsIn(const SceneFile& file, const StorePlan& plan, const DemGrid& dem, 
     scene.standIn = {plan.place.string(), dem.spacing, [dem = file.dem](Progress& progress) {
                          DemRows rows(dem);
                          const StorePlan now = storeOf(rows);
-                         if (!storeThere(now)) makeStore(dem, rows, now.source, now.place, progress);
+                         storeOrMade(dem, rows, now, progress);
                      }};
     return true;
 }
@@ -112,14 +129,6 @@ int levelInMemory(const GroundLevels& levels) {
     while (level + 1 < levels.count() && kHeightAndMaxima * samples() + bytesOfTint(samples()) > most)
         ++level;
     return level;
-}
-
-// What is there, or made now.
-std::shared_ptr<const TileStore> storeOrMade(const std::filesystem::path& dem, DemRows& rows,
-                                             const StorePlan& plan, Progress& progress) {
-    if (auto store = storeThere(plan)) return store;
-    makeStore(dem, rows, plan.source, plan.place, progress);
-    return std::make_shared<TileStore>(plan.place, plan.source.content);
 }
 
 std::shared_ptr<const GroundLevels> levelsOf(const SceneFile& file, std::shared_ptr<const TileStore> store,
@@ -163,7 +172,11 @@ DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& pr
     DemGrid dem = rows.place();
     std::shared_ptr<const TileStore> store = storeThere(plan);
     const bool made = !store;
-    if (made && file.standInSide > 0 && standsIn(file, plan, dem, scene)) return dem;
+    progress.report(0, kMaking);
+    if (made && file.standInSide > 0 && standsIn(file, plan, dem, scene)) {
+        progress.report(1, kMaking);
+        return dem;
+    }
     if (made) store = storeOrMade(file.dem, rows, plan, progress);
     TiledGround tiled;
     tiled.levels = levelsOf(file, store, dem.spacing);
@@ -181,6 +194,7 @@ DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& pr
                     dem.height, tiled.levels->count(), memoryText(static_cast<double>(store->byteCount())),
                     made ? ", made now" : "", 1 << tiled.level);
     scene.tiled = std::move(tiled);
+    progress.report(1, kMaking);
     return dem;
 }
 

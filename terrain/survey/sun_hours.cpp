@@ -53,7 +53,7 @@ Plane<float> hoursOfSun(const SightLines& lines, const std::vector<SunOverGround
     for (const SunOverGround& sun : suns)
         if (sun.elevation >= 0) rays.push_back(rayTo(sun, ground.spacing()));
     Plane<float> shone(ground.width(), ground.height());
-    progress.report(0, "following the sun");
+    ProgressSteps rows(progress, ground.height(), "following the sun");
     parallelFor(ground.height(), [&](int j) {
         for (int i = 0; i < ground.width(); ++i) {
             int count = 0;
@@ -62,6 +62,7 @@ Plane<float> hoursOfSun(const SightLines& lines, const std::vector<SunOverGround
                                   ? static_cast<float>(hours * count / static_cast<double>(suns.size()))
                                   : std::numeric_limits<float>::quiet_NaN();
         }
+        rows.done();
     });
     return shone;
 }

@@ -56,7 +56,6 @@ int partsOf(const Heightfield& ground) {
 
 Viewshed viewshedOf(const Heightfield& ground, const ViewshedSetting& setting, Progress& progress) {
     const double eye = checkedEye(ground, setting);
-    progress.report(0, "looking around");
     const HeightPyramid none;  // for grazing() alone, which needs none
     const double grazing =
         SightLines(ground, none, setting.fall).grazing(setting.eye, eye, setting.targetHeight);
@@ -76,9 +75,11 @@ Viewshed viewshedOf(const Heightfield& ground, const ViewshedSetting& setting, P
                        result.seen};
     const int parts = partsOf(ground);
     std::vector<FanCounts> counts(static_cast<std::size_t>(4) * parts);
+    ProgressSteps fans(progress, counts.size(), "looking around");
     parallelFor(4 * parts, [&](int k) {
         const int fan = k % 4;
         counts[static_cast<std::size_t>(k)] = FanSweep(task, fan / 2, fan % 2 ? -1 : 1, k / 4, parts).run();
+        fans.done();
     });
     result.samples = static_cast<long long>(ground.width()) * ground.height();
     for (const FanCounts& part : counts) {

@@ -88,6 +88,7 @@ public:
             advance(0);
         }
         writeIndex();
+        progress.report(1, "making tiles");
     }
 
 private:

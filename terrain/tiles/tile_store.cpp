@@ -22,7 +22,7 @@ TileStore::TileStore(const std::filesystem::path& file, std::uint64_t content)
         throw Error(file.string(), "tiles", problem, kMakeAgain);
     };
     if (mIn.error() != 0) refuse(std::string("cannot be opened: ") + std::strerror(mIn.error()));
-    if (!mIn.read(0, &mHead, sizeof mHead) || mHead.magic != TileFileHead().magic ||
+    if (mIn.read(0, &mHead, sizeof mHead) != 0 || mHead.magic != TileFileHead().magic ||
         mHead.check != checkOf(mHead) || mHead.width < 2 || mHead.height < 2)
         refuse("expected a store of tiles, found something else");
     if (mHead.content != content) refuse("the tiles are of other heights");
@@ -32,7 +32,7 @@ TileStore::TileStore(const std::filesystem::path& file, std::uint64_t content)
     if (failed || bytes != mPlan.byteCount())
         refuse(fmt::format("expected {} bytes, got {}", mPlan.byteCount(), failed ? 0 : bytes));
     std::vector<char> index(mPlan.indexEnd() - sizeof mHead);
-    if (!mIn.read(sizeof mHead, index.data(), index.size()) ||
+    if (mIn.read(sizeof mHead, index.data(), index.size()) != 0 ||
         checkOf(index.data(), index.size()) != mHead.indexCheck)
         refuse("the index of the tiles is damaged");
     for (const TileFilePlan::Level& level : mPlan.levels()) {
@@ -49,7 +49,7 @@ void TileStore::readTile(int level, const glm::ivec2& tile, float* heights) cons
     const TileFilePlan::Level& of = mPlan.levels()[level];
     const std::size_t number = static_cast<std::size_t>(tile.y) * of.tiles.x + tile.x;
     const auto place = [&] { return fmt::format("tile {}, {} of level {}", tile.x, tile.y, level); };
-    if (!mIn.read(of.data + kTileBytes * number, heights, kTileBytes))
+    if (mIn.read(of.data + kTileBytes * number, heights, kTileBytes) != 0)
         throw Error(mFile.string(), place(), "cannot be read", kMakeAgain);
     if (checkOf(heights, kTileBytes) != mChecks[level][number])
         throw Error(mFile.string(), place(), "is damaged", kMakeAgain);

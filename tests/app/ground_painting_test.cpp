@@ -222,6 +222,66 @@ TEST_F(GroundPaintingTest, ColoursFollowASunThatTurns) {
     }
 }
 
+// There and back, waited for or not: the colours are those of the sun that stands there now.
+TEST_F(GroundPaintingTest, ASunThatTurnedBackLeavesTheColoursOfBefore) {
+    for (const char* const word : {"slope", "hillshade"})
+        for (const bool waits : {true, false}) {
+            SCOPED_TRACE(std::string(word) + (waits ? ", waited for" : ""));
+            const auto scene = loaded();
+            LivePaint& paint = *scene->offered<LivePaint>();
+            TurningLight& sun = *scene->offered<TurningLight>();
+            paint.ask("paint", word);
+            settle(paint);
+            const auto before = pictureOf(*scene);
+            const SunPlace noon = sun.place();
+            sun.turnTo({4.5, 0.3});
+            pictureOf(*scene);  // asks for them
+            if (waits) {
+                settle(paint);
+                EXPECT_FALSE(same(pictureOf(*scene), before));
+            }
+            sun.turnTo(noon);
+            for (int turns = 0; turns < 3; ++turns) {  // what comes late asks again
+                pictureOf(*scene);
+                settle(paint);
+            }
+            EXPECT_TRUE(same(pictureOf(*scene), before));
+            EXPECT_EQ(paint.now("paint"), word);
+        }
+}
+
+// Wishes one after the other, each at once: the last one is shown, and each layer has its own.
+TEST_F(GroundPaintingTest, ThereAndBackShowsTheLastWishOfEachLayer) {
+    const auto scene = loaded();
+    LivePaint& paint = *scene->offered<LivePaint>();
+    const auto plain = pictureOf(*scene);
+    const auto shown = [&] {
+        settle(paint);
+        EXPECT_EQ(paint.takeProblem(), "");
+        return pictureOf(*scene);
+    };
+    const auto slope = pictureOf(*loaded([](SceneOptions& options) { options.paint = "slope"; }));
+    const auto tracks = pictureOf(*loaded([&](SceneOptions& options) { options.ground.tracks = walk(); }));
+    for (const char* const last : {"", "slope"})
+        for (int n = 0; n < 10; ++n) {
+            for (const char* const word : {"viewshed:50,50,2", "aspect", "", "slope", last}) {
+                paint.ask("paint", word);
+                EXPECT_EQ(paint.now("paint"), word);
+            }
+            // Read after what is at work: then that has come, or was dropped.
+            paint.ask("tracks", walk());
+            paint.ask("contours", "7"), paint.ask("contours", "");
+            settle(paint);
+            paint.ask("tracks", "");
+            EXPECT_TRUE(same(shown(), *last ? slope : plain)) << last << n;
+        }
+    paint.ask("paint", "");
+    paint.ask("tracks", "none.gpx"), paint.ask("tracks", walk());
+    settle(paint);
+    paint.takeProblem();  // where that was read before the next wish came
+    EXPECT_TRUE(same(shown(), tracks));
+}
+
 TEST_F(GroundPaintingTest, UnderWorkedOutLightTheOwnColoursComeBackLit) {
     for (const char* const first : {"", "slope"}) {
         const auto scene = loaded([&](SceneOptions& options) { options.paint = first; });

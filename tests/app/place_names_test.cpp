@@ -118,6 +118,36 @@ TEST(PlaceNames, NoneLiesOverANearerOne) {
     EXPECT_GT(changedIn(apart.left.color).pixels, changedIn(named({near}).left.color).pixels + 100);
 }
 
+// From a near place to a far one eyes move names towards each other on one side, and apart on the other.
+TEST(PlaceNames, NoneLiesOverANearerOneInEitherEye) {
+    const auto besides = [](const Changed& a, const Changed& b) {
+        return std::max(a.low.x, b.low.x) - std::min(a.high.x, b.high.x);  // pixels between them
+    };
+    const PaintedPlace near{"near by", {0, 40, 0}};
+    const EyePair alone = named({near});
+    const Changed left = changedIn(alone.left.color), right = changedIn(alone.right.color);
+    int leftAlone = 0, rightAlone = 0;
+    for (double x = -750; x <= 750; x += 15) {
+        const PaintedPlace far{"far off", {x, 4000, 0}};
+        const EyePair other = named({far}), both = named({far, near});
+        const int apart = besides(left, changedIn(other.left.color)),
+                  apartRight = besides(right, changedIn(other.right.color));
+        // Between a pixel and two margins it may be either.
+        const int clear = 2 + PlaceNames::letterHeight(kNamedDown);
+        const bool meets = apart < 0, meetsRight = apartRight < 0;
+        if (meets || meetsRight) {
+            EXPECT_TRUE(same(both, alone)) << x;
+        } else if (apart > clear && apartRight > clear) {
+            EXPECT_GT(changedIn(both.left.color).pixels, changedIn(alone.left.color).pixels) << x;
+            EXPECT_GT(changedIn(both.right.color).pixels, changedIn(alone.right.color).pixels) << x;
+        }
+        leftAlone += meets && apartRight > clear;
+        rightAlone += meetsRight && apart > clear;
+    }
+    EXPECT_GT(leftAlone, 0);
+    EXPECT_GT(rightAlone, 0);
+}
+
 TEST(PlaceNames, OfAnyBytesAreDrawn) {
     const glm::dvec3 here(0, 100, 0);
     const auto many = [](const std::string& letter, int times) {

@@ -18,7 +18,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kAcross = 200, kDown = 560;  // of the window, pixels
+constexpr int kSlicesAcross = 200, kSlicesDown = 560;  // of the window, pixels
 
 VolumeFrame slicedFrame() {
     VolumeFrame frame;
@@ -74,7 +74,7 @@ class SlicesPanelTest : public testing::Test {
 protected:
     void SetUp() override {
         try {
-            mWindow = std::make_unique<Window>("test", kAcross, kDown, false);
+            mWindow = std::make_unique<Window>("test", kSlicesAcross, kSlicesDown, false);
         } catch (const Error& error) {
             GTEST_SKIP() << error.what();
         }
@@ -91,19 +91,19 @@ protected:
         for (int n = 0; n < 2; ++n)
             mInterface->layOut({}, 0.02, [&] {
                 ImGui::SetNextWindowPos({0, 0});
-                ImGui::SetNextWindowSize({static_cast<float>(mWidth), static_cast<float>(kDown)});
+                ImGui::SetNextWindowSize({static_cast<float>(mWidth), static_cast<float>(kSlicesDown)});
                 ImGui::Begin("slices", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
                 panel.draw(mHost);
                 ImGui::End();
             });
-        glViewport(0, 0, kAcross, kDown);
+        glViewport(0, 0, kSlicesAcross, kSlicesDown);
         glDisable(GL_SCISSOR_TEST);
         glClearColor(0, 0, 0, 1);
         glClear(GL_COLOR_BUFFER_BIT);
         mInterface->render();
-        std::vector<unsigned char> pixels(std::size_t{kAcross} * kDown * 3);
+        std::vector<unsigned char> pixels(std::size_t{kSlicesAcross} * kSlicesDown * 3);
         glPixelStorei(GL_PACK_ALIGNMENT, 1);
-        glReadPixels(0, 0, kAcross, kDown, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+        glReadPixels(0, 0, kSlicesAcross, kSlicesDown, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
         return pixels;
     }
     // What a panel shows that showed other things before; `place`: that it was set to.
@@ -122,7 +122,7 @@ protected:
     std::unique_ptr<Window> mWindow;
     std::unique_ptr<Interface> mInterface;
     std::unique_ptr<SlicesPanel> mPanel;
-    int mWidth = kAcross;
+    int mWidth = kSlicesAcross;
     std::vector<unsigned char> mBefore;
 };
 

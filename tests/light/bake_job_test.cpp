@@ -14,6 +14,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/light/bake/brick_work.h"
 #include "tests/support/thread_peers.h"
+#include "tests/support/whole_progress.h"
 #include "tests/volume/test_volumes.h"
 
 namespace stereonav {
@@ -326,6 +327,29 @@ TEST(BakeJob, TellsWhatItDoes) {
     EXPECT_THAT(lines.back(),
                 testing::ContainsRegex("irradiance: [0-9]+ samples a texel, error .* %, 0:0[01] left"));
     EXPECT_GT(last, 0.5);
+}
+
+// Whatever ends it; more may be foreseen to be done on the way than was before.
+TEST(BakeJob, TellsAWholeProgress) {
+    for (const BakeGoal& goal : {BakeGoal{100, 0, 0}, BakeGoal{0, 0.01, 0}, BakeGoal{0, 0, 0.003},
+                                 BakeGoal{100, 0.5, 0}, BakeGoal{0, 0.01, 5}}) {
+        SCOPED_TRACE(testing::Message() << goal.samples << " " << goal.error << " " << goal.minutes);
+        BakeSums sums = emptySums(BakeKind::Irradiance);
+        test::WrittenProgress written;
+        ASSERT_NE(runBake(sums, madeUp(), goal, written.progress()), BakeEnd::Cancelled);
+        written.expectWhole("a bake");
+        test::WrittenProgress again;
+        ASSERT_NE(runBake(sums, madeUp(), goal, again.progress()), BakeEnd::Cancelled);
+        again.expectWhole("one that goes on");
+    }
+    for (const int processes : {2, 3})
+        runAsPeers(processes, [&](Peers& peers) {
+            BakeSums sums = emptySums(BakeKind::Irradiance);
+            if (!peers.first()) return serveBake(sums, madeUp(), peers);
+            test::WrittenProgress written;
+            EXPECT_EQ(runBake(sums, madeUp(), {100, 0, 0}, written.progress(), {}, &peers), BakeEnd::Reached);
+            written.expectWhole("one of several processes");
+        });
 }
 
 TEST(BakeJob, KeepsNowAndThen) {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <mutex>
 #include <random>
 
 #include "engine/camera/stereo_rig.h"
 #include "engine/stereo/right_eye.h"
+#include "tests/support/whole_progress.h"
 
 namespace stereonav {
 namespace {
@@ -172,19 +172,43 @@ TEST(MeshRenderer, TheSunLightsWhatFacesIt) {
     EXPECT_EQ(imageOf(renderer, view).color.at(4, 4), packColor(glm::vec3(0.25f)));
 }
 
+// A sheet without thickness has two sides, each lit where it faces the sun: whichever way its triangles go
+// round, and its normals point.
+TEST(MeshRenderer, ASheetIsLitOnTheSideThatFacesTheSun) {
+    for (const bool reversed : {false, true})
+        for (const double normal : {0.0, 1.0, -1.0}) {
+            TriangleMesh mesh;
+            mesh.materials.emplace_back();
+            for (const auto& [x, z] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+                mesh.vertices.push_back(cornerAt({x, 0, z}));
+                mesh.vertices.back().normal = glm::vec3(0, normal, 0);
+            }
+            mesh.triangles = {{{0, 1, 2}, 0}, {{0, 2, 3}, 0}};
+            if (reversed) mesh.triangles = {{{2, 1, 0}, 0}, {{3, 2, 0}, 0}};
+            MeshRenderer renderer(MeshCaster(mesh, "sheet"));
+            for (const double sun : {-1.0, 1.0}) {
+                renderer.setLight({glm::normalize(glm::dvec3(0, sun, 0.75)), 0.25f});
+                for (const double from : {-1.0, 1.0}) {
+                    SCOPED_TRACE(testing::Message()
+                                 << reversed << " normal " << normal << " sun " << sun << " seen " << from);
+                    EyeView view = viewFrom({0, 4 * from, 0}, 9, 9, 0.01);
+                    view.forward = {0, -from, 0}, view.right = {-from, 0, 0};
+                    const EyeImage image = imageOf(renderer, view);
+                    EXPECT_NEAR(image.viewDepth.at(4, 4), 4, 1e-6);
+                    EXPECT_EQ(image.color.at(4, 4),
+                              packColor(glm::vec3(from == sun ? 0.25f + 0.75f * 0.8f : 0.25f)));
+                }
+            }
+        }
+}
+
 TEST(MeshRenderer, BuildingItsTreeEndsWhenItIsCancelled) {
     Progress cancelled;
     cancelled.cancel();
     EXPECT_THROW(MeshCaster(crowd(20000), "crowd", cancelled), Cancelled);
-    double last = 0;
-    std::mutex one;
-    Progress told([&](double fraction, const std::string&) {
-        const std::lock_guard lock(one);
-        last = std::max(last, fraction);
-    });
-    const MeshCaster caster(crowd(20000), "crowd", told);
-    EXPECT_GT(last, 0);
-    EXPECT_LE(last, 1);
+    for (const int count : {1, 20000})
+        test::expectWholeProgress("sorting " + std::to_string(count) + " triangles", 0,
+                                  [&](Progress& progress) { MeshCaster(crowd(count), "crowd", progress); });
 }
 
 // Flat in one direction, in two, in all three: triangles without area are never hit, and harm nothing.

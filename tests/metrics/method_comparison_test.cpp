@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/frame/cast_frames.h"
 #include "tests/support/analytic_scene.h"
+#include "tests/support/whole_progress.h"
 
 namespace stereonav {
 namespace {
@@ -67,11 +68,7 @@ TEST(MethodComparison, FullIsExactAndOpenHolesCost) {
 TEST(MethodComparison, ShowsEveryFrameWithEveryMethod) {
     const auto scene = ballBeforeWall();
     CastFrames frames(scene);
-    double last = -1;
-    Progress progress([&](double share, const std::string&) {
-        EXPECT_GE(share, last);
-        last = share;
-    });
+    Progress progress;
     std::vector<int> indices;
     compareMethods(frames, twoPoses(), kLens, kStereo, settingOf({"linear", "mcmillan"}), progress,
                    [&](const ComparedFrame& frame) {
@@ -86,7 +83,18 @@ TEST(MethodComparison, ShowsEveryFrameWithEveryMethod) {
                        EXPECT_EQ(frame.leftTruth.width(), 120);
                    });
     EXPECT_EQ(indices, (std::vector<int>{0, 1}));
-    EXPECT_DOUBLE_EQ(last, 1.0);
+}
+
+TEST(MethodComparison, TellsAWholeProgress) {
+    const auto scene = ballBeforeWall();
+    CastFrames frames(scene);
+    for (const bool beside : {false, true}) {
+        ComparisonSetting setting = settingOf({"linear", "full"});
+        if (beside) setting.beside = twoPoses();
+        test::expectWholeProgress(beside ? "with the next frames" : "alone", 5, [&](Progress& progress) {
+            compareMethods(frames, twoPoses(), kLens, kStereo, setting, progress, {});
+        });
+    }
 }
 
 TEST(MethodComparison, TheEdgeFigureDoesNotDependOnTheSelection) {

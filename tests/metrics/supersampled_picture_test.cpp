@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "engine/frame/cast_frames.h"
+#include "tests/support/whole_progress.h"
+
 namespace stereonav {
 namespace {
 
@@ -47,6 +50,21 @@ TEST(SupersampledPicture, AveragesInLinearLight) {
             EXPECT_NEAR(linear.x, (x + 0.5) / 7, 2e-3) << x << " " << y;
             EXPECT_NEAR(linear.y, y == 0 ? 1.0 : y == 1 ? 0.5 : 0.0, 2e-3) << x << " " << y;
         }
+}
+
+TEST(SupersampledPicture, TellsAWholeProgress) {
+    const RampRenderer renderer;
+    CastFrames frames(renderer);
+    for (const bool narrow : {true, false}) {
+        const EyeView view =
+            narrow ? viewOf(7, 3) : viewOf(3, 200'000);  // a strip of its own for each column
+        test::expectWholeProgress("with a renderer", narrow ? 0 : 2, [&](Progress& progress) {
+            renderSupersampled(renderer, view, 4, progress);
+        });
+        test::expectWholeProgress("with a maker of frames", narrow ? 0 : 2, [&](Progress& progress) {
+            renderSupersampled(frames, view, 0, 4, progress);
+        });
+    }
 }
 
 TEST(SupersampledPicture, StripsJoinWithoutASeam) {

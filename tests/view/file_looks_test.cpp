@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "tests/support/gate.h"
 #include "tests/support/wait_for.h"
 
 namespace stereonav {
@@ -82,6 +83,50 @@ TEST_F(FileLooksTest, AnotherWishEndsTheOneBefore) {
     EXPECT_EQ(b.rows.size(), 1u);
     EXPECT_TRUE(looks.look(mFolder / "a").busy) << "it is not known";
 }  // and it ends while a is looked at
+
+// A file that is changed while it is looked at: what comes of that look is of the file as it was.
+TEST_F(FileLooksTest, AFileThatChangesMeanwhileIsLookedAtAgain) {
+    test::Gate gate;
+    std::atomic<int> number = 0;
+    FileLooks looks([] {},
+                    [&](const std::string&, Progress&) {
+                        const int mine = ++number;
+                        gate.pass();
+                        return Facts{factForText("kind", std::to_string(mine))};
+                    });
+    looks.look(mFolder / "a");
+    gate.await();
+    write("a", "longer than before");
+    EXPECT_TRUE(looks.look(mFolder / "a").busy);
+    gate.open();
+    const FileLook now = await(looks, "a");
+    ASSERT_EQ(now.rows.size(), 1u);
+    EXPECT_EQ(now.rows[0].second, "2");
+}
+
+// a, b, a: what is told of a is of a, and what was known stays known.
+TEST_F(FileLooksTest, ThereAndBackTellsTheSame) {
+    test::Gate gate;
+    FileLooks looks([] {},
+                    [&](const std::string& file, Progress& progress) {
+                        ++mLooked;
+                        gate.pass();
+                        progress.report(0, "");
+                        return Facts{factForText("kind", fs::path(file).filename().string())};
+                    });
+    looks.look(mFolder / "a");
+    gate.await();
+    EXPECT_TRUE(looks.look(mFolder / "b").busy);
+    EXPECT_TRUE(looks.look(mFolder / "a").busy);
+    gate.open();
+    const FileLook a = await(looks, "a");
+    ASSERT_EQ(a.rows.size(), 1u);
+    EXPECT_EQ(a.rows[0].second, "a");
+    const int looked = mLooked;
+    EXPECT_EQ(await(looks, "b").rows.at(0).second, "b");
+    EXPECT_EQ(await(looks, "a").rows.at(0).second, "a");
+    EXPECT_EQ(mLooked, looked + 1) << "a is known";
+}
 
 }  // namespace
 }  // namespace stereonav

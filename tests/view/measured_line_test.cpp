@@ -7,12 +7,17 @@
 #include <atomic>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include "engine/base/error.h"
 #include "tests/camera/temporary_folder.h"
+#include "tests/support/gate.h"
 #include "tests/support/wait_for.h"
 #include "tests/view/fake_frames.h"
 #include "tests/view/fake_scene.h"
@@ -196,6 +201,126 @@ TEST(MeasuredLine, WithoutAMeasurerIsMeasuredFromPlaceToPlace) {
     settle(line);
     EXPECT_NEAR(std::get<double>(line.measured()->facts.at(0).value), 0.012, 1e-15);
     EXPECT_EQ(line.measured()->places.size(), 4U);
+}
+
+// Waits at the gate, hears of no end, and says of which places and how high an eye it was asked.
+class LateScene final : public Scene, public LineMeasurer {
+public:
+    explicit LateScene(double number) : mNumber(number) { offer<LineMeasurer>(*this); }
+    FrameMaker& frames() const override { throw Error("", "", "no frames", ""); }
+    std::unique_ptr<Flight> makeFlight() const override { return nullptr; }
+    MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed, Progress&) const override {
+        if (places.back().x == 99) gate.pass();
+        if (places.back().y == 99) {
+            gate.pass();
+            throw Error("", "the line", "is of before", "forget it");
+        }
+        MeasuredSurface measured;
+        measured.facts = {factForJson("scene", mNumber), factForJson("last", places.back().x),
+                          factForJson("closed", closed)};
+        return measured;
+    }
+    Facts sight(const glm::dvec3&, const glm::dvec3&, double height) const override {
+        return {factForJson("eye", height)};
+    }
+    mutable test::Gate gate;
+
+private:
+    double mNumber;
+};
+
+double said(const MeasuredLine& line, const std::string& key) {
+    if (!line.measured()) return -1;
+    for (const Fact& fact : line.measured()->facts)
+        if (fact.key == key) return std::get<double>(fact.value);
+    return -2;
+}
+
+// Whatever is changed while it is measured, what comes of it is not taken: neither figures nor a failure.
+TEST(MeasuredLine, WhatWasMeasuredBeforeAChangeIsNotTaken) {
+    const auto late = std::make_shared<LateScene>(1), other = std::make_shared<LateScene>(2);
+    struct Change {
+        const char* name;
+        std::function<void(MeasuredLine&)> make;
+        double scene, last, eye;  // that it says in the end; -1: nothing
+    };
+    const std::vector<Change> changes = {
+        {"a place more",
+         [](MeasuredLine& line) {
+             line.add({5, 0, 0});
+         },
+         1, 5, 2},
+        {"a place less", [](MeasuredLine& line) { line.removeLast(); }, 1, 1, 2},
+        {"none", [](MeasuredLine& line) { line.clear(); }, -1, -1, -1},
+        {"another line",
+         [](MeasuredLine& line) {
+             line.take({{0, 0, 0}, {7, 0, 0}}, false);
+         },
+         1, 7, 2},
+        {"another scene", [&](MeasuredLine& line) { line.replaceScene(other), line.removeLast(); }, 2, 1, 2},
+        {"another file", [&](MeasuredLine& line) { line.open(other, ""); }, -1, -1, -1},
+        {"another eye", [](MeasuredLine& line) { line.removeLast(), line.setEyeHeight(9); }, 1, 1, 9},
+    };
+    for (const bool fails : {false, true})
+        for (const Change& change : changes) {
+            SCOPED_TRACE(std::string(change.name) + (fails ? ", failing" : ""));
+            late->gate.close();
+            MeasuredLine line([] {});
+            line.open(late, "");
+            line.add({0, 0, 0}), line.add({1, 0, 0});
+            fails ? line.add({8, 99, 0}) : line.add({99, 0, 0});
+            const int before = late->gate.came();
+            line.poll();
+            late->gate.await(before + 1);
+            change.make(line);
+            EXPECT_FALSE(line.measured()) << "nothing was measured yet";
+            late->gate.open();
+            settle(line);
+            EXPECT_EQ(said(line, "scene"), change.scene);
+            EXPECT_EQ(said(line, "last"), change.last);
+            EXPECT_EQ(said(line, "eye"), change.eye);
+            EXPECT_EQ(line.problem(), "");
+        }
+}
+
+// A, B, A: the same places again are measured again, and say what they said.
+TEST(MeasuredLine, ThereAndBackSaysTheSame) {
+    const auto scene = std::make_shared<LateScene>(1), other = std::make_shared<LateScene>(2);
+    MeasuredLine line([] {});
+    line.open(scene, "");
+    line.add({0, 0, 0}), line.add({1, 0, 0});
+    const std::vector<std::pair<std::function<void()>, std::function<void()>>> detours = {
+        {[&] {
+             line.add({4, 0, 0});
+         },
+         [&] { line.removeLast(); }},
+        {[&] { line.setEyeHeight(8); }, [&] { line.setEyeHeight(2); }},
+        {[&] { line.replaceScene(other); }, [&] { line.replaceScene(scene); }},
+        {[&] {
+             line.add({4, 0, 0}), line.setClosed(true);
+         },
+         [&] { line.setClosed(false), line.removeLast(); }},
+    };
+    settle(line);
+    const auto all = [&] {
+        return std::vector<double>{said(line, "scene"), said(line, "last"), said(line, "eye")};
+    };
+    const std::vector<double> before = all();
+    ASSERT_EQ(before, (std::vector<double>{1, 1, 2}));
+    for (std::size_t n = 0; n < detours.size(); ++n)
+        for (const bool waits : {true, false}) {
+            SCOPED_TRACE(n);
+            detours[n].first();
+            line.poll();
+            if (waits) {
+                settle(line);
+                EXPECT_NE(all(), before);
+            }
+            detours[n].second();
+            settle(line);
+            EXPECT_EQ(all(), before);
+            EXPECT_FALSE(std::get<bool>(line.measured()->facts.at(2).value));
+        }
 }
 
 TEST(MeasuredLine, LiesBesideThePlacesOfItsScene) {

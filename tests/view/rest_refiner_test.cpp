@@ -81,6 +81,9 @@ TEST(RestRefiner, GivesAMediumMoreSlicesAndThenMoreRays) {
     scene.swept().setEffort(1);
     EXPECT_GE(errorOf(fine.left.color, shown.left.color).psnr_db,
               errorOf(fine.left.color, drawn->left.color).psnr_db);
+    EXPECT_GE(errorOf(fine.right.color, shown.right.color).psnr_db,
+              errorOf(fine.right.color, drawn->right.color).psnr_db);
+    EXPECT_GT(errorOf(fine.right.color, shown.right.color).psnr_db, 40);
     EyePair again;  // and frames to come are made as before
     scene.frames().make(makeStereoViews(request.pose, request.lens, request.stereo), 0, {}, again);
     EXPECT_EQ(errorOf(again.left.color, drawn->left.color).psnr_db, kIdenticalPsnr_db);

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/scene/capabilities.h"
+#include "tests/support/gate.h"
 #include "tests/support/wait_for.h"
 #include "tests/view/fake_frames.h"
 
@@ -109,6 +110,49 @@ TEST_F(Preparation, IsDroppedWithItsScene) {
     const auto other = opened("b", [&](Progress&) { ++times; });
     EXPECT_TRUE(wait(other)) << "neither an error of the first, nor taken for the second";
     EXPECT_EQ(times, 1);
+}
+
+// a, b, a: what is done for a while b was shown is not taken for b, and a is loaded again once it is shown
+// again, though the work had come to its end before it heard that it was to end.
+TEST_F(Preparation, IsTakenForTheSceneThatCameBack) {
+    for (const bool heard : {true, false}) {
+        SCOPED_TRACE(heard);
+        ScenePreparation preparation{[] {}};
+        test::Gate gate;
+        const auto a = opened("a", [&](Progress& progress) {
+            gate.pass();
+            if (heard) progress.report(0.5, "");
+        });
+        const auto plain = opened("", nullptr);
+        preparation.follow(a);
+        gate.await();
+        preparation.follow(plain);
+        EXPECT_FALSE(preparation.work()) << "nobody waits for it";
+        preparation.follow(a);
+        gate.open();
+        bool taken = false;
+        EXPECT_TRUE(test::waitFor([&] {
+            preparation.follow(a);
+            return taken = preparation.take();
+        })) << "it is looked for again";
+        EXPECT_TRUE(taken);
+        EXPECT_EQ(gate.came(), 2);
+        preparation.follow(a);
+        EXPECT_FALSE(preparation.work()) << "once";
+    }
+}
+
+TEST_F(Preparation, AFailureOfASceneThatIsGoneIsNotTold) {
+    test::Gate gate;
+    mPreparation.follow(opened("a", [&](Progress&) {
+        gate.pass();
+        throw Error("cache", "tiles", "no room", "make some");
+    }));
+    gate.await();
+    const auto other = opened("b", [](Progress&) {});
+    mPreparation.follow(other);
+    gate.open();
+    EXPECT_TRUE(wait(other)) << "b's own";
 }
 
 TEST_F(Preparation, IsNotBegunAgainOnceCancelledOrFailed) {

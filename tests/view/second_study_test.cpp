@@ -5,22 +5,31 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
 
 #include "engine/base/error.h"
 #include "engine/nav/navigator.h"
 #include "engine/scene/capabilities.h"
+#include "tests/support/gate.h"
 #include "tests/support/wait_for.h"
 #include "tests/view/fake_frames.h"
 
 namespace stereonav {
 namespace {
 
-// Shows one colour, whatever a ray does.
+// Shows one colour, whatever a ray does; `drawn` is told where it is seen from.
 class OneColor final : public EyeRenderer {
 public:
     explicit OneColor(PackedColor color) : mColor(color) {}
+    std::function<void(double x)> drawn;
     int tileCount(const EyeView&) const override { return 1; }
     void renderTile(const EyeView& view, int, EyeImage& image) const override {
+        if (drawn) drawn(view.eye.x);
         for (int y = 0; y < view.height; ++y)
             for (int x = 0; x < view.width; ++x) image.color.at(x, y) = mColor;
     }
@@ -63,6 +72,8 @@ public:
         Pose pose = poseFromAngles({along, 0, 0}, back ? -1.5707963 : 1.5707963, 0, 0);
         return pose;
     }
+
+    OneColor& renderer() { return mRenderer; }
 
 private:
     double mLength;
@@ -143,6 +154,147 @@ TEST(SecondStudy, RefusesWhatHasNoLineAndForgetsWhatIsNotWanted) {
     second.open(first, endless);
     second.open(first, [](Progress&) { return *straightLine(2, 0); });
     EXPECT_TRUE(waitForSecond(second));
+}
+
+// The one that was asked for last is there in the end, whatever the others do that come late: come to their
+// end though they were given up, or fail.
+TEST(SecondStudy, TheOneAskedForLastIsThere) {
+    for (const bool fails : {false, true}) {
+        SCOPED_TRACE(fails);
+        const auto first = straightLine(1, 0), late = straightLine(2, 0), wanted = straightLine(3, 0);
+        test::Gate gate;
+        SecondStudy second([] {});
+        second.open(first, [&](Progress&) {
+            gate.pass();
+            if (fails) throw Error("late.nrrd", "", "is cut off", "copy it again");
+            return *late;
+        });
+        gate.await();
+        second.open(first, [&](Progress&) { return *late; });
+        second.open(first, [&](Progress&) { return *wanted; });
+        gate.open();
+        ASSERT_TRUE(waitForSecond(second));
+        EXPECT_EQ(second.other()->scene, wanted->scene);
+        EXPECT_FALSE(second.loading());
+    }
+}
+
+// Closed, or cancelled, while one is loaded and another one waits for its end: neither is there.
+TEST(SecondStudy, NothingComesAfterItWasGivenUp) {
+    for (const bool closed : {false, true}) {
+        SCOPED_TRACE(closed);
+        const auto first = straightLine(1, 0), late = straightLine(2, 0);
+        test::Gate gate;
+        std::atomic<bool> began = false;
+        SecondStudy second([] {});
+        second.open(first, [&](Progress&) {
+            gate.pass();
+            return *late;
+        });
+        gate.await();
+        second.open(first, [&](Progress&) {
+            began = true;
+            return *late;
+        });
+        closed ? second.close() : second.cancel();
+        gate.open();
+        EXPECT_FALSE(waitForSecond(second));
+        EXPECT_FALSE(second.other());
+        EXPECT_FALSE(second.loading());
+        EXPECT_FALSE(began);
+        second.open(first, [&](Progress&) { return *late; });
+        EXPECT_TRUE(waitForSecond(second)) << "asked for again it comes";
+    }
+}
+
+TEST(SecondStudy, WhatWasCancelledAtItsEndIsNotThere) {
+    const auto first = straightLine(1, 0), late = straightLine(2, 0);
+    test::Gate gate;
+    SecondStudy second([] {});
+    second.open(first, [&](Progress&) {
+        gate.pass();
+        return *late;
+    });
+    gate.await();
+    second.cancel();
+    gate.open();
+    EXPECT_THROW(waitForSecond(second), Cancelled);
+    EXPECT_FALSE(second.other());
+}
+
+// Places asked for while one is drawn: the last one is drawn after it, the ones between are not, and no
+// picture of the study before is shown after a swap or once it is closed.
+TEST(SecondStudy, PicturesAreOfTheNewestPlaceOfTheStudyThatIsThere) {
+    const PackedColor red = packColor({1, 0, 0}), blue = packColor({0, 0, 1});
+    const auto first = straightLine(1, red), other = straightLine(2, blue);
+    SecondStudy second([] {});
+    second.open(first, [&](Progress&) { return *other; });
+    ASSERT_TRUE(waitForSecond(second));
+    const auto placeAt = [](double along) { return SecondPlace{along, 2, false}; };
+    for (int n = 1; n <= 50; ++n) second.look(placeAt(0.01 * n), {8, 8});
+    ASSERT_TRUE(test::waitFor([&] { return second.picture() && second.picture()->of == placeAt(0.5); }));
+    EXPECT_EQ(second.picture()->color.at(3, 3), blue);
+    const auto flown = second.swap(first);
+    EXPECT_FALSE(second.picture()) << "that one is flown now";
+    second.look(placeAt(0.5), {8, 8});
+    ASSERT_TRUE(test::waitFor([&] { return second.picture() != nullptr; })) << "the same place of another";
+    EXPECT_EQ(second.picture()->color.at(3, 3), red);
+    second.close();
+    EXPECT_FALSE(second.picture());
+    EXPECT_FALSE(second.drawing());
+    EXPECT_FALSE(second.matching(*flown->scene, Pose{}));
+}
+
+// There and back while a picture is drawn: what lies between is not drawn any more.
+TEST(SecondStudy, APlaceThatWasLeftAgainIsNotDrawn) {
+    const auto first = straightLine(1, 0), other = straightLine(2, 0);
+    test::Gate gate;
+    std::mutex guard;
+    std::vector<double> drawn;
+    dynamic_cast<StraightLine&>(*other->scene).renderer().drawn = [&](double x) {
+        {
+            const std::lock_guard lock(guard);
+            drawn.push_back(x);
+        }
+        gate.pass();
+    };
+    SecondStudy second([] {});
+    second.open(first, [&](Progress&) { return *other; });
+    ASSERT_TRUE(waitForSecond(second));
+    const auto lookAt = [&](double along) { second.look({along, 2, false}, {8, 8}); };
+    lookAt(0.5);
+    gate.await();
+    lookAt(0.7);
+    lookAt(0.5);
+    gate.open();
+    ASSERT_TRUE(test::waitFor([&] { return second.picture() != nullptr; }));
+    lookAt(0.9);
+    ASSERT_TRUE(test::waitFor([&] { return second.picture()->of.along == 0.9; }));
+    const std::lock_guard lock(guard);
+    EXPECT_EQ(std::count(drawn.begin(), drawn.end(), 0.7), 0);
+    EXPECT_EQ(drawn.front(), 0.5);
+    EXPECT_EQ(drawn.back(), 0.9);
+}
+
+// Swapped twice it is as it was: the match, too.
+TEST(SecondStudy, SwappedTwiceIsAsBefore) {
+    const auto first = straightLine(1, 0), other = straightLine(2, 0);
+    SecondStudy second([] {});
+    second.open(first, [&](Progress&) { return *other; });
+    ASSERT_TRUE(waitForSecond(second));
+    const Pose eye = poseFromAngles({0.3, 0, 0}, 1.5, 0, 0);
+    const auto before = second.matching(*first->scene, eye);
+    EXPECT_EQ(second.swap(first)->scene, other->scene);
+    EXPECT_EQ(second.swap(other)->scene, first->scene);
+    const auto after = second.matching(*first->scene, eye);
+    ASSERT_TRUE(before && after);
+    EXPECT_EQ(*before, *after);
+    // And another one that is opened after a swap is matched from the flown one's line.
+    second.swap(first);
+    const auto third = straightLine(4, 0);
+    second.open(other, [&](Progress&) { return *third; });
+    ASSERT_TRUE(waitForSecond(second));
+    EXPECT_NEAR(second.matching(*other->scene, eye)->along, 0.6, 1e-12);
 }
 
 }  // namespace

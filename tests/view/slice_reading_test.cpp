@@ -4,6 +4,7 @@
 
 #include "app/view/loading.h"
 #include "engine/base/error.h"
+#include "tests/support/gate.h"
 #include "tests/support/wait_for.h"
 #include "tests/view/fake_scene.h"
 
@@ -49,6 +50,57 @@ TEST(SliceReading, OfTheStudyBeforeIsForgotten) {
         EXPECT_FALSE(reading.busy());
         reading.start(studyThatReads(false), [] {});
         EXPECT_NE(outcomeOf(reading), nullptr);
+    }
+}
+
+// Cancelled or given up when nothing asks for it any more: the study that was read all the same is not taken,
+// and neither is it for the study that is read next.
+TEST(SliceReading, WhatComesAfterItWasGivenUpIsNotTaken) {
+    for (const bool abandoned : {true, false}) {
+        SCOPED_TRACE(abandoned);
+        test::Gate gate;
+        FakeParts parts;
+        parts.readSlices = [&](Progress&) {
+            gate.pass();
+            return std::make_shared<const SliceStudy>();
+        };
+        SliceReading reading;
+        reading.start(opened(parts), [] {});
+        gate.await();
+        abandoned ? reading.abandon() : reading.cancel();
+        reading.start(studyThatReads(false), [] {});  // nothing while it is busy
+        gate.open();
+        if (abandoned)
+            EXPECT_EQ(outcomeOf(reading), nullptr);
+        else
+            EXPECT_THROW(outcomeOf(reading), Cancelled);
+        EXPECT_FALSE(reading.busy());
+        const auto next = std::make_shared<const SliceStudy>();
+        parts.readSlices = [&](Progress&) { return next; };
+        reading.start(opened(parts), [] {});
+        EXPECT_EQ(outcomeOf(reading), next) << "and its own is told again";
+    }
+}
+
+// Of a scene that is gone no failure is told either.
+TEST(SliceReading, AFailureOfTheStudyBeforeIsNotTold) {
+    for (const bool abandoned : {true, false}) {
+        SCOPED_TRACE(abandoned);
+        test::Gate gate;
+        FakeParts parts;
+        parts.readSlices = [&](Progress&) -> std::shared_ptr<const SliceStudy> {
+            gate.pass();
+            throw Error("a.nrrd", "", "is cut off", "copy it again");
+        };
+        SliceReading reading;
+        reading.start(opened(parts), [] {});
+        gate.await();
+        if (abandoned) reading.abandon();
+        gate.open();
+        if (abandoned)
+            EXPECT_EQ(outcomeOf(reading), nullptr);
+        else
+            EXPECT_THROW(outcomeOf(reading), Error);
     }
 }
 

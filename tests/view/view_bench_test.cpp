@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "engine/base/progress.h"
-#include "tests/view/fake_scene.h"
 #include "tests/support/one_method_frames.h"
+#include "tests/support/whole_progress.h"
+#include "tests/view/fake_scene.h"
 
 namespace stereonav {
 namespace {
@@ -120,8 +121,9 @@ TEST(ViewBench, TellsWhatWasShown) {
     GreyFrames frames;
     parts.frames = &frames;
     const OpenScene open = openOf(parts);
-    Progress quiet;
-    bench.judge(*open.scene, quiet);
+    test::WrittenProgress written;
+    bench.judge(*open.scene, written.progress());
+    written.expectWhole("judging", 5);
     const Facts facts = bench.facts();
     EXPECT_NEAR(benchNumber(facts, "shown_p50_ms"), 20, 1e-6);
     EXPECT_NEAR(benchNumber(facts, "shown_p95_ms"), 70, 1e-6);

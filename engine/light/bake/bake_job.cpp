@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -59,6 +60,7 @@ public:
             runPass(next);
             mError = mSums.error();
         }
+        if (mEnd != BakeEnd::Cancelled) tell(1);
         return mEnd;
     }
 
@@ -210,8 +212,15 @@ private:
         double due = mNextReport_ms;
         const double time = mSinceStart.elapsed_ms();
         if (!now && (time < due || !mNextReport_ms.compare_exchange_strong(due, time + kReport_ms))) return;
+        tell(fraction());
+    }
+
+    // Never less than before, though more may be foreseen to be done than was.
+    void tell(double fraction) {
+        const std::lock_guard lock(mTelling);
+        mTold = std::max(mTold, fraction);
         try {
-            mProgress.report(fraction(), text());
+            mProgress.report(mTold, text());
         } catch (const Cancelled&) {
             end(BakeEnd::Cancelled);
         }
@@ -276,6 +285,8 @@ private:
     std::atomic<BakeEnd> mEnd = BakeEnd::Reached;
     std::atomic<double> mError = 0, mDone = 0, mNextReport_ms = 0;
     std::atomic<double> mVariance = 0, mSquare = 0;
+    std::mutex mTelling;
+    double mTold = 0;  // guarded by mTelling
     double mOwnTexels = 0;
     double mAll = 0, mDoneBefore = 0;
     bool mCounted = false;

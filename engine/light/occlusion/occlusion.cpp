@@ -286,6 +286,8 @@ OpennessVolume estimateOpenness(const GreyVolume& volume, const OcclusionEstimat
     if (volume.scale == 0) {
         OpennessVolume even(volume.frame);
         std::fill_n(even.values.data(), even.values.size(), kHalfOpen);
+        progress.report(0, "occlusion");
+        progress.report(1, "occlusion");
         return even;
     }
     BoxFilter filter(volume, resultOf(estimate.method), radius, target);

@@ -55,12 +55,13 @@ int scaleOf(const Volume<std::uint8_t>& measure, const GreyVolume& volume, const
 
 OpacityModulation byVariance(const GreyVolume& volume, const ModulationSetting& setting,
                              const TransferFunction& transfer, Progress& progress) {
-    const auto cutAt = [&](double sigma) {
-        return OpacityModulation{varianceModulation(volume, setting.radius, sigma, progress), sigma};
+    const auto cutAt = [&](double sigma, Progress& part) {
+        return OpacityModulation{varianceModulation(volume, setting.radius, sigma, part), sigma};
     };
-    if (setting.sigma) return cutAt(*setting.sigma);
-    const OpacityModulation measure = cutAt(largestSigma(volume));
-    return cutAt(measure.sigma * std::sqrt(scaleOf(measure.share, volume, transfer) / 255.0));
+    if (setting.sigma) return cutAt(*setting.sigma, progress);
+    Progress measuring(progress, 0, 0.5), cutting(progress, 0.5, 1);
+    const OpacityModulation measure = cutAt(largestSigma(volume), measuring);
+    return cutAt(measure.sigma * std::sqrt(scaleOf(measure.share, volume, transfer) / 255.0), cutting);
 }
 
 OpacityModulation byGradient(const GreyVolume& volume, const ModulationSetting& setting,

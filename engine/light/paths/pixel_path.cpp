@@ -1,13 +1,13 @@
 // See the header.
 #include "engine/light/paths/pixel_path.h"
 
-#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <vector>
 
 #include "engine/base/parallel.h"
+#include "engine/base/progress.h"
 #include "engine/math/luminance.h"
 
 namespace stereonav {
@@ -47,13 +47,13 @@ void PixelPaths::add(const EyeView& view, const Plane<float>& viewDepth, std::ui
                      Plane<TexelSum>& sums, Progress& progress) const {
     const int width = viewDepth.width(), height = viewDepth.height();
     sums.resize(width, height);
-    std::atomic<int> done{0};
+    ProgressSteps rows(progress, height, "tracing paths from every pixel");
     parallelFor(height, [&](int y) {
-        progress.report(static_cast<double>(done) / height, "tracing paths from every pixel");
+        if (progress.cancelled()) throw Cancelled();
         const std::uint64_t first = static_cast<std::uint64_t>(stream) << 40 |
                                     static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width);
         addRow(view, viewDepth.row(y), y, first, samples, {sums.row(y), static_cast<std::size_t>(width)});
-        ++done;
+        rows.done();
     });
 }
 

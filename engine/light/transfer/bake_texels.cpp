@@ -182,13 +182,15 @@ std::vector<TexelBrick> wantedBricks(const GreyVolume& volume, const VolumeFrame
     const TexelLayout layout(texels.size);
     const int layer = layout.bricks.x * layout.bricks.y;
     std::vector<std::vector<TexelBrick>> found(static_cast<std::size_t>(layout.bricks.z));
+    ProgressSteps layers(progress, layout.bricks.z, "choosing texels");
     parallelFor(layout.bricks.z, [&](int z) {
-        progress.report(static_cast<double>(z) / layout.bricks.z, "choosing texels");
+        if (progress.cancelled()) throw Cancelled();
         for (int n = z * layer; n < (z + 1) * layer; ++n) {
             const TexelBrick brick{static_cast<std::uint32_t>(n),
                                    chooser.brick(static_cast<std::uint32_t>(n))};
             if (countTexels(brick.wanted) > 0) found[z].push_back(brick);
         }
+        layers.done();
     });
     std::vector<TexelBrick> all;
     for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());

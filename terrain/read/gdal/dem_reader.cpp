@@ -108,7 +108,8 @@ DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progres
     describeSource(*dataset, file, dem);
     const DemPlacement placement = placementOf(dem.source, file, kReadAtOnce);
     checkMemoryFor(file, dem.source, placement, after);
-    DemSamples read = readSamples(*dataset, messages, file, verticalScale, progress);
+    Progress reading(progress, 0, placement.asTheyAre ? 1 : 0.5), placing(progress, 0.5, 1);
+    DemSamples read = readSamples(*dataset, messages, file, verticalScale, reading);
     std::vector<float> samples = std::move(read.heights);
     dem.band = std::move(read.band);
     dem.heightUnit = std::move(read.unit);
@@ -117,7 +118,7 @@ DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progres
     if (dem.sourceMissing == static_cast<long long>(samples.size()))
         throwAllMissing(file, dem.sourceMissing, dem.missingValue);
     placeOnGrid(placement, dem);
-    bringToGrid(file, placement, dem, samples, progress);
+    bringToGrid(file, placement, dem, samples, placing);
     dem.heights = std::move(samples);
     return dem;
 }

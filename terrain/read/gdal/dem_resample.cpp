@@ -151,6 +151,7 @@ ResampledDem resampleDem(const std::vector<float>& samples, const Georeference& 
                 progress.report((sign > 0 ? 0.6 : 0.8) + 0.2 * row / source.height, doing);
             keeper.keepRow(row, sign);
         }
+    progress.report(1, doing);
     return result;
 }
 

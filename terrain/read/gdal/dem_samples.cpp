@@ -164,6 +164,8 @@ bool HeightSamples::allMissing() const {
 
 DemSamples readSamples(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
                        double verticalScale, Progress& progress) {
+    const std::string doing = "reading " + file.filename().string();
+    progress.report(0, doing);
     DemSamples samples;
     HeightTally all;
     if (isGsiTile(dataset)) {
@@ -181,6 +183,7 @@ DemSamples readSamples(GDALDataset& dataset, GdalMessages& messages, const std::
     if (all.anyKnown()) checkScaledHeights(file.string(), all.low, all.high, verticalScale);
     if (verticalScale != 1)
         for (float& h : samples.heights) h = static_cast<float>(h * verticalScale);
+    progress.report(1, doing);
     return samples;
 }
 

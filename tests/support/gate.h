@@ -1,0 +1,51 @@
+// A gate on the way of some work of another thread: a test waits until the work has come to it, does what is
+// to come meanwhile, and opens it. Nothing depends on how fast anything is.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <mutex>
+
+#include "tests/support/wait_for.h"
+
+namespace stereonav::test {
+
+class Gate {
+public:
+    // The work calls it: says that it is here, and waits until the gate is open.
+    void pass() {
+        std::unique_lock lock(mMutex);
+        ++mCame;
+        mChanged.notify_all();
+        mChanged.wait(lock, [this] { return mOpen; });
+    }
+    // The test calls it: waits until so many have come, whether they have passed or not.
+    void await(int many = 1) {
+        std::unique_lock lock(mMutex);
+        ASSERT_TRUE(mChanged.wait_for(lock, kLongestWait, [&] { return mCame >= many; }))
+            << mCame << " have come";
+    }
+    void open() { set(true); }
+    void close() { set(false); }
+    int came() const {
+        const std::lock_guard lock(mMutex);
+        return mCame;
+    }
+
+private:
+    void set(bool open) {
+        {
+            const std::lock_guard lock(mMutex);
+            mOpen = open;
+        }
+        mChanged.notify_all();
+    }
+
+    mutable std::mutex mMutex;
+    std::condition_variable mChanged;
+    bool mOpen = false;
+    int mCame = 0;
+};
+
+}  // namespace stereonav::test

@@ -1,0 +1,61 @@
+// What every function of the program that takes a Progress has to tell: 0 first, never less than before, 1
+// last.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/progress.h"
+
+namespace stereonav::test {
+
+// Writes down what is told, in the order in which it comes.
+class WrittenProgress {
+public:
+    Progress& progress() { return mProgress; }
+    // What was told so far; the work may go on.
+    std::vector<double> told() const {
+        const std::lock_guard lock(mMutex);
+        return mTold;
+    }
+
+    // steps: shares between 0 and 1 that have to be among them at least.
+    void expectWhole(const std::string& of, std::size_t steps = 0) const {
+        const std::vector<double> all = told();
+        ASSERT_FALSE(all.empty()) << of << " tells nothing";
+        EXPECT_EQ(all.front(), 0) << of << " does not begin with 0";
+        EXPECT_EQ(all.back(), 1) << of << " does not end with 1";
+        std::size_t between = 0;
+        for (std::size_t n = 1; n < all.size(); ++n) {
+            ASSERT_GE(all[n], all[n - 1]) << of << " goes back";
+            between += all[n] > all[n - 1] && all[n] < 1;
+        }
+        EXPECT_GE(between, steps) << of << " tells too little on the way";
+    }
+
+private:
+    mutable std::mutex mMutex;
+    std::vector<double> mTold;  // guarded by mMutex
+    Progress mProgress{[this](double fraction, const std::string&) {
+        const std::lock_guard lock(mMutex);
+        mTold.push_back(fraction);
+    }};
+};
+
+// work(progress) is done once as a whole; a second time it is stopped as soon as it tells anything.
+template <typename Work>
+void expectWholeProgress(const std::string& of, std::size_t steps, const Work& work) {
+    WrittenProgress written;
+    work(written.progress());
+    written.expectWhole(of, steps);
+    Progress* itself = nullptr;
+    Progress stopping([&](double, const std::string&) { itself->cancel(); });
+    itself = &stopping;
+    EXPECT_THROW(work(stopping), Cancelled) << of << " goes on though it was cancelled";
+}
+
+}  // namespace stereonav::test
