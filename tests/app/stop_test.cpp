@@ -179,9 +179,9 @@ TEST_F(Stop, EndsEveryCommandAndLeavesNothing) {
         }
 }
 
-// Minutes, and gigabytes of memory and disk: only where it is asked for.
-TEST_F(Stop, EndsEveryCommandWithLargeInputs) {
-    if (!std::getenv("STEREONAV_STOP_LARGE")) GTEST_SKIP() << "set STEREONAV_STOP_LARGE to stop large runs";
+// Minutes, and gigabytes of memory and disk.
+using StopNightly = Stop;
+TEST_F(StopNightly, EndsEveryCommandWithLargeInputs) {
     for (const Job& job : largeJobs())
         for (const double seconds : {0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0}) {
             SCOPED_TRACE(job.name + " after " + std::to_string(seconds) + " s");
