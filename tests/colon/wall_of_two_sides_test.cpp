@@ -107,6 +107,7 @@ TEST(WallOfTwoSides, BendsTheOtherWayOnItsOtherSide) {
                 EXPECT_NEAR(front.smaller, std::min(-bend.x, -bend.y), 1);
                 EXPECT_NEAR(back.larger, std::max(behind(bend.x), behind(bend.y)), 1);
                 EXPECT_NEAR(back.smaller, std::min(behind(bend.x), behind(bend.y)), 1);
+                if (bend == glm::dvec2(0)) continue;  // what is flat has no shape
                 EXPECT_NEAR(front.shapeIndex() + back.shapeIndex(), 1, 0.03)
                     << "a cap from here is a cup from there, a ridge a rut";
             }
@@ -152,57 +153,6 @@ WallMesh foldMesh(const Fold& fold, double reach, double step, const glm::dquat&
         mesh.triangles.push_back({number, c->second, b->second});
     }
     return mesh;
-}
-
-// Near its edge what is within the radius reaches round to the other side: it is as if that were not there.
-TEST(WallOfTwoSides, AFoldsOtherSideCountsForNothing) {
-    const double step = 0.0001;
-    for (const double radius : {0.0002, 0.0005})
-        for (const glm::dquat& turn : attitudes())
-            for (const double away : {0.0002, 0.0005, 0.0009})
-                for (const double side : {1.0, -1.0}) {
-                    SCOPED_TRACE(testing::Message()
-                                 << radius << " at " << side * away << " turned " << turn.w);
-                    const Fold fold{radius};
-                    const int row =
-                        static_cast<int>(std::lround(side * (0.5 * kSheetPi * radius + away) / step));
-                    std::map<std::pair<int, int>, std::uint32_t> whole, half;
-                    const WallMesh both = foldMesh(
-                        fold, 0.003, step, turn, [](double) { return true; }, whole);
-                    const glm::dvec3 here = fold.normal(row * step);
-                    const WallMesh one = foldMesh(
-                        fold, 0.003, step, turn,
-                        [&](double way) { return glm::dot(fold.normal(way), here) > 1e-9; }, half);
-                    const Curvatures seen =
-                                         curvaturesAt(both, neighboursOf(both), whole.at({row, 0}), 0.0013),
-                                     alone = curvaturesAt(one, neighboursOf(one), half.at({row, 0}), 0.0013);
-                    ASSERT_LT(one.places.size(), 0.8 * static_cast<double>(both.places.size()));
-                    EXPECT_NEAR(seen.larger, alone.larger, 1e-3 * (1 + std::abs(alone.larger)));
-                    EXPECT_NEAR(seen.smaller, alone.smaller, 1e-3 * (1 + std::abs(alone.larger)));
-                    EXPECT_GT(seen.larger, 0) << "it falls away towards the edge: flesh bulges";
-                    EXPECT_NEAR(seen.smaller, 0, 20) << "and is straight along it";
-                }
-}
-
-// Both sides, mirrored, bend alike, and so does the tip, as a ridge of its radius.
-TEST(WallOfTwoSides, AFoldBendsAlikeOnBothSides) {
-    const double step = 0.0001, radius = 0.0006;
-    const Fold fold{radius};
-    std::map<std::pair<int, int>, std::uint32_t> numbers;
-    const WallMesh mesh = foldMesh(
-        fold, 0.004, step, glm::dquat(1, 0, 0, 0), [](double) { return true; }, numbers);
-    const WallNeighbours neighbours = neighboursOf(mesh);
-    for (int row = 0; row <= 30; row += 3) {
-        const Curvatures one = curvaturesAt(mesh, neighbours, numbers.at({row, 0}), 0.0008),
-                         other = curvaturesAt(mesh, neighbours, numbers.at({-row, 0}), 0.0008);
-        EXPECT_NEAR(one.larger, other.larger, 0.01 * std::abs(one.larger) + 1) << row;
-        EXPECT_NEAR(one.smaller, other.smaller, 0.01 * std::abs(one.larger) + 1) << row;
-        EXPECT_GE(one.shapeIndex(), 0.49) << row;
-    }
-    const Curvatures tip = curvaturesAt(mesh, neighbours, numbers.at({0, 0}), 0.0003);
-    EXPECT_NEAR(tip.larger, 1 / radius, 0.1 / radius);
-    EXPECT_NEAR(tip.smaller, 0, 0.05 / radius);
-    EXPECT_NEAR(tip.shapeIndex(), 0.75, 0.03);
 }
 
 // What is near in space but joined over the edge alone, further than the radius, is not around.

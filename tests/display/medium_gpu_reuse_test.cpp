@@ -23,7 +23,7 @@ TEST_F(MediumGpuReuse, AFrameIsByTheBookWhateverCameBefore) {
     base.setting = smallSetting();
     base.setting.blurLength = 0.1;
     for (const double x : {0.0, 0.1}) {
-        base.eyes.push_back(viewFrom(kEye + glm::dvec3(x, 0, 0), kMiddle));
+        base.eyes.push_back(viewFrom(kEye + glm::dvec3(x, 0, 0), kMiddle, 14, 12));
         base.eyes.back().head = kEye;
     }
     base.time = 2;

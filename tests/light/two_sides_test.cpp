@@ -71,42 +71,5 @@ TEST(LitSheet, IsLitAlikeByAnEvenSky) {
     }
 }
 
-// The first band says where light comes from: along the axis, the one way on the one side and the other way
-// on the other; nothing of it across.
-TEST(LitSheet, TransferOfBothSidesFacesBothWays) {
-    for (const int axis : {0, 1, 2}) {
-        const GreyVolume volume = sheetAcross(axis, 2);
-        LightSetup setup;
-        setup.bounces = 0;
-        const TexelLighter lighter(volume, volume.frame, setup, {});
-        float sums[2][4] = {};
-        std::uint8_t alive[2] = {};
-        constexpr int kCount = 1024;
-        for (const int side : {-1, 1}) {
-            const glm::ivec3 texel = texelOn(axis, side);
-            const int n = side > 0;
-            lighter.addTransfer({&texel, 1}, 0, kCount, 2, 1, {sums[n], 4}, {&alive[n], 1});
-            ASSERT_TRUE(alive[n]);
-        }
-        // Cosine lobe: sqrt(pi) / 2 of the constant, sqrt(pi / 3) of the one along the axis, by pi.
-        const double constant = std::sqrt(kPi) / 2 / kPi * 2, along = std::sqrt(kPi / 3) / kPi;
-        int facing = 0;
-        for (int c = 0; c < 4; ++c) {
-            const double one = sums[0][c] / kCount, other = sums[1][c] / kCount;
-            if (c == 0) {
-                EXPECT_NEAR(one, other, 0.02 * constant);
-                EXPECT_NEAR(one, std::sqrt(kPi) / kPi, 0.02) << "all of the hemisphere";
-                continue;
-            }
-            EXPECT_NEAR(one, -other, 0.03 * along) << c;
-            if (std::abs(one) > 0.5 * along)
-                ++facing;
-            else
-                EXPECT_NEAR(one, 0, 0.03 * along) << c;
-        }
-        EXPECT_EQ(facing, 1) << "along " << axis;
-    }
-}
-
 }  // namespace
 }  // namespace stereonav

@@ -50,8 +50,9 @@ struct Members<AskedSweep> {
     static constexpr std::array names{"look", "setting", "eyes", "time"};
 };
 
-// Light of any colour at the texels of a grid, some of them not known.
-inline std::shared_ptr<const IlluminationVolume> anyLight(VolumeFrame frame, unsigned seed) {
+// Light of any colour at the texels of a grid; some of them are not known, or all are.
+inline std::shared_ptr<const IlluminationVolume> anyLight(VolumeFrame frame, unsigned seed,
+                                                          bool all = false) {
     frame.size = {9, 8, 10};
     frame.spacing *= 1.9;
     auto light = std::make_shared<IlluminationVolume>(frame);
@@ -61,7 +62,7 @@ inline std::shared_ptr<const IlluminationVolume> anyLight(VolumeFrame frame, uns
         for (int j = 0; j < frame.size.y; ++j)
             for (int i = 0; i < frame.size.x; ++i) {
                 const float red = number(random), green = number(random), blue = number(random);
-                if (number(random) < 0.8f)
+                if (all || number(random) < 0.8f)
                     light->texels[light->layout.index(i, j, k)] = packTexel({red, green, blue}, 1);
             }
     return light;
@@ -96,7 +97,7 @@ inline std::vector<Changed<AskedSweep>> sweepsBeside(const AskedSweep& base, con
     add("no phase function").look.phase = {};
     add("baked light").look.baked.light = anyLight(frame, 7);
     add("no baked light").look.baked.light = nullptr;
-    add("light beyond").look.baked.beyond = anyLight(frame, 8);
+    add("light beyond").look.baked.beyond = anyLight(frame, 8, true);
     for (std::size_t n = 0; n < base.eyes.size(); ++n) {
         EyeView& eye = add("a turned eye").eyes[n];
         const glm::dvec3 forward = std::cos(0.1) * eye.forward + std::sin(0.1) * eye.right;

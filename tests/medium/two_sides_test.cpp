@@ -104,28 +104,6 @@ SidesApart apart(const Plane<glm::vec4>& one, const Plane<glm::vec4>& other) {
     return all;
 }
 
-TEST(MediumOfTwoSides, LooksAlikeFromEitherSide) {
-    for (const float surface : {0.0f, 1.0f}) {
-        const Medium medium = lensOf(true, surface);
-        for (const MediumModel model : {MediumModel::Direct, MediumModel::Indirect})
-            // Light over the shoulder, and from behind what is seen.
-            for (const glm::dvec3& direction : {glm::dvec3(0.3, 0.2, -1), glm::dvec3(0.3, 0.2, 1)})
-                for (const auto& target : waysToSweep()) {
-                    SCOPED_TRACE(testing::Message()
-                                 << surface << " " << static_cast<int>(model) << " light " << direction.z
-                                 << " " << (target ? nameOf(*target) : "plain"));
-                    // The picture's right is the world's right above and its left below: what is turned about
-                    // y is the same picture.
-                    const auto above = lightSeen(medium, lensView(1), lookUnder(direction, 1, model), target),
-                               below =
-                                   lightSeen(medium, lensView(-1), lookUnder(direction, -1, model), target);
-                    const SidesApart sides = apart(above, below);
-                    EXPECT_GT(sides.brightest, 0.01f);
-                    EXPECT_LE(sides.worst, 8e-3f) << "slices begin on one side";
-                }
-    }
-}
-
 // Which way the gradient points depends on the data: both ways it is one surface.
 TEST(MediumOfTwoSides, SurfacesAreLitAlikeWhicheverWayTheirValuesFall) {
     const Medium falls = lensOf(true, 1), grows = lensOf(false, 1);
@@ -140,41 +118,6 @@ TEST(MediumOfTwoSides, SurfacesAreLitAlikeWhicheverWayTheirValuesFall) {
                 EXPECT_GT(ways.brightest, 0.02f);
                 EXPECT_LE(ways.worst, 3e-3f);
             }
-}
-
-// Light is lost on its way through a slab as much one way as the other, also where its halves differ.
-TEST(MediumOfTwoSides, ASlabLetsAsMuchThroughBothWays) {
-    const std::vector<test::Uniform> layers = {{.tau = 0.8, .tauIndirect = glm::dvec3(0.3)},
-                                               {.tau = 0.2, .tauIndirect = glm::dvec3(0.6)}};
-    const Medium slab = test::slabOf(layers, 4);
-    for (const auto& target : waysToSweep()) {
-        SCOPED_TRACE(target ? nameOf(*target) : "plain");
-        float left[2];
-        for (const int side : {-1, 1}) {
-            MediumLook look;
-            look.model = MediumModel::Emission;
-            look.light = sun({0, 0.3, -1}, 1);
-            EyeView eye = viewFrom({0, 0, side * 30.0}, {0, 0, 0}, 0.05, 5, 5);
-            const Plane<glm::vec4> seen = [&] {
-                SweepSetting setting;
-                setting.slices = 400;
-                setting.lightSize = 16;
-                if (!target)
-                    return plainSweep(slab, look, setting,
-                                      makeSweepGeometry(slab, look, setting, {&eye, 1}, eye.head))
-                        .at(0)
-                        .light;
-                MediumSweep sweep(slab, *target);
-                MediumPicture picture;
-                sweep.render(look, setting, {&eye, 1}, eye.head, 0, {&picture, 1});
-                return picture.light;
-            }();
-            left[side > 0] = seen.at(2, 2).w;
-        }
-        // Two metres of each: exp(-2) of what is behind it is seen.
-        EXPECT_NEAR(left[0], left[1], 3e-3) << "slices begin on one side";
-        EXPECT_NEAR(left[0], std::exp(-2.0), 3e-3);
-    }
 }
 
 }  // namespace

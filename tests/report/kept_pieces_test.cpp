@@ -56,11 +56,12 @@ void expectEachByItself(PeerBytes (*make)(ReportRun&, ByteReader&), const std::v
         ReportRun own(options, quiet);
         apart.push_back(madeBy(make, own, order));
         for (std::size_t n = 0; n + 1 < apart.size(); ++n)
-            EXPECT_NE(apart[n], apart.back()) << "orders " << n << " and " << apart.size() - 1;
+            EXPECT_TRUE(apart[n] != apart.back()) << "orders " << n << " and " << apart.size() - 1;
     }
-    for (int round = 0; round < 2; ++round)
-        for (std::size_t n = 0; n < orders.size(); ++n)
-            EXPECT_EQ(madeBy(make, run, orders[n]), apart[n]) << "order " << n;
+    for (std::size_t n = 0; n <= orders.size(); ++n) {  // the first one again at the end
+        const std::size_t at = n % orders.size();
+        EXPECT_TRUE(madeBy(make, run, orders[at]) == apart[at]) << "order " << at;
+    }
 }
 
 TEST(KeptPieces, OfBakedLight) {
@@ -83,19 +84,19 @@ TEST(KeptPieces, OfGround) {
 
 TEST(KeptPieces, OfOpenness) {
     expectEachByItself<VoxelOrder>(
-        makeOpenness, {{0.003, 40, 0, 4}, {0.003, 60, 0, 4}, {0.004, 40, 0, 4}, {0.003, 40, 4, 8}});
+        makeOpenness, {{0.006, 40, 10, 22}, {0.006, 60, 10, 22}, {0.008, 40, 10, 22}, {0.006, 40, 22, 34}});
 }
 
 TEST(KeptPieces, OfMedia) {
     TrackingSetting tracking;
-    tracking.samples = 2;
+    tracking.samples = 1;
     TrackingSetting seeded = tracking;
     seeded.seed = 2;
-    expectEachByItself<PathOrder>(makeTrackedRows, {{{true, 24}, MediumModel::Direct, tracking, {8, 12}},
-                                                    {{true, 32}, MediumModel::Direct, tracking, {8, 12}},
-                                                    {{false, 24}, MediumModel::Direct, tracking, {8, 12}},
-                                                    {{true, 24}, MediumModel::Indirect, tracking, {8, 12}},
-                                                    {{true, 24}, MediumModel::Direct, seeded, {8, 12}}});
+    expectEachByItself<PathOrder>(makeTrackedRows, {{{true, 24}, MediumModel::Direct, tracking, {9, 11}},
+                                                    {{true, 32}, MediumModel::Direct, tracking, {9, 11}},
+                                                    {{false, 24}, MediumModel::Direct, tracking, {9, 11}},
+                                                    {{true, 24}, MediumModel::Indirect, tracking, {9, 11}},
+                                                    {{true, 24}, MediumModel::Direct, seeded, {9, 11}}});
 }
 
 }  // namespace

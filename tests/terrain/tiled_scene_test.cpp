@@ -35,6 +35,7 @@ protected:
 
     TerrainScene load(GroundTiles tiles, double allowed = 180e6) { return loadWithin(tiles, allowed); }
     fs::path tilesFile() const {
+        if (!fs::exists(mFolder / "cache" / "stereonav")) return {};
         for (const auto& entry : fs::directory_iterator(mFolder / "cache" / "stereonav"))
             if (entry.path().extension() == ".tiles") return entry.path();
         return {};

@@ -107,7 +107,7 @@ TEST(ComparedSettings, OfTheDisplayCountInWhole) {
     expectEachMemberCompared(SpaceMouseState{{0.5, 0.25, 0}, {0, 1, 0.125}});
     expectEachMemberCompared(EyePass{{OutputMode::Rows, false, true}, BackBuffer::Left});
     expectEachMemberCompared(ScreenRect{1, 2, 3, 4});
-    expectEachMemberCompared(TargetSizes{{{640, 480}, {640, 480}}, {256, 256}, true});
+    expectEachMemberCompared(TargetSizes{{{640, 480}, {600, 480}}, {256, 256}, true});
 }
 
 TEST(ComparedSettings, OfTheWindowCountInWhole) {

@@ -53,6 +53,7 @@ public:
             count(mSums.estimates[n], 1);
             mOwnTexels += static_cast<double>(mSums.texelsOf(n));
         }
+        tell(0);
         report(true);
         while (mEnd == BakeEnd::Reached) {
             const std::uint32_t next = nextTarget();
