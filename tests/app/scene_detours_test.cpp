@@ -153,53 +153,5 @@ TEST_F(SceneDetours, OfVolumes) {
     expectNothingRemembered(*opened(inside));
 }
 
-TEST_F(SceneDetours, OfMedia) {
-    const std::string milk = input("milk.txt", "reference_mm 20\n0 0.9 0.8 0.7 0\n1000 0.9 0.8 0.7 0.8\n");
-    for (const SettingTexts& settings :
-         {SettingTexts{{"SCENE", {ball()}}, {"medium", {milk}}, {"slices", {"24"}}, {"light-size", {"24"}}},
-          SettingTexts{
-              {"SCENE", {hills()}}, {"mist", {"120,40"}}, {"slices", {"24"}}, {"light-size", {"24"}}}}) {
-        SCOPED_TRACE(commandLineOf(settings));
-        const auto scene = opened(settings);
-        EXPECT_GE(detoursOf(*scene).size(), 2u);
-        expectNothingRemembered(*scene);
-    }
-}
-
-// Each way in which a volume's surface can be another one: there and back, also by way of a third.
-TEST_F(SceneDetours, OfSurfaces) {
-    const auto first =
-        opened({{"SCENE", {ball()}}, {"isosurface", {""}}, {"isovalue", {"300"}}, {"transfer", {kThin}}});
-    const SurfaceChoices& choices = *first->offered<SurfaceChoices>();
-    ASSERT_TRUE(choices.translucent);
-    ASSERT_TRUE(choices.ambient);
-    const auto changed = [](const Scene& scene, const SurfaceChange& change) {
-        Progress progress;
-        return scene.offered<SurfaceChoices>()->changed(change, progress);
-    };
-    const SurfaceChange home{choices.isovalue, true, choices.transfer, choices.ambient};
-    std::vector<std::pair<const char*, SurfaceChange>> others(6, {"", home});
-    others[0].first = "isovalue", others[0].second.isovalue = 600;
-    others[1].first = "opaque", others[1].second.translucent = false;
-    others[2].first = "another function", others[2].second.transfer = "metal";
-    others[3].first = "ambient light", others[3].second.ambient->lit = true;
-    others[4].first = "modulated", others[4].second.ambient->modulate = "variance";
-    others[5].first = "modulated otherwise", others[5].second.ambient->modulate = "gradient";
-    const Look look = homeOf(*first);
-    const EyePair before = pictureOf(*first, look);
-    for (std::size_t n = 0; n < others.size(); ++n) {
-        const auto& [name, there] = others[n];
-        SCOPED_TRACE(name);
-        const auto other = changed(*first, there);
-        const EyePair seen = pictureOf(*other, look);
-        EXPECT_GT(differing(seen, before), 0u);
-        EXPECT_EQ(differing(pictureOf(*changed(*other, home), look), before), 0u);
-        const auto third = changed(*other, others[(n + 1) % others.size()].second);
-        EXPECT_EQ(differing(pictureOf(*changed(*third, home), look), before), 0u) << "by way of a third";
-        EXPECT_EQ(differing(pictureOf(*changed(*third, there), look), seen), 0u) << "and there once more";
-        EXPECT_EQ(differing(pictureOf(*first, look), before), 0u) << "the first is as it was";
-    }
-}
-
 }  // namespace
 }  // namespace stereonav::test
