@@ -155,6 +155,25 @@ WallMesh foldMesh(const Fold& fold, double reach, double step, const glm::dquat&
     return mesh;
 }
 
+// Beside the rim of a flat sheet the other side is nearer than the radius, along the wall too: it faces away,
+// and counts for nothing.
+TEST(WallOfTwoSides, BesideARimTheOtherSideCountsForNothing) {
+    for (const glm::dquat& turn : attitudes())
+        for (const double thick : {0.0002, 0.0005}) {
+            const Sheet sheet = sheetOf(21, 0.0002, thick, turn, [](double, double) { return 0.0; });
+            const WallNeighbours neighbours = neighboursOf(sheet.mesh);
+            for (const bool back : {false, true})
+                for (const int from : {1, 2, 4}) {
+                    SCOPED_TRACE(testing::Message()
+                                 << from << " from the rim, thick " << thick << (back ? ", back" : ""));
+                    const Curvatures bends =
+                        curvaturesAt(sheet.mesh, neighbours, sheet.vertexAt(from, 10, back), 0.0013);
+                    EXPECT_NEAR(bends.larger, 0, 1);
+                    EXPECT_NEAR(bends.smaller, 0, 1);
+                }
+        }
+}
+
 // What is near in space but joined over the edge alone, further than the radius, is not around.
 TEST(WallOfTwoSides, TheOtherSideIsNotAroundAPlace) {
     const double step = 0.0001;
