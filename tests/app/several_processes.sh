@@ -96,17 +96,18 @@ done
 # A process that is lost.
 together 2 bake caves.nrrd --quiet --samples 1000000 --out lost.bake > out 2> err &
 run=$!
-lost=
-while [ -z "$lost" ]; do
-  kill -0 $run || fail "the bake ended by itself: $(cat err)"
-  sleep 0.1
-  lost=$(ps -o pid= --ppid $run | tail -n 1)
-done
-# It is at work: it has used half a second of the processor.
+# The last of the program's processes below the run, which is mpirun or a shell that started it.
+last_process() {
+  for parent in "$run" $(ps -o pid= --ppid "$run"); do ps -o pid=,comm= --ppid "$parent"; done |
+    awk '$2 == "stereonav" { pid = $1 } END { print pid }'
+}
 used() { awk '{ sub(/.*\) /, ""); print $12 + $13 }' "/proc/$1/stat" 2> /dev/null || echo 0; }
-while [ "$(used "$lost")" -lt 50 ]; do
+# It is at work: it has used half a second of the processor.
+lost=
+while [ -z "$lost" ] || [ "$(used "$lost")" -lt 50 ]; do
   kill -0 $run || fail "the bake ended by itself: $(cat err)"
   sleep 0.1
+  lost=$(last_process)
 done
 kill -9 "$lost"
 status=0
