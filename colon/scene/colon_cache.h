@@ -29,7 +29,7 @@ constexpr int kKeptMargin = 8;
 // Makes the field what the cache would give back of it, and gives the memory of all other values back.
 void dropFarValues(LumenField& lumen);
 
-// Of the built-in colon's voxels, as studyKey() is of a study's.
+// Returns a key of the built-in colon's voxels, which takes the place of studyKey() there.
 std::uint64_t builtInColonKey(const BuiltInColonSetting& setting);
 
 // Of everything that finding depends on: the study (its content's key) and the settings.

@@ -198,7 +198,7 @@ TEST_F(ColonExports, FindingsAreTheSameInEveryFile) {
     const Json& one = json.at("findings").at(0);
     ASSERT_TRUE(one.at("found").get<bool>()) << one;
     const auto figure = [&](const char* key) { return one.at(key).get<double>() * unitOf(key); };
-    // Of the ball of 10 mm a part lies in the wall.
+    // A part of the ball of 10 mm lies in the wall.
     EXPECT_NEAR(figure("diameter_mm"), 10e-3, 1.5e-3);
     EXPECT_NEAR(glm::distance(placeIn(one, "diameter_from_mm"), placeIn(one, "diameter_to_mm")),
                 figure("diameter_mm"), 1e-9);
@@ -319,7 +319,7 @@ TEST_F(ColonExports, ACentrelineIsAsLongAsItsFileSays) {
                   fmt::format("{}: {} points along {:.1f} mm in 1 segment(s), radius {:.1f} to {:.1f} mm\n",
                               name, line.points.size(), 1e3 * length, 1e3 * least, 1e3 * most));
     }
-    // As plain text, by a reader that is not the program's.
+    // The page as plain text, by a reader that is not the program's.
     std::istringstream text(contentOf(place() / "line.txt"));
     std::string comment;
     std::getline(text, comment);

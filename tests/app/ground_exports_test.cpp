@@ -196,8 +196,8 @@ std::vector<double> numbersIn(std::string text) {
     return numbers;
 }
 
-// Of the two grid lines that lie farthest apart in a drawing, where the numbers beside them say they are: the
-// value at a pixel. vertical: of the lines that heights are read by.
+// The two grid lines that lie farthest apart in a drawing, and where the numbers beside them say they are:
+// the value at a pixel. vertical: of the lines that heights are read by.
 class Scale {
 public:
     Scale(const std::string& svg, bool vertical) {
@@ -304,7 +304,7 @@ TEST_F(GroundExports, AViewshedCountsGroundBySamplesOfTheirOwnSize) {
         for (int i = 0; i < kWide; ++i)
             ASSERT_EQ(raster.heights[static_cast<std::size_t>(j * kWide + i)], i <= 20 ? 255 : 0)
                 << i << " " << j;
-    // As far as 180 m: an ellipse of samples. On this side of the wall all are seen.
+    // A reach of 180 m is an ellipse of samples. On this side of the wall all are seen.
     const Json near = Json::parse(at({"--reach", "180"}, true));
     int within = 0;
     for (int j = 0; j < kHigh; ++j)

@@ -44,7 +44,7 @@ protected:
         setenv("XDG_CACHE_HOME", mCacheBefore.c_str(), 1);
         VolumeTest::TearDown();
     }
-    // Of more voxels, so that a lumen has a wall to look at.
+    // More voxels, so that a lumen has a wall to look at.
     std::string tubeStudy() const { return maskedTube(); }
 
     static std::unique_ptr<Scene> sceneOf(const SettingTexts& settings) {

@@ -20,7 +20,7 @@ GreyVolume noisyColon(std::uint64_t seed) {
     return std::move(builtInColon(setting, quiet).grey);
 }
 
-// As many voxels one after the other as are never alike by chance.
+// A count of voxels in a row that are never alike by chance.
 using NoiseRun = std::array<double, 8>;
 
 void addRuns(const GreyVolume& grey, const glm::ivec3& step, std::vector<NoiseRun>& runs) {

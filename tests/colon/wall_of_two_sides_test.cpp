@@ -226,7 +226,7 @@ TEST(ThinWall, HasTwoFacesThatFaceAwayFromEachOther) {
             area[face > 0] += mesh.areas[v];
             ++count[face > 0];
         }
-    // Of a disc of that radius the part up to a chord.
+    // The part of a disc of that radius up to a chord.
     const double r = kPlateRadius - 0.001, c = kPlateEdge - 0.001;
     const double wanted = r * r * (kSheetPi - std::acos(c / r)) + c * std::sqrt(r * r - c * c);
     for (const int n : {0, 1}) EXPECT_NEAR(area[n], wanted, 0.04 * wanted) << n;
@@ -261,7 +261,7 @@ TEST(ThinWall, HidesBothWays) {
         }
     EXPECT_GT(through, 40);
     EXPECT_GT(beside, 20);
-    // As far to the face from either side.
+    // The face is as far from either side.
     for (const double z : {0.002, 0.01, 0.018})
         EXPECT_NEAR(sight.reach({-0.003, 0, z}, {0, 0, -1}, 0.1),
                     sight.reach({-0.003, 0, -z}, {0, 0, 1}, 0.1), 2e-4);

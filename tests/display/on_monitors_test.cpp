@@ -160,7 +160,7 @@ TEST_F(OnMonitors, EyesAlternate) {
     EXPECT_EQ(display.mode(), OutputMode::Alternating);
     EXPECT_EQ(display.wait(), std::nullopt);
     for (const bool swapped : {false, true}) {
-        // As long as it takes: where pictures come late, one eye may have its turn several times.
+        // It takes as long as it takes: where pictures come late, one eye may have its turn several times.
         std::array<int, 2> shown{};
         int changes = 0, before = -1;
         const auto turn = [&] {

@@ -116,7 +116,7 @@ TEST(PathChance, EverySampleHasNumbersOfItsOwn) {
         }
 }
 
-// Of texels in the level of the surface, but for those at the faces.
+// Texels in the level of the surface, but for those at the faces.
 struct LevelTexels {
     int width = 0, height = 0;
     std::vector<glm::ivec3> at;
@@ -206,7 +206,7 @@ TEST(PathChance, TransferGoesOnWithOtherSamples) {
     expectUnrelated(part(8), part(16));
 }
 
-// Of the numbers themselves. Keys are a permutation of what they are made of.
+// The numbers themselves: keys are a permutation of what they are made of.
 TEST(PathChance, NoTwoPlacesOfAGridHaveTheSameKey) {
     for (const std::uint64_t seed : {0ull, 1ull, 77ull, 1ull << 40}) {
         std::vector<std::array<double, 1>> keys;
@@ -255,7 +255,7 @@ TEST(PathChance, EveryVertexAndEveryChoiceHasNumbersOfItsOwn) {
                 for (int n = 0; n < kSamples; ++n) sum += (dimensions[a][n] - 0.5) * (dimensions[b][n] - 0.5);
                 worst = std::max(worst, std::abs(12 * sum / std::sqrt(double(kSamples))));
             }
-        // Of 5,778 pairs of independent numbers one is as far off as this once in 60 times.
+        // One of 5,778 pairs of independent numbers is as far off as this once in 60 times.
         EXPECT_LT(worst, 4.7);
     }
 }

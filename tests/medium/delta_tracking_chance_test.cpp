@@ -62,7 +62,7 @@ TEST(DeltaTrackingChance, EverySampleHasNumbersOfItsOwn) {
     }
 }
 
-// Of the numbers themselves: two of each path, over a whole picture.
+// The numbers themselves: two of each path, over a whole picture.
 TEST(DeltaTrackingChance, NoTwoPathsBeginAlike) {
     std::vector<std::array<double, 2>> numbers;
     for (const std::uint64_t seed : {0u, 1u, 2u, 77u})

@@ -9,7 +9,7 @@
 namespace stereonav {
 namespace {
 
-// As the makers' own orders lie in their bytes.
+// The order of the makers' own orders in their bytes.
 struct LightOrder {
     std::uint64_t seed;
     int bricks, run, samples;

@@ -72,7 +72,7 @@ public:
         ADD_FAILURE() << "no row " << row << " of a column " << column;
         return "";
     }
-    // As it is written; NaN where that is no number.
+    // The figure as it is written; NaN where that is no number.
     double number(std::size_t row, std::string_view column) const {
         const std::string text = at(row, column);
         char* end = nullptr;

@@ -100,8 +100,8 @@ TEST(GroundColor, PlacedImageIsCutToTheGround) {
     expectPixelForPixel(color);
 }
 
-// Of a part of a ground, of all its samples or every second or fourth: a texel shows what lies in the picture
-// at the texel's own place. Samples and pixels are longer one way.
+// A picture laid on a part of a ground, on all its samples or every second or fourth: a texel shows what lies
+// in the picture at the texel's own place. Samples and pixels are longer one way.
 TEST(GroundColor, PicturesLieWhereTheGroundLiesAtAnyOfItsLevels) {
     const TempFolder folder;
     RasterSpec spec;

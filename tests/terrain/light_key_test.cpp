@@ -83,7 +83,7 @@ TEST(TerrainLightKey, HasEverySampleAndTheirSpacing) {
     EXPECT_EQ(terrainLightCache(base.field("a copy")), terrainLightCache(base.field()));
 }
 
-// Of a bake that was stopped: a file for each key, and one that was renamed is not gone on from.
+// A bake that was stopped leaves a file for each key, and one that was renamed is not gone on from.
 TEST(TerrainLightKey, NamesThePartOfItsBake) {
     const std::uint64_t key = 0x1234567890abcdef;
     std::vector<Changed<std::uint64_t>> keys;

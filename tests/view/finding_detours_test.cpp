@@ -237,7 +237,7 @@ TEST_F(FindingDetours, AStudyThatComesMeanwhileIsToldOf) {
     EXPECT_THAT(mList.rows()[0].finding.lines, testing::ElementsAre("first", "values"));
 }
 
-// Of the scene before nothing is taken: measured, candidates, their failure, or what was written.
+// Nothing is taken of the scene before: measured, candidates, their failure, or what was written.
 TEST_F(FindingDetours, NothingOfTheSceneBeforeIsTaken) {
     const std::vector<std::pair<const char*, std::function<void()>>> works = {
         {"measured", [this] { add(1); }},

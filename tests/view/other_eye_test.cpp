@@ -222,7 +222,7 @@ TEST(LateOfBothEyes, EachIsWarpedByItsOwnDepths) {
     }
 }
 
-// Of one eye the second is not there, and a frame whose second eye is not prepared does not fit two.
+// A frame of one eye has no second, and a frame whose second eye is not prepared does not fit two.
 TEST(LateOfBothEyes, FitsOnlyWhereBothAreThere) {
     const auto frame = twoWalls(20, 20);
     EXPECT_TRUE(LateView::fits(*frame, bothEyes()));

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of one grey for each number.
+// One grey for each number.
 std::shared_ptr<const ViewFrame> frameOf(long long version, float grey, bool twoEyes = true) {
     auto frame = std::make_shared<ViewFrame>();
     frame->request.version = version;

@@ -147,7 +147,7 @@ TEST(SecondStudy, RefusesWhatHasNoLineAndForgetsWhatIsNotWanted) {
     second.open(first, endless);
     second.cancel();
     EXPECT_THROW(waitForSecond(second), Cancelled);
-    // Of another file: the end of the first is silent, and the second begins after it.
+    // Another file: the end of the first is silent, and the second begins after it.
     second.open(first, endless);
     second.close();
     EXPECT_NO_THROW(waitForSecond(second));

@@ -82,7 +82,7 @@ TEST(SliceReading, WhatComesAfterItWasGivenUpIsNotTaken) {
     }
 }
 
-// Of a scene that is gone no failure is told either.
+// No failure of a scene that is gone is told either.
 TEST(SliceReading, AFailureOfTheStudyBeforeIsNotTold) {
     for (const bool abandoned : {true, false}) {
         SCOPED_TRACE(abandoned);

@@ -116,7 +116,7 @@ TEST(ViewWorkerLoading, TheNewestReloadReplacesOneThatIsNotDone) {
     EXPECT_EQ(worker.takeReloadProblem(), "");
 }
 
-// Of wishes that come while one is at work the last is done after it, from the scene that it made.
+// The last of the wishes that come while one is at work is done after it, from the scene that it made.
 TEST(ViewWorkerLoading, ChangesAreMadeFromTheNewestSceneOneAfterAnother) {
     std::atomic<int> begun = 0, go = 0;
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>(), "first"); }, [] {});

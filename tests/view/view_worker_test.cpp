@@ -153,7 +153,7 @@ TEST(ViewWorker, RefinesWhatRests) {
         }
         expectNoMoreAtRest(worker, request.version);  // that was enough
     }
-    // Of one eye too; not of a picture that is made smaller, and not of a truth.
+    // One eye counts too; not a picture that is made smaller, and not a truth.
     request.refines = true;
     for (int kind = 0; kind < 3; ++kind) {
         SCOPED_TRACE(kind);

@@ -123,7 +123,7 @@ public:
     }
 
 private:
-    // Of a program: its window's thread, and the others. Ticks: of processor time.
+    // A program's window thread, and its others. Ticks of processor time.
     struct Threads {
         bool ownWorks = false, othersWork = false;
         long othersTicks = -1;
