@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class LookWindow : public WindowTest {
+class LookWindowNightly : public WindowTest {
 protected:
     // Two balls that touch, 48 voxels of 1 mm along each axis.
     fs::path study() const {
@@ -34,7 +34,7 @@ protected:
     }
 };
 
-TEST_F(LookWindow, ChangesWithoutReadingAgain) {
+TEST_F(LookWindowNightly, ChangesWithoutReadingAgain) {
     auto shots = shotsOf("--opacity 0.1");
     ASSERT_EQ(shots.size(), 14u);
     EXPECT_GT(difference(shots["start"], shots["surface"]), 0.3);
@@ -52,7 +52,7 @@ TEST_F(LookWindow, ChangesWithoutReadingAgain) {
 }
 
 // Light that was worked out stays where it is when the surface moves away and comes back.
-TEST_F(LookWindow, LazyLightStaysAndGoesOn) {
+TEST_F(LookWindowNightly, LazyLightStaysAndGoesOn) {
     auto shots = shotsOf("--light lazy");
     ASSERT_EQ(shots.size(), 14u);
     EXPECT_GT(difference(shots["start"], shots["surface"]), 0.3);

@@ -30,9 +30,9 @@ TEST_F(MemoryWindow, IsOfTheWindowThatIsThere) {
 }
 
 // The libraries that draw in software, and the program, are 20 MB beside what it asks for.
-class MemoryOfScenes : public MemoryWindow, public testing::WithParamInterface<const char*> {};
+class MemoryOfScenesNightly : public MemoryWindow, public testing::WithParamInterface<const char*> {};
 
-TEST_P(MemoryOfScenes, IsNoMoreThanWasAskedFor) {
+TEST_P(MemoryOfScenesNightly, IsNoMoreThanWasAskedFor) {
     ASSERT_EQ(drive("drive_memory.sh", std::string("600x500 ") + GetParam()), 0)
         << textOf("problems.txt") << textOf("log.txt");
     const double asked = most("asked.txt"), taken = std::stod("0" + textOf("taken.txt"));
@@ -40,7 +40,7 @@ TEST_P(MemoryOfScenes, IsNoMoreThanWasAskedFor) {
     EXPECT_LT(taken, asked + 2e7);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, MemoryOfScenes, testing::Values("wax --slices 64", "terrain"));
+INSTANTIATE_TEST_SUITE_P(Scenes, MemoryOfScenesNightly, testing::Values("wax --slices 64", "terrain"));
 
 }  // namespace
 }  // namespace stereonav

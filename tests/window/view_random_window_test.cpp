@@ -9,7 +9,7 @@
 namespace stereonav {
 namespace {
 
-class RandomWindow : public WindowTest {
+class RandomWindowNightly : public WindowTest {
 protected:
     void TearDown() override {
         unsetenv("MESA_DEBUG");
@@ -17,7 +17,7 @@ protected:
     }
 };
 
-TEST_F(RandomWindow, StandsWhatComesByChance) {
+TEST_F(RandomWindowNightly, StandsWhatComesByChance) {
     constexpr int kRounds = 10;
     setenv("MESA_DEBUG", "1", 1);  // wrong calls of OpenGL are told
     ASSERT_EQ(drive("drive_random.sh", std::to_string(kRounds) + " 20261123 terrain"), 0)
