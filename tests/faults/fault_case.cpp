@@ -53,6 +53,12 @@ bool isWhole(const FaultCase& one, const std::string& name, const std::string& c
     return endsAsItBegan(name, content);
 }
 
+std::map<std::string, std::string> filesBefore(const FaultCase& one) {
+    auto files = one.there;
+    if (!one.old.empty()) files[one.old] = kOld;
+    return files;
+}
+
 }  // namespace
 
 void FaultTest::SetUp() {
@@ -127,9 +133,16 @@ void FaultTest::clearPlace() const {
     for (const auto& entry : fs::directory_iterator(mFolder / "cache")) fs::remove_all(entry.path());
 }
 
+std::map<std::string, std::string> FaultTest::madeBy(const std::vector<std::string>& arguments) const {
+    const Ended ended = runWith({"", arguments, ""}, "", 0);
+    EXPECT_EQ(ended.outcome.status, 0) << ended.outcome.err;
+    return ended.files;
+}
+
 FaultTest::Ended FaultTest::runWith(const FaultCase& one, const char* kind, std::uint64_t at) const {
     clearPlace();
-    if (!one.old.empty()) std::ofstream(place() / one.old) << kOld;
+    for (const auto& [name, content] : filesBefore(one))
+        std::ofstream(place() / name, std::ios::binary) << content;
     const fs::path counts = mFolder / "counts";
     std::ofstream(counts, std::ios::binary) << std::string(sizeof(FaultCounts), '\0');
     Ended ended;
@@ -139,7 +152,7 @@ FaultTest::Ended FaultTest::runWith(const FaultCase& one, const char* kind, std:
                                  {"FAULT_AT", std::to_string(at)},
                                  {"FAULT_COUNT", counts.string()},
                                  {"FAULT_BYTES", std::to_string(kLeastAllocation)},
-                                 {"FAULT_UNDER", mFolder.string()}});
+                                 {"FAULT_UNDER", (one.there.empty() ? mFolder : place()).string()}});
         ended.outcome = run(one.arguments);
     }
     std::ifstream(counts, std::ios::binary).read(reinterpret_cast<char*>(&ended.calls), sizeof ended.calls);
@@ -148,6 +161,7 @@ FaultTest::Ended FaultTest::runWith(const FaultCase& one, const char* kind, std:
 }
 
 void FaultTest::expectNothingLost(const FaultCase& one, const Ended& whole, const Ended& now) const {
+    const std::map<std::string, std::string> before = filesBefore(one);
     if (now.outcome.status == 0) {
         EXPECT_EQ(now.files.size(), whole.files.size()) << "a file is missing, or one too many";
         if (one.timed) {
@@ -159,12 +173,12 @@ void FaultTest::expectNothingLost(const FaultCase& one, const Ended& whole, cons
         EXPECT_EQ(now.outcome.status, 1) << now.outcome.err;
         EXPECT_NE(now.outcome.err.find("stereonav: "), std::string::npos) << now.outcome.err;
         EXPECT_EQ(linesIn(now.outcome.err), 1) << now.outcome.err;
-        if (!one.old.empty()) {
-            EXPECT_EQ(now.files.contains(one.old) ? now.files.at(one.old) : "nothing", kOld);
-        }
+        for (const auto& [name, content] : before)
+            EXPECT_TRUE(now.files.contains(name) && now.files.at(name) == content)
+                << name << " is not what it was";
     }
     for (const auto& [name, content] : now.files) {
-        if (now.outcome.status != 0 && name == one.old && content == kOld) continue;
+        if (now.outcome.status != 0 && before.contains(name)) continue;
         ASSERT_TRUE(whole.files.contains(name)) << name << " was left behind";
         EXPECT_TRUE(isWhole(one, name, content, whole.files.at(name)))
             << name << " of " << content.size() << " bytes is not whole, which has "

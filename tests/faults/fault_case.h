@@ -22,6 +22,9 @@ struct FaultCase {
     std::vector<std::string> arguments;
     std::string old;     // a file in the place that holds something before each run; "": none
     bool timed = false;  // what is written holds times, so that two runs differ in figures
+    // Content by name: other files in the place before each run. Where there are some, only calls on the
+    // place's files fail.
+    std::map<std::string, std::string> there = {};
 };
 
 // What came of the runs of one command with one kind of call.
@@ -36,6 +39,9 @@ protected:
 
     // Every command that writes, and some that only read.
     std::vector<FaultCase> cases() const;
+
+    // What the command leaves in the place, which is empty before: content by name.
+    std::map<std::string, std::string> madeBy(const std::vector<std::string>& arguments) const;
 
     // most: faults that are tried of each kind, spread over the calls; asserts for each.
     // only: of this kind alone; "": of all.

@@ -1,7 +1,9 @@
 // Each call to the system fails once under each command: never a wrong file and exit status 0, never a lost
 // one. STEREONAV_ALL_FAULTS=1 tries every call but of videos' writes, STEREONAV_FAULT_TABLE=FILE keeps what
 // came of them.
+#include <algorithm>
 #include <fstream>
+#include <utility>
 
 #include "tests/faults/fault_case.h"
 
@@ -26,7 +28,6 @@ protected:
         EXPECT_GT(tried, 0);
     }
 
-private:
     static void keep(const std::string& name, const std::string& kind, const FaultTally& tally) {
         const char* file = std::getenv("STEREONAV_FAULT_TABLE");
         if (!file || tally.calls == 0) return;
@@ -59,6 +60,34 @@ TEST_F(Faults, OfInstrumentsOfColons) {
 
 TEST_F(Faults, OfBakes) {
     tryAll("bake", kSample);
+}
+
+// A bake that is there holds more than is asked for, so that one that was made anew would be another: what
+// can not be read now may be whole, and is not written over.
+TEST_F(Faults, OfBakesThatAreThere) {
+    const std::string scene = hills(), study = maskedTube();
+    const auto tube = [&](const char* samples) {
+        return std::vector<std::string>{"bake",  study,       "--no-cache", "--resolution",
+                                        "0.2",   "--bounces", "0",          "--samples",
+                                        samples, "--out",     "a.bake"};
+    };
+    const auto ground = [&](const char* what) {
+        return std::vector<std::string>{"bake",         scene, "--what", what,
+                                        "--resolution", "0.5", "--out",  "a.light"};
+    };
+    const FaultCase cases[] = {{"less of a volume", tube("1"), "", false, madeBy(tube("3"))},
+                               {"more of a volume", tube("5"), "", false, madeBy(tube("3"))},
+                               {"openness", ground("openness"), "", false, madeBy(ground("openness"))},
+                               {"transfer", ground("transfer"), "", false, madeBy(ground("transfer"))}};
+    for (const FaultCase& one : cases) {
+        EXPECT_FALSE(one.there.empty()) << one.name;
+        for (const std::string kind : {"read", "open"}) {
+            const auto tallies = tryFaults(one, kMost, kind);
+            const auto k = std::find(kFaultKinds.begin(), kFaultKinds.end(), kind) - kFaultKinds.begin();
+            keep(one.name, kind, tallies[k]);
+            EXPECT_GE(tallies[k].refused, kind == "read" ? 2 : 1) << one.name << ": " << kind;
+        }
+    }
 }
 
 TEST_F(Faults, OfFactsAndReports) {

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <fstream>
 
+#include "engine/base/error.h"
 #include "raster_files.h"
 #include "terrain/light/fine_bake.h"
 #include "terrain/light/terrain_horizon.h"
+#include "terrain/light/terrain_light.h"
 #include "tests/support/file_bytes.h"
 #include "tests/support/test_grounds.h"
 #include "tests/support/thread_peers.h"
@@ -226,6 +228,15 @@ TEST_F(FineLightFile, WhatDoesNotFitIsOneLine) {
     EXPECT_THAT(problem(mShape), HasSubstr("cut off"));
     EXPECT_THAT(errorOf([&] { LightTiles::begin(mFolder / "none" / "a", mShape); }),
                 HasSubstr("cannot be written"));
+}
+
+// Light that can not be read now may be whole: it is neither taken for damaged nor for another file. The
+// memory of this process stands for it: it opens, and its start can not be read (EIO).
+TEST_F(FineLightFile, ADiskThatFailsIsNoDamage) {
+    fs::create_symlink("/proc/self/mem", place());
+    EXPECT_THROW(isFineLight(place()), DiskError);
+    EXPECT_THROW(LightTiles(place(), mShape), DiskError);
+    EXPECT_THROW(loadTerrainLight(place(), nullptr), DiskError);
 }
 
 // Threads that stand for processes; and one that is stopped after its first tile.
