@@ -84,6 +84,7 @@ void writePictures(const ComparedFrame& frame, int truthRays, const fs::path& fo
 std::vector<StereoSetting> eyesAt(const Scene& scene, const std::vector<TimedPose>& poses) {
     NarrowedEyes eyes(scene);
     std::vector<StereoSetting> all;
+    all.reserve(poses.size());
     for (const TimedPose& pose : poses) all.push_back(eyes.at(pose.pose, pose.time));
     return all;
 }

@@ -100,6 +100,7 @@ int runCoverage(const CoverageOptions& options) {
     const double twoWay = coverage.percent();
     const std::vector<UnseenPatch> patches = coverage.patches(freeDistance, colon.clearance);
     std::vector<double> along;
+    along.reserve(patches.size());
     for (const UnseenPatch& patch : patches) along.push_back(inside.placeOnLine(patch.place).along);
     const int views = coverage.visit(patches, freeDistance, colon.clearance, bar.progress());
     const double after = coverage.percent();
