@@ -41,8 +41,8 @@ std::optional<QualityPlan> qualityOf(const SceneOptions& options, const Scene& s
     if (!wantsQuality(q)) return std::nullopt;
     constexpr const char* kMeasuring = "measuring what error is to be expected";
     progress.report(0, kMeasuring);
-    const auto plan = scene.frames().meet({q.quality, q.targetPsnr_db, q.target_ms, false},
-                                          method == "auto" ? "" : method, calibrationViews(scene));
+    auto plan = scene.frames().meet({q.quality, q.targetPsnr_db, q.target_ms, false},
+                                    method == "auto" ? "" : method, calibrationViews(scene));
     progress.report(1, kMeasuring);
     return plan;
 }

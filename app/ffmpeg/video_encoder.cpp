@@ -30,7 +30,8 @@ constexpr int kLeastFfv1 = 2;
 int ffv1Side(int width, int height) {
     constexpr double kMostOfSlice = 8.0 * (1 << 24) / (9 * 4);
     int side = std::min(width, height) >= 2 * kLeastFfv1 ? 2 : 1;
-    while (1.0 * ((width + side - 1) / side) * ((height + side - 1) / side) > kMostOfSlice) ++side;
+    const auto largest = [&side](int length) { return (length + side - 1) / side; };
+    while (1.0 * largest(width) * largest(height) > kMostOfSlice) ++side;
     return side;
 }
 

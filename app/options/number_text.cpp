@@ -26,6 +26,7 @@ Error refusal(const std::string& option, const std::string& expected, std::strin
 // "0 to 1", "each 0 to 1", "0 to 1, then 2 to 3": each range once where it is the same.
 std::string rangesText(const std::vector<NumberRange>& ranges) {
     std::vector<std::string> texts;
+    texts.reserve(ranges.size());
     for (const NumberRange& range : ranges) texts.push_back(rangeText(range));
     if (texts.size() > 1 &&
         std::adjacent_find(texts.begin(), texts.end(), std::not_equal_to<>()) == texts.end())

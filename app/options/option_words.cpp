@@ -65,7 +65,6 @@ std::string valueText(const Option& option) {
         case ValueKind::Words:
             return "WORD,...";
         case ValueKind::File:
-            return "FILE";
         case ValueKind::FileOrWord:
             return "FILE";
         case ValueKind::Size:
