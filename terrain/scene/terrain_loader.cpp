@@ -154,6 +154,10 @@ GroundColor colorOf(const SceneFile& file, const LoadedGround& loaded, TerrainSc
         if (litLater(file)) look.ambient = 1;
         PicturedGround pictured{std::make_shared<const LaidPicture>(file.image, loaded.place), look,
                                 tintPlaceOf(file, scene), look.shadeImage || !file.light.empty()};
+        for (const std::string& note : pictured.picture->notes()) {
+            progress.note(note);
+            scene.report.notes.push_back(note);
+        }
         // A level in memory is what far ground is seen in: it has no more texels than were counted for it.
         const bool level = scene.tiled || scene.standIn;
         GroundColor color = picturedGround(
