@@ -92,6 +92,7 @@ void reportDem(const DemGrid& dem, TerrainReport& report) {
     report.sourceSamples = static_cast<long long>(dem.source.width) * dem.source.height;
     report.missingSamples = dem.sourceMissing;
     report.outsideSamples = dem.outside;
+    report.notes = dem.notes;
 }
 
 double bytesOfTintedGround(double samples) {
@@ -109,6 +110,8 @@ LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progr
                         : readDem(file.dem, file.verticalScale, reading, bytesOf);
     TerrainReport& report = scene.report;
     reportDem(dem, report);
+    scene.body = {dem.bodyRadius};
+    for (const std::string& note : dem.notes) progress.note(note);
     if (dem.georeferenced) scene.earth = earthPlaces(dem.grid, dem.spacing);
     if (tiled) return {std::move(dem), std::nullopt};
     if (file.openHoles)
