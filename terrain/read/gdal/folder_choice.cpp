@@ -76,7 +76,7 @@ private:
 
     void compare(std::size_t n, std::size_t k) {
         const FolderFile &a = mFiles[n], &b = mFiles[k];
-        if (!a.northUp || !b.northUp || !inOneSystem(a, b) || !oneCoversTheOther(a.plan, b.plan)) return;
+        if (!a.northUp || !b.northUp || !oneCoversTheOther(a.plan, b.plan) || !inOneSystem(a, b)) return;
         if (!isOtherGround(*opened(n), a, *opened(k), b)) return;
         const double likelier = evidence(n).score - evidence(k).score;
         if (std::abs(likelier) < kLikelier) {
