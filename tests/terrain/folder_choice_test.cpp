@@ -1,6 +1,9 @@
 // What lies beside heights in a folder: it is told from them and left aside, whatever it is called.
+#include <gdal_utils.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 #include "gdal_reading.h"
@@ -156,12 +159,38 @@ std::vector<Beside> besideHeights() {
 // Before and after it by name, and over ground that lies high or low.
 TEST_F(FolderChoice, TellsHeightsWithoutTheirNames) {
     for (const Beside& beside : besideHeights())
-        for (const char* name : {"a.tif", "c.tif"})
+        for (const char* name : {"a.tif", "z.tif"})
             for (const double over : {300.0, 1500.0}) {
                 emptyFolder();
                 write("b.tif", heightsAt(0, over)), write(name, beside.spec);
                 expectHills(std::string(beside.what) + " " + name, {name}, 1, over);
             }
+}
+
+// What the library's own program makes of a real ground.
+TEST_F(FolderChoice, WhatIsMadeOfRealHeightsIsLeftAside) {
+    const std::filesystem::path real = realData("srtm_bigtujunga30m_utm11.tif");
+    if (real.empty()) GTEST_SKIP() << "the real ground is not there";
+    const DemGrid alone = readGround(real);
+    GDALAllRegister();
+    const char* const words[] = {"-of", "GTiff", nullptr};
+    for (const char* kind : {"slope", "aspect", "hillshade", "TRI", "TPI", "roughness"})
+        for (const char* name : {"a.tif", "z.tif"}) {
+            emptyFolder();
+            std::filesystem::copy_file(real, parts() / "m.tif");
+            GDALDEMProcessingOptions* const options =
+                GDALDEMProcessingOptionsNew(const_cast<char**>(words), nullptr);
+            const GDALDatasetH source = GDALOpen(real.c_str(), GA_ReadOnly);
+            GDALClose(GDALDEMProcessing((parts() / name).c_str(), source, kind, nullptr, options, nullptr));
+            GDALClose(source);
+            GDALDEMProcessingOptionsFree(options);
+            const DemGrid dem = readGround(parts());
+            ASSERT_EQ(dem.heights.size(), alone.heights.size());
+            EXPECT_EQ(std::memcmp(dem.heights.data(), alone.heights.data(), 4 * dem.heights.size()), 0)
+                << kind << " " << name;
+            ASSERT_EQ(dem.notes.size(), 1u) << kind << " " << name;
+            EXPECT_THAT(dem.notes[0], HasSubstr(name));
+        }
 }
 
 TEST_F(FolderChoice, NamesAndAllAtOnce) {

@@ -18,7 +18,7 @@ constexpr int kNoCode = -1;  // of a pixel without colour
 constexpr int kGsiMissing = 1 << 23, kGsiWrap = 1 << 24;
 constexpr int kRgbSea = 100000;  // 0 m of Terrain-RGB
 constexpr double kLowest = -500, kHighest = 9000,
-                 kDeepest = -11500;    // metres: of land, and of the sea's floor
+                 kDeepest = -11500;  // metres: of land, and of the sea's floor
 constexpr double kHighestOfJapan = 3800;
 constexpr double kGsiSpacing_m = 7.7;  // of tiles without a path: zoom 14 at 36 degrees north
 

@@ -49,6 +49,14 @@ bool oneCoversTheOther(const FilePlan& a, const FilePlan& b) {
            both > 0;
 }
 
+// What speaks for the first because it is the smoother: slope, aspect, roughness and shade change from sample
+// to sample as the steps of heights do, and counts and noise anyhow.
+double smoother(const HeightEvidence& a, const HeightEvidence& b) {
+    constexpr double kMuch = 2.5, kWeight = 3;
+    if (!(a.rough > 0 && b.rough > 0)) return 0;
+    return b.rough > kMuch * a.rough ? kWeight : a.rough > kMuch * b.rough ? -kWeight : 0;
+}
+
 class Choosing {
 public:
     Choosing(std::vector<FolderFile>& files, const GdalMessages& messages)
@@ -78,7 +86,7 @@ private:
         const FolderFile &a = mFiles[n], &b = mFiles[k];
         if (!a.northUp || !b.northUp || !oneCoversTheOther(a.plan, b.plan) || !inOneSystem(a, b)) return;
         if (!isOtherGround(*opened(n), a, *opened(k), b)) return;
-        const double likelier = evidence(n).score - evidence(k).score;
+        const double likelier = evidence(n).score - evidence(k).score + smoother(evidence(n), evidence(k));
         if (std::abs(likelier) < kLikelier) {
             mUndecided.emplace_back(n, k);
             return;

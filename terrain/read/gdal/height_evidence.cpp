@@ -82,7 +82,7 @@ void weighSamples(GDALDataset& dataset, const FolderFile& file, HeightEvidence& 
     const PixelBox box{std::max(0, (width - kNear) / 2), std::max(0, (height - kNear) / 2),
                        std::min(width, kNear), std::min(height, kNear)};
     const std::vector<double> near = someHeights(dataset, file.band, box, box.width, box.height);
-    const double rough = roughness(near, box.width, spreadOf(near).deviation);
+    const double rough = evidence.rough = roughness(near, box.width, spreadOf(near).deviation);
     const auto weigh = [&](bool holds, double weight, const char* against = "") {
         if (!holds) return;
         evidence.score += weight;
@@ -134,7 +134,7 @@ HeightEvidence evidenceOf(GDALDataset& dataset, const FolderFile& file) {
     if (file.type == GDT_Byte) against(3, "bytes");
     if (namedForOtherThings(stem))
         against(4, "its name");
-    else if (speaksOfHeights(stem) || speaksOfHeights(band.GetDescription()))
+    else if (fileIsCalledHeights(stem) || speaksOfHeights(band.GetDescription()))
         evidence.score += 3;
     if (unit && *unit) evidence.score += 3;  // it is one of length
     if (file.type == GDT_Int16 || file.type == GDT_Int32 || file.type == GDT_Float32 ||

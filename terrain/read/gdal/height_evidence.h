@@ -12,6 +12,7 @@ namespace stereonav {
 struct HeightEvidence {
     double score = 0;
     std::string against;  // "its name", "bytes"
+    double rough = 0;     // mean step from sample to sample, as a share of how far they spread; 0: not known
 };
 // dataset: of the file. Reads some of its samples.
 HeightEvidence evidenceOf(GDALDataset& dataset, const FolderFile& file);

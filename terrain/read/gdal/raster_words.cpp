@@ -50,6 +50,13 @@ bool speaksOfHeights(const std::string& text) {
     return heights;
 }
 
+bool fileIsCalledHeights(const std::string& stem) {
+    std::string text;
+    for (const std::string& word : wordsIn(stem))
+        if (word != "z") text += word + ' ';
+    return speaksOfHeights(text);
+}
+
 bool namedForOtherThings(const std::string& stem) {
     static const std::vector<std::string_view> begins{
         "err",     "uncert", "qual",      "mask",      "count",   "slope",  "aspect",    "std",
