@@ -133,8 +133,8 @@ struct SceneOptions {
     double levelOfDetail = 0;  // share of a pixel that far ground may be off; 0: exact
     // Of ground that is cast: a round Earth, and the share of its curvature that light follows.
     bool curvature = false;
-    double refraction = kUsualRefraction;
-    bool lightLater = true;  // a window works out sky light of ground that has none (ShownTerrain)
+    std::optional<double> refraction;  // none: what is usual on the body that the ground lies on
+    bool lightLater = true;            // a window works out sky light of ground that has none (ShownTerrain)
     // Set by a window: pictures do not wait for detail; ground whose tiles are not made yet is shown coarse.
     bool detailLater = false, standInFirst = false;
     bool skyTurns = false;  // set by a window: keep what turning the sky over baked transfer takes
@@ -219,7 +219,7 @@ struct ReportOptions {
     std::vector<std::string> scenes;  // beside the built-in ones
     std::optional<UpAxis> up;         // as VolumeOptions, of those that are studies
     bool curvature = false;           // as SceneOptions, of those that are ground
-    double refraction = kUsualRefraction;
+    std::optional<double> refraction;
     std::string compare;             // an earlier run's report.json; "": none
     std::string stability;           // rows that the stability tests wrote; "": those of this build, if any
     int threads = 0;                 // 0: all

@@ -64,7 +64,7 @@ std::optional<Fact> factOfCurvature(const Scene& scene) {
     if (!terrain || !terrain->refraction) return std::nullopt;
     FactList list;
     list.json("sinks_by", "distance^2 (1 - refraction) / (2 radius)");
-    list.json("radius_m", kEarthRadius, "m");
+    list.json("radius_m", terrain->body.radius(), "m");
     list.json("refraction", *terrain->refraction);
     return factForJson("curvature", std::move(list.facts()));
 }
@@ -100,13 +100,16 @@ Facts factsOfTerrain(const Scene& scene) {
         list.text("exaggerated", fmt::format("{:.6g} times", terrain.verticalScale));
     if (std::optional<Fact> curvature = factOfCurvature(scene)) {
         list.facts().push_back(std::move(*curvature));
-        list.text("round Earth", fmt::format("radius {:.0f} km, refraction {:.6g}", kEarthRadius / 1000,
-                                             *terrain.refraction));
+        list.text(terrain.body.isEarth() ? "round Earth" : "round body",
+                  fmt::format("radius {:.0f} km, refraction {:.6g}", terrain.body.radius() / 1000,
+                              *terrain.refraction));
     }
     list.json("source_offset", FactNumbers{report.sourceOffset.x, report.sourceOffset.y});
     wherePresent("placed_by", report.placedBy, "placed by");
     wherePresent("band", report.band, "band");
     wherePresent("height_unit", report.heightUnit, "height unit");
+    list.json("notes", report.notes);
+    for (const std::string& note : report.notes) list.text("note", note);
     list.json("missing_value", report.missingValue);
     list.json("file_samples", std::int64_t{report.sourceSamples});
     list.json("missing_samples", std::int64_t{report.missingSamples});

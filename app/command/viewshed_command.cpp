@@ -32,8 +32,12 @@ void checkViewshedOptions(const ViewshedOptions& options) {
     checkOutputFile("--out", options.out);
 }
 
-double fallOf(const ViewshedOptions& options) {
-    return options.curvature ? curvatureFall(options.refraction.value_or(kUsualRefraction)) : 0;
+double refractionOf(const ViewshedOptions& options, const SurveyGround& survey) {
+    return options.refraction.value_or(survey.body.usualRefraction());
+}
+
+double fallOf(const ViewshedOptions& options, const SurveyGround& survey) {
+    return options.curvature ? curvatureFall(refractionOf(options, survey), survey.body) : 0;
 }
 
 void addPlace(CommandResult& result, const std::string& key, const SurveyPlace& place, double ground,
@@ -48,7 +52,7 @@ void tellSight(const ViewshedOptions& options, const SurveyGround& survey, const
     const glm::dvec2 place = survey.gridAt(options.to->reference, "--to");
     const double ground = survey.heightAt(place, "--to"), height = options.to->height_m.value_or(0);
     const GroundSamples samples = survey.samples();
-    const Sight sight = sightOver(samples, fallOf(options), eye, {place, ground + height});
+    const Sight sight = sightOver(samples, fallOf(options, survey), eye, {place, ground + height});
     const double distance = glm::length((place - glm::dvec2(eye)) * samples.spacing());
     result.answer(fmt::format("{}: {} of distance, the line passes {} {} the ground at {} from the eye\n",
                               sight.seen ? "they see each other" : "they do not see each other",
@@ -71,7 +75,7 @@ void writeShed(const ViewshedOptions& options, const SurveyGround& survey, const
     setting.eyeHeight = height;
     setting.targetHeight = options.targetHeight_m;
     setting.reach = options.reach_m;
-    setting.fall = fallOf(options);
+    setting.fall = fallOf(options, survey);
     const Stopwatch watch;
     const Viewshed shed = viewshedOf(part.ground(), setting, progress);
     const double time_ms = watch.elapsed_ms();
@@ -110,8 +114,11 @@ int runViewshed(const ViewshedOptions& options) {
     result.add("crs", survey.crs);
     addPlace(result, "from", options.from, ground, height);
     result.add("curvature", options.curvature);
-    result.add("refraction", options.curvature ? FactValue(options.refraction.value_or(kUsualRefraction))
-                                               : FactValue(std::monostate()));
+    const auto whereRound = [&](double value) {
+        return options.curvature ? FactValue(value) : FactValue(std::monostate());
+    };
+    result.add("refraction", whereRound(refractionOf(options, survey)));
+    result.add("radius_m", whereRound(survey.body.radius()));
     if (!options.out.empty()) writeShed(options, survey, eye, height, bar.progress(), result);
     bar.clear();
     if (options.to) tellSight(options, survey, eye, result);

@@ -23,7 +23,9 @@ std::vector<Option> groundPaintOptions() {
              }},
         {.key = "curvature",
          .value = flagValue(),
-         .help = "ground far away is seen lower, as the Earth is round, less what air bends light by",
+         .help = "ground far away is seen lower, as the Earth is round, or the body that it is of, less what "
+                 "air bends "
+                 "light by",
          .commands = kInfo | kRender | kPlay | kCompare | kReport | kView,
          .scenes = kTerrain,
          .rules = {{[](const Asked& asked) { return asked.has("papers"); },
@@ -34,7 +36,7 @@ std::vector<Option> groundPaintOptions() {
          .value = numberValue({0, 1, false, true}),
          .help = "share of the curvature that light follows",
          .advice = "0.13 is usual by day, 0 leaves it out",
-         .fallback = "0.13",
+         .fallback = "0.13, on other bodies than the Earth 0",
          .commands = kInfo | kRender | kPlay | kCompare | kReport | kView,
          .scenes = kTerrain,
          .rules = {{[](const Asked& asked) { return !asked.has("curvature"); },

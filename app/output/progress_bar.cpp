@@ -37,7 +37,8 @@ std::string progressLine(double fraction, const std::string& what, int barWidth)
 ProgressBar::ProgressBar(bool shown)
     : mShown(shown),
       mTerminal(isatty(STDERR_FILENO) != 0),
-      mProgress([this](double fraction, const std::string& what) { show(fraction, what); }) {
+      mProgress([this](double fraction, const std::string& what) { show(fraction, what); },
+                [this](const std::string& note) { tell(note); }) {
     mLineInterval_ms = lineInterval_ms();
     mNext_ms = mTerminal ? 0.0 : mLineInterval_ms;
     if (mShown) watchLoops([this](double share) { showAgain(share); });
@@ -56,6 +57,16 @@ void ProgressBar::show(double fraction, const std::string& what) {
     mFraction = fraction;
     if (what != mWhat) mWhat = what;
     if (now >= mNext_ms) draw(now);
+}
+
+// Each note once, however often a file is read.
+void ProgressBar::tell(const std::string& note) {
+    if (!mShown) return;
+    const std::lock_guard lock(mMutex);
+    if (!mTold.insert(note).second) return;
+    if (mTerminal && mDrawn) std::fputs("\r\033[K", stderr);
+    mDrawn = false;
+    std::fprintf(stderr, "stereonav: %s\n", note.c_str());
 }
 
 // By the first thread alone.

@@ -1,10 +1,11 @@
 // A progress bar on stderr: redrawn in place on a terminal; elsewhere one line every ten seconds, so
 // that logs stay short and short jobs say nothing. Between reports it says how long the present work takes,
-// and of a long loop how much of it is done.
+// and of a long loop how much of it is done. What the work has to note goes there too, in lines that stay.
 #pragma once
 
 #include <atomic>
 #include <mutex>
+#include <set>
 #include <string>
 
 #include "engine/base/progress.h"
@@ -26,6 +27,7 @@ public:
 
 private:
     void show(double fraction, const std::string& what);
+    void tell(const std::string& note);
     void showAgain(double share);  // while a loop runs that reports nothing
     void draw(double now_ms);
 
@@ -36,6 +38,7 @@ private:
     double mLoopShare = 0, mLoopStart_ms = 0;  // of the loop looked at last
     double mLineInterval_ms = 0;
     std::string mWhat;
+    std::set<std::string> mTold;
     bool mShown, mTerminal, mDrawn = false;
     Progress mProgress;
 };

@@ -110,8 +110,9 @@ void describeRun(ReportRun& run) {
     report.machine.emplace_back("kind of run", run.quick() ? "quick: fewer frames and repeats" : "full");
     report.machine.emplace_back("seed", std::to_string(run.options().seed));
     if (run.options().curvature)
-        report.machine.emplace_back("round Earth",
-                                    fmt::format("refraction {:.6g}", run.options().refraction));
+        report.machine.emplace_back(
+            "round Earth",
+            fmt::format("refraction {:.6g}", run.options().refraction.value_or(kUsualRefraction)));
     const std::string noise =
         noiseWarning(loadAverage(), static_cast<int>(std::thread::hardware_concurrency()));
     if (!noise.empty()) report.warnings.push_back(noise);

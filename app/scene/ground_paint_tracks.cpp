@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/output/length_text.h"
+#include "app/scene/earth_alone.h"
 #include "engine/base/error.h"
 #include "terrain/paint/track_painter.h"
 #include "terrain/read/raster_file.h"
@@ -13,6 +14,8 @@
 
 namespace stereonav {
 namespace {
+
+constexpr const char* kTrackDoes = "has places on the Earth";
 
 // Without a place on the Earth degrees are metres, as for `profile` and `measure`.
 std::optional<glm::dvec2> worldOfTrack(const TerrainScene& terrain, const glm::dvec2& degrees) {
@@ -29,6 +32,7 @@ const char* trackAdvice(const TerrainScene& terrain) {
 
 std::shared_ptr<const EyePainter> trackPainter(const TerrainScene& terrain, const Fog& fog,
                                                const std::string& file, PaintLegend& legend) {
+    expectEarth(terrain.body, file, kTrackDoes);
     const TrackFile read = readTrackFile(file);
     std::vector<std::vector<glm::dvec2>> lines;
     std::vector<glm::dvec2> places;
@@ -78,21 +82,23 @@ std::shared_ptr<const EyePainter> trackPainter(const TerrainScene& terrain, cons
 }
 
 RecordedPath followedTrack(const TerrainScene& terrain, const std::string& file, double height) {
-    const TrackFile read = readTrackFile(file);
-    if (read.lines.size() != 1)
-        throw Error(file, "", fmt::format("expected one track, found {}", read.lines.size()),
+    expectEarth(terrain.body, file, kTrackDoes);
+    const std::vector<TrackLine> tracks = joinedSegments(readTrackFile(file).lines);
+    if (tracks.size() != 1)
+        throw Error(file, "", fmt::format("expected one track, found {}", tracks.size()),
                     "leave the others out of the file");
+    const TrackLine& track = tracks.front();
     std::vector<glm::dvec2> line;
-    for (const glm::dvec2& degrees : read.lines.front().degrees) {
+    for (const glm::dvec2& degrees : track.degrees) {
         const auto world = worldOfTrack(terrain, degrees);
         if (world && terrain.ground.contains(*world)) line.push_back(*world);
     }
-    const std::size_t all = read.lines.front().degrees.size();
+    const std::size_t all = track.degrees.size();
     if (line.size() < all)
-        throw Error(file, read.lines.front().name,
+        throw Error(file, track.name,
                     fmt::format("{} of {} places lie outside the ground", all - line.size(), all),
                     trackAdvice(terrain));
-    if (read.lines.front().closed && line.size() > 2) line.push_back(line.front());
+    if (track.closed && line.size() > 2) line.push_back(line.front());
     if (!terrain.tiled) return followTrack(terrain.ground, line, height, file);
     const GroundLevels& levels = *terrain.tiled->levels;
     const int level = terrain.tiled->level;

@@ -14,8 +14,10 @@
 namespace stereonav {
 namespace {
 
-// Studies are sent zipped; what is in an archive is not looked for.
+// Studies are sent zipped; what is in an archive is not looked for, but for tiles of SRTM, which are read as
+// they are sent.
 void refuseArchive(const std::string& name) {
+    if (name.ends_with(".hgt.zip") || name.ends_with(".HGT.ZIP")) return;
     std::error_code code;
     if (!std::filesystem::is_regular_file(name, code)) return;
     char head[6] = {};

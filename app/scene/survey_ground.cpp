@@ -63,6 +63,8 @@ SurveyGround read(const SceneFile& file, Progress& progress) {
     SurveyGround survey;
     const DemGrid dem = readHeights(file, survey, progress);
     survey.crs = dem.crs;
+    survey.body = {dem.bodyRadius};
+    for (const std::string& note : dem.notes) progress.note(note);
     if (!dem.georeferenced) {
         placeInWorld(survey);
         return survey;

@@ -6,6 +6,7 @@
 
 #include "app/command/commands.h"
 #include "engine/base/progress.h"
+#include "engine/math/earth_bend.h"
 #include "terrain/ground/heightfield.h"
 #include "terrain/read/raster_file.h"
 #include "terrain/survey/ground_samples.h"
@@ -22,6 +23,7 @@ struct SurveyGround {
     std::unique_ptr<ReferencePlaces> reference;
     std::unique_ptr<EarthPlaces> earth;  // null where the file does not say where it lies
     std::string crs;                     // name of the file's system, "" for none
+    Body body;                           // that it lies on
 
     // The finest, wherever they are. The ground outlives them.
     GroundSamples samples() const { return tiles ? GroundSamples(tiles) : GroundSamples(ground); }

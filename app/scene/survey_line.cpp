@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "app/scene/earth_alone.h"
 #include "engine/base/error.h"
 #include "engine/camera/recorded_path.h"
 
@@ -24,6 +25,7 @@ void checkPlaces(WorldLine& line, const std::string& where) {
 }
 
 WorldLine trackOnGround(const SurveyGround& survey, const TrackLine& track, const std::string& file) {
+    expectEarth(survey.body, file, "has places on the Earth");
     WorldLine line{track.name, track.closed, {}};
     const GroundSamples samples = survey.samples();
     std::size_t off = 0;

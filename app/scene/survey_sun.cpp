@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/scene/earth_alone.h"
 #include "engine/base/error.h"
 #include "engine/light/skies/sun_position.h"
 
@@ -18,6 +19,7 @@ SunPlaceOnGround sunPlaceOf(const SurveyGround& survey) {
     const auto fail = [&](const char* problem) {
         throw Error(survey.name, "", problem, "name an elevation model that says where it lies");
     };
+    expectEarth(survey.body, survey.name, "the sun goes by places on the Earth");
     if (!survey.earth) fail("does not say where it lies on the Earth, and the sun goes by that");
     const glm::dvec2 middle(0.0);
     const auto here = survey.earth->placeAt(middle);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/scene/earth_alone.h"
 #include "app/scene/ground_paint.h"
 #include "app/scene/ground_paint_tracks.h"
 #include "app/scene/shown_as.h"
@@ -96,6 +97,8 @@ std::vector<NamedPlace> filesOfTerrain(const std::string& toml) {
 TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
     TerrainScene terrain = loadTerrain(describeTerrain(options), progress);
     refuseSunWithoutEffect(options, terrain);
+    if (terrain.look.physicalSky)
+        expectEarth(terrain.body, "--sky physical", "scatters light in the Earth's air");
     if (!options.ground.follow.empty()) {
         terrain.path = followedTrack(terrain, options.ground.follow, options.ground.followHeight_m);
         if (!terrain.eyesGiven) terrain.stereo = followedEyes(options.ground.followHeight_m);
@@ -106,8 +109,8 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
     terrain.levelOfDetail = options.levelOfDetail;
     // Raised heights sink as much more: what hides what stays as it is.
     if (options.curvature) {
-        terrain.refraction = options.refraction;
-        terrain.lens.fall = curvatureFall(options.refraction) * terrain.verticalScale;
+        terrain.refraction = options.refraction.value_or(terrain.body.usualRefraction());
+        terrain.lens.fall = curvatureFall(*terrain.refraction, terrain.body) * terrain.verticalScale;
     }
     return terrain;
 }

@@ -174,7 +174,7 @@ void Viewer::beginSession() {
     mRecentDue = true;
     reportKept();
     beginSecond();
-    if (first) mSession->notify("F1 shows the keys, F2 and F3 the panels");
+    greet(first);
 }
 
 void Viewer::takeKeys(double dt) {

@@ -141,6 +141,7 @@ private:
     double waitSeconds() const;
     void takeScene();
     void beginSession();
+    void greet(bool first);
     void beginSecond();
     void followSecond();
     void replaceScene();

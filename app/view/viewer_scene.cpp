@@ -15,6 +15,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/scene/capabilities.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 
@@ -223,6 +224,17 @@ void Viewer::goTo(const SettingTexts& settings) {
     }
     if (again) mSession->takeSceneChange();  // the scene that is loaded has it
     mSettings.reset();
+}
+
+// What was guessed of the scene comes before what helps to begin.
+void Viewer::greet(bool first) {
+    const auto* const terrain = mScene->scene->offered<const TerrainScene>();
+    const std::vector<std::string> notes = terrain ? terrain->report.notes : std::vector<std::string>();
+    for (const std::string& note : notes) tell(note);
+    if (!notes.empty())
+        mSession->notify(notes.front());
+    else if (first)
+        mSession->notify("F1 shows the keys, F2 and F3 the panels");
 }
 
 void Viewer::undo() {

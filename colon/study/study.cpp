@@ -13,6 +13,7 @@
 #include "colon/study/study_header.h"
 #include "colon/study/study_mapped.h"
 #include "colon/study/study_text.h"
+#include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 
@@ -41,7 +42,7 @@ bool isVolumeName(const fs::path& path) {
 // looks like one.
 bool isSliceName(const fs::path& path) {
     const std::string extension = loweredText(path.extension().string());
-    if (path.filename().string().front() == '.') return false;
+    if (isHiddenFile(path)) return false;
     return extension.empty() || extension == ".dcm" || extension == ".ima" || extension == ".dicom" ||
            extension.find_first_not_of(".0123456789") == std::string::npos;
 }
@@ -109,6 +110,7 @@ std::string ownerOf(const fs::path& path) {
     if (!fs::is_regular_file(path, code)) return "";
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     for (const auto& entry : fs::directory_iterator(folder, code)) {
+        if (isHiddenFile(entry.path())) continue;
         const std::string extension = loweredText(entry.path().extension().string());
         if (extension != ".nhdr" && extension != ".mhd") continue;
         if (++headers > kMostHeaders) return "";
@@ -177,7 +179,7 @@ bool looksLikeStudy(const fs::path& path) {
     std::vector<fs::path> bare;
     bool others = false;
     for (const auto& entry : fs::directory_iterator(path, code)) {
-        if (!entry.is_regular_file(code)) continue;
+        if (!entry.is_regular_file(code) || isHiddenFile(entry.path())) continue;
         const bool slice = isSliceName(entry.path()), named = entry.path().has_extension();
         if (slice && named) return true;
         if (slice) bare.push_back(entry.path());

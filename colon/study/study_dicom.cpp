@@ -12,6 +12,7 @@
 #include "colon/study/picture_decoder.h"
 #include "colon/study/study_facts.h"
 #include "colon/study/study_parts.h"
+#include "engine/base/file.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -25,7 +26,8 @@ std::vector<fs::path> filesAt(const fs::path& place) {
     if (!fs::is_directory(place, code)) return {place};
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(place, code))
-        if (entry.is_regular_file(code) && entry.path().filename() != "DICOMDIR")
+        if (entry.is_regular_file(code) && entry.path().filename() != "DICOMDIR" &&
+            !isHiddenFile(entry.path()))
             files.push_back(entry.path());
     if (code) throw Error(place.string(), "", "can not be opened", "check the name and its permissions");
     std::sort(files.begin(), files.end());

@@ -6,6 +6,7 @@
 
 #include "colon/study/study_parts.h"
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 
 namespace stereonav {
 namespace {
@@ -23,8 +24,7 @@ std::vector<fs::path> filesAt(const fs::path& place, Progress& progress) {
          entry.increment(code)) {
         if (files.size() % 1000 == 0) progress.report(0, "listing");
         std::error_code ignored;
-        if (entry->is_regular_file(ignored) && !entry->path().filename().string().starts_with("."))
-            files.push_back(entry->path());
+        if (entry->is_regular_file(ignored) && !isHiddenFile(entry->path())) files.push_back(entry->path());
     }
     std::sort(files.begin(), files.end());
     return files;

@@ -163,6 +163,10 @@ void checkFolder(const fs::path& path, const fs::path& target) {
 
 }  // namespace
 
+bool isHiddenFile(const fs::path& path) {
+    return path.filename().native().starts_with('.');
+}
+
 std::string kindOfFile(const fs::path& path) {
     std::error_code code;
     switch (fs::status(path, code).type()) {

@@ -17,6 +17,10 @@ void checkFileToRead(const std::filesystem::path& path);
 // "a folder", "a pipe"..., for messages.
 std::string kindOfFile(const std::filesystem::path& path);
 
+// Whether its name begins with a dot. In a folder such files are other programs' own, as macOS's ._NAME
+// beside NAME: no reader of folders takes them for data.
+bool isHiddenFile(const std::filesystem::path& path);
+
 // Throws Error naming the path when it can not be read, is no file, or is more than there is memory.
 std::string readTextFile(const std::filesystem::path& path);
 

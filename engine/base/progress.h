@@ -1,7 +1,8 @@
 // Progress of a long job, and the wish to stop it. The job calls report() now and then, from any
 // thread; the listener (a bar, a window) may ask to cancel, which throws Cancelled out of report(), as a wish
 // to stop the whole run does (stop.h). A function that takes a Progress tells 0 first, never less than it
-// told before, and 1 last; what it hands on is a part of its own.
+// told before, and 1 last; what it hands on is a part of its own. Where the job had to guess it says so by
+// note().
 #pragma once
 
 #include <atomic>
@@ -20,13 +21,16 @@ namespace stereonav {
 class Progress {
 public:
     using Listener = std::function<void(double fraction, const std::string& what)>;
+    using Reader = std::function<void(const std::string& note)>;
     Progress() = default;
-    explicit Progress(Listener listener) : mListener(std::move(listener)) {}
+    explicit Progress(Listener listener, Reader reader = {})
+        : mListener(std::move(listener)), mReader(std::move(reader)) {}
     // The part of another between two of its fractions. The other outlives it.
     Progress(Progress& whole, double from, double to)
         : mListener([&whole, from, to](double fraction, const std::string& what) {
               whole.report(std::lerp(from, to, fraction), what);
           }),
+          mReader([&whole](const std::string& note) { whole.note(note); }),
           mWhole(&whole) {}
 
     void cancel() { mCancelled = true; }
@@ -39,8 +43,14 @@ public:
         if (mListener) mListener(fraction, what);
     }
 
+    // What a person should know of the result, one line: what was guessed, or left aside.
+    void note(const std::string& note) {
+        if (mReader) mReader(note);
+    }
+
 private:
     Listener mListener;
+    Reader mReader;
     std::atomic<bool> mCancelled = false;
     const Progress* mWhole = nullptr;  // of a part
 };

@@ -13,13 +13,29 @@
 namespace stereonav {
 
 constexpr double kEarthRadius = 6371008.8;  // metres: the mean one of WGS 84 (IUGG)
-constexpr double kUsualRefraction = 0.13;   // of the curvature: Gauss's coefficient
+constexpr double kUsualRefraction = 0.13;   // of the curvature: Gauss's coefficient, in the Earth's air
+
+// What ground lies on.
+struct Body {
+    double meanRadius = 0;  // metres, as its reference system has it; 0: not said
+
+    // Whether it is the Earth, as all is that does not say otherwise: its ellipsoids and spheres are all
+    // alike, Venus is 5 % smaller.
+    constexpr bool isEarth() const {
+        constexpr double kAlike = 0.005;
+        return meanRadius <= 0 ||
+               (meanRadius > (1 - kAlike) * kEarthRadius && meanRadius < (1 + kAlike) * kEarthRadius);
+    }
+    constexpr double radius() const { return isEarth() ? kEarthRadius : meanRadius; }
+    // Where nothing is said: of air we know the Earth's alone.
+    constexpr double usualRefraction() const { return isEarth() ? kUsualRefraction : 0; }
+};
 
 // What the ground sinks by at a distance d: fall * d^2, metres.
 // refraction: the share of the curvature that light follows, 0 to 1; with 1 nothing sinks. A parabola in the
 // place of the sphere: 100 km away the two are 8 cm apart.
-constexpr double curvatureFall(double refraction) {
-    return (1 - refraction) / (2 * kEarthRadius);
+constexpr double curvatureFall(double refraction, const Body& body = {}) {
+    return (1 - refraction) / (2 * body.radius());
 }
 
 struct EarthBend {

@@ -119,7 +119,8 @@ SkyPicture readPicture(const std::filesystem::path& file) {
     const Georeference whole = opened->georeference(placed);
     const int width = whole.width, height = whole.height;
     const double shrink = std::max(1.0, width / (2.0 * mapSize(width)));
-    const GroundPicture picture = opened->read({0, 0, width, height}, glm::dvec2(shrink));
+    const GroundPicture picture =
+        opened->read({0, 0, width, height}, glm::dvec2(shrink), opened->wholeTone());
     LinearImage image{std::max(1, static_cast<int>(width / shrink + 0.5)),
                       std::max(1, static_cast<int>(height / shrink + 0.5)),
                       {}};

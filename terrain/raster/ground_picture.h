@@ -3,6 +3,8 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <string>
+#include <vector>
 
 #include "engine/image/packed_color.h"
 #include "engine/image/plane.h"
@@ -12,6 +14,12 @@ namespace stereonav {
 // Pixel coordinates of the image: [min, max).
 struct PixelWindow {
     int xMin = 0, yMin = 0, xMax = 0, yMax = 0;
+};
+
+// Stored values that are shown black and white.
+struct PictureTone {
+    double black = 0, white = 255;
+    std::vector<std::string> notes;  // what was guessed of it, a line each
 };
 
 class GroundPicture {

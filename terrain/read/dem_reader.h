@@ -1,6 +1,6 @@
-// Elevation models from files, through GDAL: GeoTIFF, SRTM .hgt, USGS DEM, ESRI ASCII, DTED, 16-bit
-// PNG, and the RGB-coded elevation tiles of the Geospatial Information Authority of Japan. Checked,
-// in metres both ways, south row first; missing samples are left for nodata.h.
+// Elevation models from files, through GDAL: GeoTIFF, SRTM .hgt, USGS DEM, ESRI ASCII, DTED, netCDF, 16-bit
+// PNG, and RGB-coded elevation tiles: of the Geospatial Information Authority of Japan, Terrain-RGB and
+// Terrarium. Checked, in metres both ways, south row first; missing samples are left for nodata.h.
 #pragma once
 
 #include <filesystem>
@@ -30,11 +30,14 @@ struct DemGrid {
     double sourceUnit = 0;         // metres of a unit of these; 0: they are not in the source's own system
     long long sourceMissing = 0;   // missing samples of the file itself, before any resampling
     long long outside = 0;         // samples of the grid that lie beyond the file's own: missing too
+    // Metres: the mean radius of the body that its reference system is of; 0 where it names none.
+    double bodyRadius = 0;
 
     // What the file left to be found out, in words; "" where there is nothing to say.
-    std::string band;          // which of several bands
-    std::string heightUnit;    // where heights were not plain metres
-    std::string missingValue;  // what marks missing samples
+    std::string band;                // which of several bands
+    std::string heightUnit;          // where heights were not plain metres
+    std::string missingValue;        // what marks missing samples
+    std::vector<std::string> notes;  // what else was guessed or left aside, a line each, with the file's name
 
     bool georeferenced = false;  // whether the file says where it lies
     Georeference source;         // of the file's samples
@@ -45,11 +48,12 @@ struct DemGrid {
 // bits, -9999 far below all else), masked, NaN, infinite, or beyond 1e7 m. Of several bands the one that
 // speaks of heights counts. Heights are in the band's unit, else in that of the vertical reference system,
 // else metres. Degrees, feet, turned rasters, control points and projections whose scale is off by more than
-// 1 % (web Mercator) are brought to metres; over a pole the file's projection stays. Without a georeference a
-// sample is a metre wide, except for a GSI tile: spacing from a path that ends in zoom/x/y.png, else that of
-// zoom 14 at 36 degrees north. Throws Error named by the file; Cancelled.
-// after: the bytes that the caller will hold at once for so many samples, these heights among them; where
-// they, or what reading takes, do not fit into the memory that can be had, nothing is read.
+// 1 % (web Mercator) are brought to metres; over a pole the file's projection stays. Where the band or the
+// vertical axis counts downward heights are turned over. Without a georeference a sample is a metre wide,
+// except for a coded tile: spacing from a path that ends in zoom/x/y.png, else that of zoom 14 at 36 degrees
+// north. Throws Error named by the file; Cancelled. after: the bytes that the caller will hold at once for so
+// many samples, these heights among them; where they, or what reading takes, do not fit into the memory that
+// can be had, nothing is read.
 using BytesForSamples = std::function<double(double samples)>;
 DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
                 const BytesForSamples& after = {});

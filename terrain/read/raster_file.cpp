@@ -67,7 +67,7 @@ std::vector<TrackLine> readTracks(const std::filesystem::path& file) {
     if (read.lines.empty())
         throw Error(file.string(), "", "expected a track, a line or an area, found none",
                     "single places have no length");
-    return std::move(read.lines);
+    return joinedSegments(std::move(read.lines));
 }
 
 }  // namespace stereonav

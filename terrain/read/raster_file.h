@@ -24,8 +24,14 @@ public:
     virtual ~RasterPicture() = default;
     // Where it lies; `known` is set to whether the file says so (else a unit a pixel, no system).
     virtual Georeference georeference(bool& known) = 0;
+    // As its pixels ask for: of 16 bits that are hardly used a stretch, and that is noted. Of all of it, so
+    // that its parts are shown alike. Throws Error.
+    virtual PictureTone tone() = 0;
+    // All that its bits hold, whatever its pixels.
+    virtual PictureTone wholeTone() = 0;
     // The window, averaged down by the factor `shrink` (>= 1) each way. Throws Error.
-    virtual GroundPicture read(const PixelWindow& window, const glm::dvec2& shrink) = 0;
+    virtual GroundPicture read(const PixelWindow& window, const glm::dvec2& shrink,
+                               const PictureTone& tone) = 0;
 };
 
 // `expected` completes the sentence "expected ..." and `advice` says what to give instead. Throws Error.
@@ -53,7 +59,7 @@ void writeGeoTiff(const std::filesystem::path& file, const Georeference& grid, c
 // The lines, areas and places of a GPX or GeoJSON file, one or more; areas without their holes, and tracks
 // without their points. Throws Error.
 TrackFile readTrackFile(const std::filesystem::path& file);
-// Its lines and areas, one or more. Throws Error.
+// Its lines and areas, one or more; the segments of a track are one line. Throws Error.
 std::vector<TrackLine> readTracks(const std::filesystem::path& file);
 
 // The module's table.

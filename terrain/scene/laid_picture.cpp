@@ -86,7 +86,8 @@ PixelWindow touchedWindow(const PixelMap& map, const GroundTextureSize& texture,
 LaidPicture::LaidPicture(const std::filesystem::path& file, const DemGrid& dem)
     : mFile(file), mGrid(dem.grid), mSpacing(dem.spacing) {
     bool known = false;
-    mPlace = openPicture(file)->georeference(known);
+    const auto picture = openPicture(file);
+    mPlace = picture->georeference(known);
     mOwn = known && dem.georeferenced;
     if (mPlace.wkt.empty()) mPlace.wkt = dem.source.wkt;
     if (!mOwn) layOverAll(dem, mPlace);
@@ -94,6 +95,7 @@ LaidPicture::LaidPicture(const std::filesystem::path& file, const DemGrid& dem)
     const Georeference middle = middleOf(mGrid);
     mDensity = pixelsPerTexel(mapPixels(middle, mPlace, file), middle.width, middle.height);
     if (!std::isfinite(mDensity.x + mDensity.y)) throwNoOverlap();
+    mTone = picture->tone();
 }
 
 // By the places of the ground's samples in the world, whose origin is the middle of the model's grid.
@@ -135,7 +137,7 @@ std::optional<LaidPicture::Pixels> LaidPicture::over(const Heightfield& ground,
                     fmt::format("expected the picture of {}x{} pixels that was there before, found {}x{}",
                                 mPlace.width, mPlace.height, now.width, now.height),
                     "open the scene again");
-    return Pixels{std::move(map), opened->read(window, shrink)};
+    return Pixels{std::move(map), opened->read(window, shrink, mTone)};
 }
 
 std::string LaidPicture::describe() const {

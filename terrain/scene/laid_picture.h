@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "terrain/ground/heightfield.h"
 #include "terrain/raster/georeference.h"
@@ -33,6 +34,8 @@ public:
     // file can not be read any more, or would not fit into memory.
     std::optional<Pixels> over(const Heightfield& ground, const GroundTextureSize& size) const;
 
+    // What was guessed of its colours, a line each.
+    const std::vector<std::string>& notes() const { return mTone.notes; }
     // "image winter.jpg 457x499 over the same extent"
     std::string describe() const;
     [[noreturn]] void throwNoOverlap() const;
@@ -46,6 +49,7 @@ private:
     Georeference mPlace;  // of the picture: by its own georeference, or over the elevation file's extent
     bool mOwn = false;
     glm::dvec2 mDensity{1.0};  // pixels a finest sample
+    PictureTone mTone;
 };
 
 }  // namespace stereonav

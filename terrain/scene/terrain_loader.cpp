@@ -92,6 +92,7 @@ void reportDem(const DemGrid& dem, TerrainReport& report) {
     report.sourceSamples = static_cast<long long>(dem.source.width) * dem.source.height;
     report.missingSamples = dem.sourceMissing;
     report.outsideSamples = dem.outside;
+    report.notes = dem.notes;
 }
 
 double bytesOfTintedGround(double samples) {
@@ -109,6 +110,8 @@ LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progr
                         : readDem(file.dem, file.verticalScale, reading, bytesOf);
     TerrainReport& report = scene.report;
     reportDem(dem, report);
+    scene.body = {dem.bodyRadius};
+    for (const std::string& note : dem.notes) progress.note(note);
     if (dem.georeferenced) scene.earth = earthPlaces(dem.grid, dem.spacing);
     if (tiled) return {std::move(dem), std::nullopt};
     if (file.openHoles)
@@ -154,6 +157,10 @@ GroundColor colorOf(const SceneFile& file, const LoadedGround& loaded, TerrainSc
         if (litLater(file)) look.ambient = 1;
         PicturedGround pictured{std::make_shared<const LaidPicture>(file.image, loaded.place), look,
                                 tintPlaceOf(file, scene), look.shadeImage || !file.light.empty()};
+        for (const std::string& note : pictured.picture->notes()) {
+            progress.note(note);
+            scene.report.notes.push_back(note);
+        }
         // A level in memory is what far ground is seen in: it has no more texels than were counted for it.
         const bool level = scene.tiled || scene.standIn;
         GroundColor color = picturedGround(

@@ -12,6 +12,7 @@
 #include "engine/camera/recorded_path.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/image/color_texture.h"
+#include "engine/math/earth_bend.h"
 #include "terrain/ground/ground_levels.h"
 #include "terrain/ground/heightfield.h"
 #include "terrain/light/sky_map.h"
@@ -50,8 +51,9 @@ struct TerrainReport {
     std::string colorSource;       // "image winter.jpg 457x499", "hypsometric tint", ...
     bool colorHoldsSun = false;    // some of the colours hold the light of the look's sun
     std::string skySource;
-    std::string lightSource;  // of baked light, "" without
-    std::string tiles;        // of a tiled ground: what lies where; "" of others
+    std::string lightSource;         // of baked light, "" without
+    std::string tiles;               // of a tiled ground: what lies where; "" of others
+    std::vector<std::string> notes;  // what was guessed or left aside, a line each
 };
 
 // The ground's finer levels, which lie in tiles on disk (terrain/tiles).
@@ -104,8 +106,9 @@ struct TerrainScene {
     StereoSetting stereo;
     bool eyesGiven = false;  // by the scene's file, or an option
     Lens lens;               // width and height are the caller's to set
-    // Of a round Earth, which the lens's fall is of: the share of its curvature that light follows.
+    // Of round ground, which the lens's fall is of: the share of its curvature that light follows.
     std::optional<double> refraction;
+    Body body;               // that the ground lies on
     double clearance = 2.0;  // metres kept above the ground
     TerrainReport report;
 };

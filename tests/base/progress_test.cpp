@@ -28,6 +28,17 @@ TEST(ProgressPart, LiesBetweenItsEnds) {
     EXPECT_EQ(whole.told(), (std::vector<double>{0, 0.5 / 3, 1.0 / 3, 1.0 / 3, 1}));
 }
 
+TEST(ProgressPart, HandsNotesOn) {
+    std::vector<std::string> notes;
+    Progress whole({}, [&](const std::string& note) { notes.push_back(note); });
+    Progress part(whole, 0, 0.5), within(part, 0.2, 0.4);
+    within.note("a");
+    whole.note("b");
+    EXPECT_EQ(notes, (std::vector<std::string>{"a", "b"}));
+    Progress deaf;
+    Progress(deaf, 0, 1).note("nobody reads it");
+}
+
 // Sums of thirds and tenths are not exact: what is told at a part's end is its end.
 TEST(ProgressPart, EndsExactlyWhereTheNextBegins) {
     for (int parts = 1; parts < 200; ++parts) {

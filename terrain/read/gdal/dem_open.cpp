@@ -2,22 +2,21 @@
 
 #include <fmt/format.h>
 #include <gdal_utils.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
 #include "terrain/raster/elevation_folder.h"
-#include "terrain/read/gdal/folder_mix.h"
-#include "terrain/read/gdal/height_band.h"
+#include "terrain/read/gdal/folder_choice.h"
 #include "terrain/read/gdal/height_convert.h"
 #include "terrain/read/gdal/program_words.h"
+#include "terrain/read/gdal/reference_system.h"
 #include "terrain/read/gdal/vrt_check.h"
 
 namespace stereonav {
@@ -31,41 +30,32 @@ constexpr const char* kAdvice = "give a GeoTIFF, .hgt, USGS DEM, ESRI ASCII or 1
     throw Error(file.string(), what, problem, advice);
 }
 
-// What all files of a folder must have in common.
-struct Common {
-    std::filesystem::path file;  // the first
-    std::unique_ptr<OGRSpatialReference> system;
-    HeightBand band;
-};
-
-std::unique_ptr<OGRSpatialReference> systemOf(GDALDataset& dataset) {
-    const OGRSpatialReference* const system = dataset.GetSpatialRef();
-    return system ? std::unique_ptr<OGRSpatialReference>(system->Clone()) : nullptr;
-}
-
-void checkStandsNorthUp(GDALDataset& dataset, const std::filesystem::path& file) {
-    double t[6];
-    const bool placed = dataset.GetGeoTransform(t) == CE_None;
-    if (placed && t[2] == 0 && t[4] == 0 && t[1] > 0 && t[5] < 0) return;
+void checkStandsNorthUp(const FolderFile& file) {
+    if (file.northUp) return;
     throwMisfit(
-        file, "georeference", placed ? "is turned or mirrored" : "does not say where it lies",
+        file.file, "georeference", file.placed ? "is turned or mirrored" : "does not say where it lies",
         "files of a folder stand north up: bring it there with gdalwarp, or take it out of the folder");
 }
 
-void checkFits(GDALDataset& dataset, const std::filesystem::path& file, const Common& common) {
-    const auto system = systemOf(dataset);
-    const bool same = !system == !common.system && (!system || system->IsSame(common.system.get()));
+void checkFits(const FolderFile& file, const FolderFile& common) {
+    const bool same =
+        !file.system == !common.system && (!file.system || file.system->IsSame(common.system.get()));
     const std::string first = common.file.filename().string();
     if (!same)
-        throwMisfit(file, "reference system", "is not that of " + first,
+        throwMisfit(file.file, "reference system", "is not that of " + first,
                     "bring all files of the folder to one, for example with gdalwarp -t_srs");
-    const HeightBand band = heightBandOf(dataset, file);
-    if (band.number != common.band.number || band.scale != common.band.scale ||
-        band.offset != common.band.offset || band.unit != common.band.unit ||
-        band.masked != common.band.masked || band.signedBytes != common.band.signedBytes)
-        throwMisfit(file, "heights",
+    const HeightBand &band = file.band, &other = common.band;
+    if (band.number != other.number || band.scale != other.scale || band.offset != other.offset ||
+        band.unit != other.unit || band.masked != other.masked || band.signedBytes != other.signedBytes)
+        throwMisfit(file.file, "heights",
                     "are not meant as those of " + first + ": band, unit, scale or mask differ",
                     "make them alike, for example with gdal_translate -unscale");
+}
+
+void checkCanBeMixed(const FolderFile& file) {
+    if (!file.band.masked && !file.band.signedBytes) return;
+    throwMisfit(file.file, "heights", "have a mask or bytes below 0, which a folder of files can not",
+                "make them metres, for example with gdal_translate -unscale");
 }
 
 // Doubles where floats do not hold what some file has stored.
@@ -76,80 +66,108 @@ bool needsDoubles(GDALDataType type) {
 // The file's band in floats, which says what stands for missing samples also where the file leaves it to
 // custom: what mixes files looks at what they say alone. In memory, a few hundred bytes, until the program
 // ends.
-std::string wrapped(const std::filesystem::path& file, GDALDataset& dataset, const HeightBand& band,
-                    const char* type) {
+std::string wrapped(const FolderFile& file, GDALDataset& dataset, const char* type) {
     static std::atomic<int> count = 0;
     const std::string name = fmt::format("/vsimem/stereonav_part_{}.vrt", count++);
     ProgramWords words;
-    words.add("-of").add("VRT").add("-b").add(std::to_string(band.number)).add("-ot").add(type);
-    if (band.nodata) words.add("-a_nodata").add(fmt::format("{:.17g}", *band.nodata));
+    words.add("-of").add("VRT").add("-b").add(std::to_string(file.band.number)).add("-ot").add(type);
+    if (file.band.nodata) words.add("-a_nodata").add(fmt::format("{:.17g}", *file.band.nodata));
     GDALTranslateOptions* const options = GDALTranslateOptionsNew(words.get(), nullptr);
     const GdalDataset made(GDALDataset::FromHandle(
         GDALTranslate(name.c_str(), GDALDataset::ToHandle(&dataset), options, nullptr)));
     GDALTranslateOptionsFree(options);
     if (!made)
-        throwMisfit(file, "", "can not be laid beside others",
+        throwMisfit(file.file, "", "can not be laid beside others",
                     "bring it to GeoTIFF, for example with gdal_translate");
+    double t[6];
+    if (file.plan.turned != 0 && made->GetGeoTransform(t) == CE_None) {
+        t[0] += file.plan.turned;
+        made->SetGeoTransform(t);
+    }
     return name;
 }
 
 // Once files are mixed nothing tells a -9999 that stands for a missing sample from a height, so it is said
 // before.
-bool customaryIsMissing(const std::vector<std::filesystem::path>& files, const std::vector<HeightBand>& bands,
-                        const std::vector<FilePlan>& plans, const GdalMessages& messages) {
+bool customaryIsMissing(const std::vector<FolderFile>& files, const GdalMessages& messages) {
     const bool unnamed =
-        std::any_of(bands.begin(), bands.end(), [](const HeightBand& band) { return !band.nodata; });
+        std::any_of(files.begin(), files.end(), [](const FolderFile& file) { return !file.band.nodata; });
+    std::vector<FilePlan> plans;
+    for (const FolderFile& file : files) plans.push_back(file.plan);
     if (!unnamed || !filesAreMixed(plans)) return false;
-    for (std::size_t n = 0; n < files.size(); ++n) {
-        const GdalDataset dataset = openRaster(files[n], messages, kExpected, kAdvice);
-        if (hasDeepGround(*dataset, bands[n])) return false;
+    for (const FolderFile& file : files) {
+        const GdalDataset dataset = openRaster(file.file, messages, kExpected, kAdvice);
+        if (hasDeepGround(*dataset, file.band)) return false;
     }
     return true;
 }
 
-GdalDataset openFolder(const std::filesystem::path& folder, const GdalMessages& messages) {
-    const std::vector<std::filesystem::path> files = elevationFilesIn(folder);
-    if (files.empty())
-        throwMisfit(folder, "", "expected elevation files, found a folder without any", kAdvice);
-    Common common;
-    bool doubles = false;
-    std::vector<HeightBand> bands;
-    std::vector<FilePlan> plans;
-    for (const std::filesystem::path& file : files) {
-        const GdalDataset dataset = openRaster(file, messages, kExpected, kAdvice);
-        checkStandsNorthUp(*dataset, file);
-        if (common.file.empty()) {
-            common = {file, systemOf(*dataset), heightBandOf(*dataset, file)};
-            if (common.band.scale != 1 || common.band.offset != 0 || common.band.masked ||
-                common.band.signedBytes)
-                throwMisfit(file, "heights",
-                            "have a scale, a unit or a mask, which a folder of files can not",
-                            "make them metres, for example with gdal_translate -unscale");
-        } else {
-            checkFits(*dataset, file, common);
-        }
-        bands.push_back(heightBandOf(*dataset, file));
-        plans.emplace_back(*dataset);
-        doubles |= needsDoubles(dataset->GetRasterBand(common.band.number)->GetRasterDataType());
+// As dem_placement.cpp takes files for degrees that name no system.
+bool lookLikeDegrees(const std::vector<FilePlan*>& plans) {
+    return std::all_of(plans.begin(), plans.end(), [](const FilePlan* plan) {
+        return std::max(std::abs(plan->west), std::abs(plan->east)) <= 360 &&
+               std::max(std::abs(plan->north), std::abs(plan->south)) <= 90.01 &&
+               std::max(plan->width, plan->height) <= 0.02;
+    });
+}
+
+// Checked to go together, and laid on one side of 180 degrees.
+FolderChoice filesOfOneGround(const std::filesystem::path& folder, const GdalMessages& messages) {
+    const std::vector<std::filesystem::path> all = elevationFilesIn(folder);
+    if (all.empty()) throwMisfit(folder, "", "expected elevation files, found a folder without any", kAdvice);
+    FolderChoice choice = chooseHeights(all, messages);
+    std::vector<FilePlan*> plans;
+    for (FolderFile& file : choice.files) {
+        checkStandsNorthUp(file);
+        checkFits(file, choice.files.front());
+        plans.push_back(&file.plan);
     }
-    const bool customary = customaryIsMissing(files, bands, plans, messages);
+    checkCanBeMixed(choice.files.front());
+    const auto& system = choice.files.front().system;
+    turnTogether(plans, system ? fullTurnOf(*system) : lookLikeDegrees(plans) ? 360 : 0);
+    return choice;
+}
+
+// What the numbers of all files mean, said again of what they were mixed to: a virtual raster leaves it out.
+void meanAsTheFiles(GDALDataset& made, const FolderFile& file, const GdalMessages& messages) {
+    const GdalDataset dataset = openRaster(file.file, messages, kExpected, kAdvice);
+    GDALRasterBand& from = *dataset->GetRasterBand(file.band.number);
+    GDALRasterBand& to = *made.GetRasterBand(1);
+    if (from.GetScale() != 1) to.SetScale(from.GetScale());
+    if (from.GetOffset() != 0) to.SetOffset(from.GetOffset());
+    if (const char* const unit = from.GetUnitType(); unit && *unit) to.SetUnitType(unit);
+    for (const char* const key : {"positive", "standard_name"})
+        if (const char* const text = from.GetMetadataItem(key)) to.SetMetadataItem(key, text);
+}
+
+OpenedDem openFolder(const std::filesystem::path& folder, const GdalMessages& messages) {
+    FolderChoice choice = filesOfOneGround(folder, messages);
+    std::vector<FolderFile>& files = choice.files;
+    const bool doubles = std::any_of(files.begin(), files.end(),
+                                     [](const FolderFile& file) { return needsDoubles(file.type); });
+    const bool customary = customaryIsMissing(files, messages);
     ProgramWords names;
-    for (std::size_t n = 0; n < files.size(); ++n) {
-        const std::filesystem::path whole = std::filesystem::absolute(files[n]);
+    OpenedDem opened;
+    for (FolderFile& file : files) {
+        opened.files.push_back(file.file);
+        const std::filesystem::path whole = std::filesystem::absolute(file.file);
         const GdalDataset dataset = openRaster(whole, messages, kExpected, kAdvice);
-        if (customary && !bands[n].nodata) bands[n].nodata = kCustomaryMissing;
-        names.add(wrapped(whole, *dataset, bands[n], doubles ? "Float64" : "Float32"));
+        if (customary && !file.band.nodata) file.band.nodata = kCustomaryMissing;
+        names.add(wrapped(file, *dataset, doubles ? "Float64" : "Float32"));
     }
     ProgramWords words;
     words.add("-strict").add("-resolution").add("highest").add("-r").add("bilinear");
     words.add("-vrtnodata").add("nan");
     GDALBuildVRTOptions* const options = GDALBuildVRTOptionsNew(words.get(), nullptr);
-    GdalDataset made(GDALDataset::FromHandle(
+    opened.dataset.reset(GDALDataset::FromHandle(
         GDALBuildVRT("", static_cast<int>(files.size()), nullptr, names.get(), options, nullptr)));
     GDALBuildVRTOptionsFree(options);
-    if (made) return made;
-    throwMisfit(folder, "", "its files do not make one ground" + messages.reason(folder),
-                "join them with gdalwarp, and name what that gives");
+    if (!opened.dataset)
+        throwMisfit(folder, "", "its files do not make one ground" + messages.reason(folder),
+                    "join them with gdalwarp, and name what that gives");
+    meanAsTheFiles(*opened.dataset, files.front(), messages);
+    opened.notes = std::move(choice.notes);
+    return opened;
 }
 
 bool isWhole(GDALDataset& dataset, const GdalMessages& messages) {
@@ -199,10 +217,12 @@ GdalDataset thinnedDem(GDALDataset& whole, long long most, const std::filesystem
     return made;
 }
 
-GdalDataset openDem(const std::filesystem::path& place, const GdalMessages& messages) {
+OpenedDem openDem(const std::filesystem::path& place, const GdalMessages& messages) {
     std::error_code failed;
-    return std::filesystem::is_directory(place, failed) ? openFolder(place, messages)
-                                                        : openRaster(place, messages, kExpected, kAdvice);
+    if (std::filesystem::is_directory(place, failed)) return openFolder(place, messages);
+    OpenedDem opened;
+    opened.dataset = openRaster(place, messages, kExpected, kAdvice);
+    return opened;
 }
 
 }  // namespace stereonav

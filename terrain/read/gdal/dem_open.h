@@ -2,19 +2,30 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "terrain/read/gdal/gdal_session.h"
 
 namespace stereonav {
 
-// Of a folder a virtual raster over all its elevation files (elevation_folder.h). They have one reference
-// system, stand north up, and mean their numbers alike. The finest samples count; files that are coarser, or
+// An elevation model that is open.
+struct OpenedDem {
+    GdalDataset dataset;
+    std::vector<std::filesystem::path> files;  // of a folder, those that are its ground
+    std::vector<std::string> notes;            // what was guessed, for a person
+};
+
+// Of a folder a virtual raster over its elevation files (elevation_folder.h), but for what is no heights
+// (folder_choice.h). They have one reference system, stand north up, and mean their numbers alike; where they
+// lie on both sides of 180 degrees they are one ground. The finest samples count; files that are coarser, or
 // not on the grid of the first, are resampled (bilinear). Where files overlap the one whose name comes last
 // counts, but for its missing samples; where there is none samples are missing. Missing is what each file
 // says, or its type's custom, or a -9999 that it does not name, where all heights lie far above that
 // (HeightSamples::findCustomary(); where files overlap or are resampled by some samples of each:
-// hasDeepGround()). Throws Error named by the file that does not fit.
-GdalDataset openDem(const std::filesystem::path& place, const GdalMessages& messages);
+// hasDeepGround()). Of netCDF files of several variables the one that is called heights. Throws Error named
+// by the file that does not fit.
+OpenedDem openDem(const std::filesystem::path& place, const GdalMessages& messages);
 
 // The dataset with at most so many samples, at least 2 each way, as a virtual raster over it: one sample of
 // each few, or of its overviews where it has them. It must be closed before `whole`. Null where all are no

@@ -7,33 +7,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "engine/base/error.h"
-#include "engine/text/number.h"
-#include "terrain/raster/elevation_folder.h"
-#include "terrain/read/gdal/dem_samples.h"
+#include "terrain/read/gdal/coded_tile.h"
 #include "terrain/read/gdal/reference_system.h"
 
 namespace stereonav {
 namespace {
 
 constexpr double kScaleTolerance = 0.01;  // a projection stretched by more is not metres on the ground
-
-// Metres a pixel of a web map tile whose path ends in zoom/x/y.ext; the second is its latitude.
-std::optional<double> tileSpacing(const std::filesystem::path& file) {
-    const auto y = wholeOf<int>(file.stem().string());
-    const auto x = wholeOf<int>(file.parent_path().filename().string());
-    const auto zoom = wholeOf<int>(file.parent_path().parent_path().filename().string());
-    if (!x || !y || !zoom || *x < 0 || *y < 0 || *zoom < 0 || *zoom > 24) return std::nullopt;
-    const double tiles = std::ldexp(1.0, *zoom);
-    if (*x >= tiles || *y >= tiles) return std::nullopt;
-    const double latitude = std::atan(std::sinh(std::numbers::pi * (1 - 2 * (*y + 0.5) / tiles)));
-    constexpr double kEquator_m = 40075016.68557849;
-    return kEquator_m * std::cos(latitude) / (256 * tiles);
-}
 
 // Coordinates without a reference system that can hardly be anything but degrees: fine steps inside
 // the globe's range, not starting at (0, 0) as measured surfaces do.
@@ -77,29 +61,39 @@ std::string verticalDatumOf(GDALDataset& dataset) {
     return name + ", " + datum;
 }
 
-void placeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGrid& dem) {
+void placeSource(GDALDataset& dataset, const OpenedDem& opened, const std::filesystem::path& file,
+                 DemGrid& dem) {
     dem.source = georeferenceOf(dataset, file, dem.georeferenced);
     dem.driver = dataset.GetDriver()->GetMetadataItem(GDAL_DMD_LONGNAME);
     if (std::string_view(dataset.GetDriverName()) == "GTiff") dem.driver = "GeoTIFF";
-    if (const std::size_t files = elevationFilesIn(file).size(); files > 0)
-        dem.driver = fmt::format("{} files of a folder", files);
+    if (const std::size_t files = opened.files.size(); files > 0)
+        dem.driver = fmt::format("{} file{} of a folder", files, files == 1 ? "" : "s");
+    dem.notes = opened.notes;
     dem.crs = systemName(dem.source.wkt);
     dem.verticalDatum = verticalDatumOf(dataset);
+    dem.bodyRadius = bodyRadiusOf(dem.source);
     if (dem.source.wkt.empty() && dem.georeferenced && looksLikeDegrees(dem.source)) {
         OGRSpatialReference degrees;
         degrees.importFromEPSG(4326);
         dem.source.wkt = wktOf(degrees);
         dem.crs = "WGS 84 (assumed: the file names none, its coordinates look like degrees)";
     }
-    if (!isGsiTile(dataset)) return;
-    dem.driver = "GSI elevation tile (RGB-coded PNG)";
+    const CodedTile tile = codedTileOf(dataset, file);
+    if (tile.code == TileCode::None) return;
+    dem.driver = nameOf(tile.code);
+    if (!tile.note.empty()) dem.notes.push_back(file.string() + ": " + tile.note);
     if (dem.georeferenced) return;
     constexpr double kZoom14At36North_m = 40075016.68557849 / (256.0 * 16384.0) * 0.80901699437494742;
-    const auto spacing = tileSpacing(file);
-    const double step = spacing.value_or(kZoom14At36North_m);
+    const auto place = webTileOf(file);
+    const double step = place ? place->spacing(dem.source.width) : kZoom14At36North_m;
     dem.source.transform = {0, step, 0, 0, 0, -step};
     dem.projection = fmt::format("tile of {:.4g} m a sample, {}", step,
-                                 spacing ? "from its path zoom/x/y" : "assumed: zoom 14 at 36 degrees north");
+                                 place ? "from its path zoom/x/y" : "assumed: zoom 14 at 36 degrees north");
+    if (!place)
+        dem.notes.push_back(
+            fmt::format("{}: taken for a tile of {:.4g} m a sample, of zoom 14 at 36 degrees "
+                        "north: its path does not end in zoom/x/y",
+                        file.string(), step));
 }
 
 // The plane that ground lies in as it is.
@@ -202,8 +196,9 @@ void checkGrid(const std::filesystem::path& file, const DemGrid& dem) {
 
 }  // namespace
 
-void describeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGrid& dem) {
-    placeSource(dataset, file, dem);
+void describeSource(GDALDataset& dataset, const OpenedDem& opened, const std::filesystem::path& file,
+                    DemGrid& dem) {
+    placeSource(dataset, opened, file, dem);
     checkPlacement(dataset, file, dem.georeferenced);
     checkGrid(file, dem);
 }

@@ -9,13 +9,15 @@
 
 #include "terrain/raster/georeference.h"
 #include "terrain/read/dem_reader.h"
+#include "terrain/read/gdal/dem_open.h"
 #include "terrain/read/gdal/gdal_session.h"
 
 namespace stereonav {
 
-// Fills in driver, crs, datum, source and georeferenced. Throws Error named by the file where its samples lie
-// nowhere or are less than 2x2.
-void describeSource(GDALDataset& dataset, const std::filesystem::path& file, DemGrid& dem);
+// Fills in driver, crs, datum, body, source, georeferenced and notes. dataset: opened.dataset, or thinned
+// from it. Throws Error named by the file where its samples lie nowhere or are less than 2x2.
+void describeSource(GDALDataset& dataset, const OpenedDem& opened, const std::filesystem::path& file,
+                    DemGrid& dem);
 
 struct DemPlacement {
     bool asTheyAre = false;   // turned over at most; else resampled onto

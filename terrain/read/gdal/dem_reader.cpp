@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
+#include "terrain/read/gdal/coded_tile.h"
 #include "terrain/read/gdal/dem_open.h"
 #include "terrain/read/gdal/dem_placement.h"
 #include "terrain/read/gdal/dem_resample.h"
@@ -78,10 +79,11 @@ void bringToGrid(const std::filesystem::path& file, const DemPlacement& placemen
 
 DemGlance glanceAtDem(const std::filesystem::path& file) {
     GdalMessages messages;
-    const GdalDataset dataset = openDem(file, messages);
+    const OpenedDem opened = openDem(file, messages);
+    GDALDataset* const dataset = opened.dataset.get();
     checkRasterSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
     DemGrid dem;
-    describeSource(*dataset, file, dem);
+    describeSource(*dataset, opened, file, dem);
     DemGlance glance;
     glance.width = dem.source.width, glance.height = dem.source.height;
     const auto& t = dem.source.transform;
@@ -91,7 +93,7 @@ DemGlance glanceAtDem(const std::filesystem::path& file) {
     glance.unit = !dem.georeferenced && dem.projection.empty() ? "units" : unit > 0 ? "m" : "degrees";
     glance.driver = dem.driver, glance.crs = dem.crs;
     // A tile of coloured heights has no band of its own for them.
-    if (!isGsiTile(*dataset)) {
+    if (codedTileOf(*dataset, file).code == TileCode::None) {
         const HeightBand band = heightBandOf(*dataset, file);
         glance.band = band.chosen, glance.heightUnit = band.unit, glance.missingValue = band.missing;
         glance.type = GDALGetDataTypeName(dataset->GetRasterBand(band.number)->GetRasterDataType());
@@ -102,10 +104,11 @@ DemGlance glanceAtDem(const std::filesystem::path& file) {
 DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
                 const BytesForSamples& after) {
     GdalMessages messages;
-    const GdalDataset dataset = openDem(file, messages);
+    const OpenedDem opened = openDem(file, messages);
+    GDALDataset* const dataset = opened.dataset.get();
     checkRasterSize(file, dataset->GetRasterXSize(), dataset->GetRasterYSize());
     DemGrid dem;
-    describeSource(*dataset, file, dem);
+    describeSource(*dataset, opened, file, dem);
     const DemPlacement placement = placementOf(dem.source, file, kReadAtOnce);
     checkMemoryFor(file, dem.source, placement, after);
     Progress reading(progress, 0, placement.asTheyAre ? 1 : 0.5), placing(progress, 0.5, 1);

@@ -10,6 +10,7 @@
 #include "engine/base/stop.h"
 #include "terrain/raster/elevation_folder.h"
 #include "terrain/read/dem_rows.h"
+#include "terrain/read/gdal/coded_tile.h"
 #include "terrain/read/gdal/dem_open.h"
 #include "terrain/read/gdal/dem_placement.h"
 #include "terrain/read/gdal/dem_resample_rows.h"
@@ -28,9 +29,11 @@ public:
     // most: samples; 0: all.
     GdalRows(const std::filesystem::path& file, long long most) : mFile(file) {
         GdalMessages messages;
-        mDataset = openDem(file, messages);
+        OpenedDem opened = openDem(file, messages);
+        mDataset = std::move(opened.dataset);
+        mFiles = opened.files;
         checkRasterSize(file, mDataset->GetRasterXSize(), mDataset->GetRasterYSize(), kReadByRows);
-        if (isGsiTile(*mDataset)) {
+        if (codedTileOf(*mDataset, file).code != TileCode::None) {
             readWhole();
             return;
         }
@@ -38,7 +41,7 @@ public:
             mThinnedFrom = std::move(mDataset);
             mDataset = std::move(thinned);
         }
-        describeSource(*mDataset, file, mDem);
+        describeSource(*mDataset, opened, file, mDem);
         mPlacement = placementOf(mDem.source, file, kReadByRows);
         placeOnGrid(mPlacement, mDem);
         mSamples = std::make_unique<HeightSamples>(*mDataset, file);
@@ -141,8 +144,11 @@ public:
         std::sort(files.begin(), files.end());
         files.erase(std::unique(files.begin(), files.end()), files.end());
         Hash hash;
-        // Of a folder also how its files are mixed.
-        if (mDataset && !elevationFilesIn(mFile).empty()) hash.add(std::string_view("-9999 is not mixed"));
+        // Of a folder also how its files are mixed, where some are left aside which.
+        if (!mFiles.empty()) hash.add(std::string_view("-9999 is not mixed"));
+        if (!mFiles.empty() && mFiles.size() < elevationFilesIn(mFile).size())
+            for (const std::filesystem::path& file : mFiles) hash.add(std::string_view(file.native()));
+        if (mSamples && mSamples->band().scale < 0) hash.add(std::string_view("depths are below 0"));
         for (const std::filesystem::path& file : files) {
             std::error_code code;
             hash.add(std::string_view(file.native()));
@@ -195,7 +201,8 @@ private:
     }
 
     std::filesystem::path mFile;
-    GdalDataset mThinnedFrom;  // null where all samples are read
+    std::vector<std::filesystem::path> mFiles;  // of a folder, those that are its ground
+    GdalDataset mThinnedFrom;                   // null where all samples are read
     GdalDataset mDataset;
     DemGrid mDem;
     DemPlacement mPlacement;

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 #include "engine/base/error.h"
+#include "terrain/read/gdal/coded_tile.h"
 #include "terrain/read/gdal/dem_open.h"
 #include "terrain/read/height_limits.h"
 
@@ -16,7 +16,6 @@ namespace stereonav {
 namespace {
 
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
-constexpr int kGsiSide = 256;
 constexpr const char* kReadAgain = "fetch or export the file again";
 
 [[noreturn]] void throwCutOff(const std::filesystem::path& file, int row, int rows,
@@ -26,30 +25,6 @@ constexpr const char* kReadAgain = "fetch or export the file again";
         throw Error(part.string(), "", "the file is cut off or damaged" + reason, kReadAgain);
     throw Error(file.string(), fmt::format("row {} of {}", row + 1, rows),
                 "the file is cut off or damaged" + reason, kReadAgain);
-}
-
-// Height of one GSI pixel in metres; NaN for its nodata, (128, 0, 0).
-double gsiHeight(int r, int g, int b) {
-    constexpr int kWrap = 1 << 24;
-    const int code = r << 16 | g << 8 | b;
-    if (code == kWrap / 2) return std::numeric_limits<double>::quiet_NaN();
-    return 0.01 * (code < kWrap / 2 ? code : code - kWrap);
-}
-
-std::vector<unsigned char> gsiBytes(GDALDataset& dataset) {
-    std::vector<unsigned char> bytes(3u * kGsiSide * kGsiSide);
-    const CPLErr failed = dataset.RasterIO(GF_Read, 0, 0, kGsiSide, kGsiSide, bytes.data(), kGsiSide,
-                                           kGsiSide, GDT_Byte, 3, nullptr, 3, 3 * kGsiSide, 1, nullptr);
-    if (failed != CE_None) bytes.clear();
-    return bytes;
-}
-
-std::vector<float> gsiSamples(GDALDataset& dataset) {
-    const std::vector<unsigned char> bytes = gsiBytes(dataset);
-    std::vector<float> heights(static_cast<std::size_t>(kGsiSide) * kGsiSide);
-    for (std::size_t k = 0; k < heights.size(); ++k)
-        heights[k] = static_cast<float>(gsiHeight(bytes[3 * k], bytes[3 * k + 1], bytes[3 * k + 2]));
-    return heights;
 }
 
 // All of it, a run of rows at a time.
@@ -65,23 +40,6 @@ std::vector<float> readAll(HeightSamples& samples, GdalMessages& messages, const
     }
     return heights;
 }
-
-}  // namespace
-
-bool isGsiTile(GDALDataset& dataset) {
-    if (dataset.GetRasterXSize() != kGsiSide || dataset.GetRasterYSize() != kGsiSide) return false;
-    const int bands = dataset.GetRasterCount();
-    if (bands < 3 || bands > 4 || dataset.GetRasterBand(1)->GetRasterDataType() != GDT_Byte) return false;
-    if (std::string_view(dataset.GetDriverName()) == "JPEG") return false;
-    const std::vector<unsigned char> bytes = gsiBytes(dataset);
-    for (std::size_t k = 0; k < bytes.size(); k += 3) {
-        const double height = gsiHeight(bytes[k], bytes[k + 1], bytes[k + 2]);
-        if (height < -500 || height > 9000) return false;
-    }
-    return !bytes.empty();
-}
-
-namespace {
 
 // What stands for missing samples of a folder is the reader's own, not a value that somebody named.
 HeightBand bandAsNamed(GDALDataset& dataset, const std::filesystem::path& file) {
@@ -168,8 +126,8 @@ DemSamples readSamples(GDALDataset& dataset, GdalMessages& messages, const std::
     progress.report(0, doing);
     DemSamples samples;
     HeightTally all;
-    if (isGsiTile(dataset)) {
-        samples = {gsiSamples(dataset), "", "", "of the tile's own code"};
+    if (const TileCode code = codedTileOf(dataset, file).code; code != TileCode::None) {
+        samples = {codedHeights(dataset, code), "", "", "of the tile's own code"};
         for (const float h : samples.heights)
             if (!std::isnan(h)) all.count(h, h);
     } else {

@@ -13,10 +13,6 @@
 
 namespace stereonav {
 
-// Whether the raster is a GSI elevation tile: 256x256, three or four 8-bit bands, not JPEG, and every
-// pixel decodes to a height between -500 and 9,000 m or to nodata; a photo does not.
-bool isGsiTile(GDALDataset& dataset);
-
 // A part of a raster, in its own samples: columns from x, rows from y.
 struct SampleWindow {
     int x = 0, y = 0, width = 0, height = 0;

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <numbers>
 
+#include "engine/math/earth_bend.h"
 #include "terrain/read/gdal/gdal_session.h"
 #include "terrain/read/gdal/reference_system.h"
 #include "terrain/read/raster_file.h"
@@ -83,7 +84,7 @@ private:
 }  // namespace
 
 std::unique_ptr<EarthPlaces> earthPlaces(const Georeference& grid, const glm::dvec2& spacing) {
-    if (grid.wkt.empty() || !onEarth(grid)) return nullptr;
+    if (grid.wkt.empty() || !Body{bodyRadiusOf(grid)}.isEarth() || !onEarth(grid)) return nullptr;
     const GdalMessages messages;  // of systems of other bodies, which have no way to WGS 84
     OGRSpatialReference own, earth;
     if (own.importFromWkt(grid.wkt.c_str()) != OGRERR_NONE ||

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "terrain/read/gdal/height_convert.h"
 
@@ -24,10 +25,46 @@ bool onOneGrid(const FilePlan& a, const FilePlan& b) {
 }  // namespace
 
 FilePlan::FilePlan(GDALDataset& dataset) {
-    double t[6];
+    double t[6] = {0, 1, 0, 0, 0, -1};
     dataset.GetGeoTransform(t);
     west = t[0], north = t[3], width = t[1], height = -t[5];
     east = west + width * dataset.GetRasterXSize(), south = north - height * dataset.GetRasterYSize();
+}
+
+bool turnTogether(std::vector<FilePlan*>& plans, double turn) {
+    if (!(turn > 0) || plans.empty()) return false;
+    const auto extent = [&] {
+        double west = plans[0]->west, east = plans[0]->east;
+        for (const FilePlan* plan : plans)
+            west = std::min(west, plan->west), east = std::max(east, plan->east);
+        return east - west;
+    };
+    if (extent() <= 0.5 * turn) return false;
+    // From the widest stretch without any file on, eastward.
+    std::vector<std::pair<double, double>> along;  // west within one turn, and how wide
+    for (const FilePlan* plan : plans)
+        along.emplace_back(plan->west - turn * std::floor(plan->west / turn), plan->east - plan->west);
+    std::sort(along.begin(), along.end());
+    double start = along[0].first, end = along[0].first + along[0].second, widest = 0;
+    for (std::size_t n = 1; n <= along.size(); ++n) {
+        const double next = n < along.size() ? along[n].first : along[0].first + turn;
+        if (next - end > widest) widest = next - end, start = next;
+        if (n < along.size()) end = std::max(end, next + along[n].second);
+    }
+    if (widest <= 0) return false;  // all around
+    // As the westernmost file itself counts, so that longitudes stay as its are.
+    start = start >= turn ? start - turn : start;
+    for (const FilePlan* plan : plans) {
+        const double turns = (plan->west - start) / turn;
+        if (std::abs(turns - std::round(turns)) * turn < 1e-6 * plan->width) start = plan->west;
+    }
+    bool moved = false;
+    for (FilePlan* plan : plans) {
+        const double by = -turn * std::floor((plan->west - start) / turn + 1e-9);
+        plan->west += by, plan->east += by, plan->turned += by;
+        moved |= by != 0;
+    }
+    return moved;
 }
 
 bool filesAreMixed(const std::vector<FilePlan>& plans) {

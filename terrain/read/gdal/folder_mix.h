@@ -10,11 +10,17 @@ namespace stereonav {
 
 // Where a file's samples are, in its reference system; north up.
 struct FilePlan {
-    double west, north, east, south;  // outer borders
-    double width, height;             // of a sample
+    double west = 0, north = 0, east = 0, south = 0;  // outer borders
+    double width = 1, height = 1;                     // of a sample
+    double turned = 0;                                // added to the file's own west
 
     explicit FilePlan(GDALDataset& dataset);
 };
+
+// Files of a system that closes around a body after `turn`, 360 degrees, and whose two ends are both among
+// them: moves those of one end by a turn beside those of the other. False where they lie together as they
+// are.
+bool turnTogether(std::vector<FilePlan*>& plans, double turn);
 
 // Whether samples of one file are resampled to lie among those of another, or take their place: files overlap
 // by more than half a sample, or are not on one grid.

@@ -8,11 +8,15 @@
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
 
+#include <cctype>
 #include <mutex>
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "terrain/raster/elevation_folder.h"
 #include "terrain/read/gdal/control_points.h"
+#include "terrain/read/gdal/netcdf_size.h"
+#include "terrain/read/gdal/raster_words.h"
 #include "terrain/read/gdal/vrt_check.h"
 
 namespace stereonav {
@@ -25,21 +29,57 @@ void registerDriversOnce() {
     std::call_once(once, [] {
         // Else a twentieth of the machine's memory, some of which the heap keeps after a file is closed.
         if (!CPLGetConfigOption("GDAL_CACHEMAX", nullptr)) GDALSetCacheMax64(kGdalBlocks);
-        for (void (*const add)() : {GDALRegister_GTiff,          GDALRegister_SRTMHGT,
-                                    GDALRegister_USGSDEM,        GDALRegister_AAIGrid,
-                                    GDALRegister_GRASSASCIIGrid, GDALRegister_DTED,
-                                    GDALRegister_EHdr,           GDALRegister_HFA,
-                                    GDALRegister_ENVI,           GDALRegister_SAGA,
-                                    GDALRegister_GSAG,           GDALRegister_GSBG,
-                                    GDALRegister_GS7BG,          GDALRegister_BT,
+        for (void (*const add)() : {GDALRegister_GTiff,
+                                    GDALRegister_SRTMHGT,
+                                    GDALRegister_USGSDEM,
+                                    GDALRegister_AAIGrid,
+                                    GDALRegister_GRASSASCIIGrid,
+                                    GDALRegister_DTED,
+                                    GDALRegister_EHdr,
+                                    GDALRegister_HFA,
+                                    GDALRegister_ENVI,
+                                    GDALRegister_SAGA,
+                                    GDALRegister_GSAG,
+                                    GDALRegister_GSBG,
+                                    GDALRegister_GS7BG,
+                                    GDALRegister_BT,
 
-                                    GDALRegister_WEBP,           GDALRegister_GIF,
-                                    GDALRegister_JP2OpenJPEG,    GDALRegister_PNG,
-                                    GDALRegister_JPEG,           GDALRegister_BMP,
-                                    RegisterOGRGeoPackage,       RegisterOGRSQLite,
-                                    GDALRegister_MBTiles,        GDALRegister_VRT})
+                                    GDALRegister_WEBP,
+                                    GDALRegister_GIF,
+                                    GDALRegister_JP2OpenJPEG,
+                                    GDALRegister_PNG,
+                                    GDALRegister_JPEG,
+                                    GDALRegister_BMP,
+                                    RegisterOGRGeoPackage,
+                                    RegisterOGRSQLite,
+                                    GDALRegister_MBTiles,
+                                    GDALRegister_netCDF,
+                                    GDALRegister_VRT})
             add();
     });
+}
+
+// Of the rasters in a file (names and descriptions by turns) the one that is called heights; "" where none
+// is, or several are.
+std::string heightsAmong(char** several) {
+    std::string found;
+    for (int n = 1; n <= CSLCount(several) / 2; ++n) {
+        const auto text = [&](const char* what) {
+            const char* const value =
+                CSLFetchNameValue(several, fmt::format("SUBDATASET_{}_{}", n, what).c_str());
+            return std::string(value ? value : "");
+        };
+        const std::string name = text("NAME");
+        if (!speaksOfHeights(name.substr(name.rfind(':') + 1)) && !speaksOfHeights(text("DESC"))) continue;
+        if (!found.empty()) return "";
+        found = name;
+    }
+    return found;
+}
+
+GdalDataset opened(const std::string& name) {
+    return GdalDataset(GDALDataset::Open(
+        name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, rasterDrivers()));
 }
 
 }  // namespace
@@ -69,6 +109,8 @@ GdalMessages::GdalMessages() {
     // Else the vertical reference system of GeoTIFF 1.0 is left out.
     CPLSetThreadLocalConfigOption("GTIFF_REPORT_COMPD_CS", "YES");
     CPLSetThreadLocalConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
+    // Nothing is written beside what is read.
+    CPLSetThreadLocalConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
 }
 
 GdalMessages::~GdalMessages() {
@@ -99,10 +141,18 @@ GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& me
                        const std::string& expected, const std::string& advice) {
     checkFileForGdal(file, advice);
     checkVirtualRaster(file);
-    GdalDataset dataset(GDALDataset::Open(
-        file.string().c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, rasterDrivers()));
+    std::error_code failed;
+    if (const auto bytes = classicNetCdfSize(file);
+        bytes && *bytes > std::filesystem::file_size(file, failed))
+        throw Error(file.string(), "", "the file is cut off or damaged", "fetch or export the file again");
+    // Of archives the driver unpacks zip alone itself.
+    const bool gzipped = isPackedHeights(file) && std::tolower(file.native().back()) == 'z';
+    GdalDataset dataset = opened((gzipped ? "/vsigzip/" : "") + file.string());
     if (dataset && dataset->GetRasterCount() > 0) return dataset;
     char** const several = dataset ? dataset->GetMetadata("SUBDATASETS") : nullptr;
+    if (dataset && std::string_view(dataset->GetDriverName()) == "netCDF")
+        if (const std::string heights = heightsAmong(several); !heights.empty())
+            if (GdalDataset found = opened(heights); found && found->GetRasterCount() > 0) return found;
     if (CSLCount(several) > 2)  // a name and a description each
         throw Error(file.string(), "", "expected " + expected + ", found several rasters in one file",
                     "take one of them out, for example with gdal_translate, and name that");

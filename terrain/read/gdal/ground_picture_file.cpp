@@ -1,11 +1,13 @@
-// Colours through GDAL: bytes or 16-bit numbers, gray, RGB or palette, with masks and alpha.
+// Colours through GDAL: bytes or 16-bit numbers, gray, RGB, CMYK or palette, with masks and alpha.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/base/error.h"
 #include "terrain/read/gdal/gdal_session.h"
+#include "terrain/read/gdal/picture_bands.h"
 #include "terrain/read/raster_file.h"
 
 namespace stereonav {
@@ -43,7 +45,7 @@ private:
 
 void checkIsPicture(GDALDataset& dataset, const std::filesystem::path& file) {
     const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
-    if (type == GDT_Byte || type == GDT_UInt16) return;
+    if (type == GDT_Byte || type == GDT_UInt16 || type == GDT_Int16) return;
     throw Error(
         file.string(), "",
         fmt::format("expected a picture of 8 or 16 bits, found {} samples", GDALGetDataTypeName(type)),
@@ -58,9 +60,40 @@ PackedColor paletteColor(const GDALColorTable& table, int index) {
                                     packed[entry->c3 & 255] << 20);
 }
 
+// Codes of sRGB, 0 to 255, of stored values.
+class ToneCodes {
+public:
+    ToneCodes(const PictureTone& tone, bool whiteIsLow)
+        : mBlack(tone.black), mScale(255 / std::max(1.0, tone.white - tone.black)), mWhiteIsLow(whiteIsLow) {}
+    int operator()(std::uint16_t stored) const {
+        const int code = std::clamp(static_cast<int>((stored - mBlack) * mScale + 0.5), 0, 255);
+        return mWhiteIsLow ? 255 - code : code;
+    }
+
+private:
+    double mBlack, mScale;
+    bool mWhiteIsLow;
+};
+
+// One colour of planes of codes; inks take light away.
+PackedColor packedOf(const std::array<Words, 4>& planes, const PictureBands& bands, const ToneCodes& codes,
+                     std::size_t pixel) {
+    const auto& packed = packedFromSrgbByte();
+    const auto code = [&](int plane) { return codes(planes[plane][pixel]); };
+    if (bands.kind == PictureBands::Kind::Gray) {
+        const PackedColor gray = packed[code(0)];
+        return static_cast<PackedColor>(gray | gray << 10 | gray << 20);
+    }
+    const auto channel = [&](int plane) {
+        if (bands.kind == PictureBands::Kind::Rgb) return code(plane);
+        return (255 - code(plane)) * (255 - code(3)) / 255;
+    };
+    return static_cast<PackedColor>(packed[channel(0)] | packed[channel(1)] << 10 | packed[channel(2)] << 20);
+}
+
 // Reads the window, averaged down by the factor `shrink` (>= 1) each way. Throws Error.
 GroundPicture readPicture(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
-                          const PixelWindow& window, const glm::dvec2& shrink) {
+                          const PixelWindow& window, const glm::dvec2& shrink, const PictureTone& tone) {
     checkIsPicture(dataset, file);
     GroundPicture::Parts parts;
     const int sourceWidth = window.xMax - window.xMin, sourceHeight = window.yMax - window.yMin;
@@ -75,28 +108,23 @@ GroundPicture readPicture(GDALDataset& dataset, GdalMessages& messages, const st
         throw Error(file.string(), "", "the picture is cut off or damaged" + messages.reason(file),
                     "fetch or export the file again");
     };
-    GDALRasterBand& first = *dataset.GetRasterBand(1);
+    const PictureBands bands = pictureBandsOf(dataset, file);
+    GDALRasterBand& first = *dataset.GetRasterBand(bands.numbers[0]);
     const GDALColorTable* palette = first.GetColorTable();
     const bool masked = !(first.GetMaskFlags() & GMF_ALL_VALID);
     messages.clear();  // from here on only what goes wrong with the pixels counts
-    const bool bytes = first.GetRasterDataType() == GDT_Byte,
-               color = !palette && dataset.GetRasterCount() >= 3;
-    const auto& packed = packedFromSrgbByte();
-    for (int channel = 0; channel < 3; ++channel) {
-        if (channel > 0 && !color) break;
-        const Words words = reader.words(*dataset.GetRasterBand(channel + 1), !palette);
-        if (words.empty() || messages.hasError()) fail();
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                const std::uint32_t word = words[static_cast<std::size_t>(y) * width + x];
-                const std::uint32_t code =
-                    packed[std::min(255u, bytes ? word : (word * 255u + 32767u) / 65535u)];
-                if (palette)
-                    parts.color.at(x, y) = paletteColor(*palette, static_cast<int>(word));
-                else
-                    parts.color.at(x, y) |= color ? code << 10 * channel : code | code << 10 | code << 20;
-            }
+    std::array<Words, 4> planes;
+    for (int n = 0; n < bands.count(); ++n) {
+        planes[n] = reader.words(*dataset.GetRasterBand(bands.numbers[n]), !palette);
+        if (planes[n].empty() || messages.hasError()) fail();
     }
+    const ToneCodes codes(tone, bands.whiteIsLow);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::size_t pixel = static_cast<std::size_t>(y) * width + x;
+            parts.color.at(x, y) = palette ? paletteColor(*palette, static_cast<int>(planes[0][pixel]))
+                                           : packedOf(planes, bands, codes, pixel);
+        }
     if (!masked) return GroundPicture(std::move(parts));
     std::vector<unsigned char> mask(static_cast<std::size_t>(width) * height);
     if (!reader.bytes(*first.GetMaskBand(), mask.data())) fail();
@@ -112,8 +140,14 @@ public:
         : mFile(file), mDataset(openRaster(file, mMessages, expected, advice)) {}
 
     Georeference georeference(bool& known) override { return georeferenceOf(*mDataset, mFile, known); }
-    GroundPicture read(const PixelWindow& window, const glm::dvec2& shrink) override {
-        return readPicture(*mDataset, mMessages, mFile, window, shrink);
+    PictureTone tone() override {
+        checkIsPicture(*mDataset, mFile);
+        return pictureToneOf(*mDataset, pictureBandsOf(*mDataset, mFile), mFile);
+    }
+    PictureTone wholeTone() override { return wholeToneOf(*mDataset->GetRasterBand(1)); }
+    GroundPicture read(const PixelWindow& window, const glm::dvec2& shrink,
+                       const PictureTone& tone) override {
+        return readPicture(*mDataset, mMessages, mFile, window, shrink, tone);
     }
 
 private:

@@ -4,15 +4,13 @@
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <string_view>
-#include <vector>
 
 #include "engine/base/error.h"
+#include "terrain/read/gdal/height_unit.h"
+#include "terrain/read/gdal/raster_words.h"
 #include "terrain/read/height_limits.h"
 
 namespace stereonav {
@@ -20,89 +18,9 @@ namespace {
 
 constexpr const char* kGiveHeights =
     "give a GeoTIFF, .hgt, USGS DEM, ESRI ASCII or 16-bit PNG elevation model, or use this one as the image";
-constexpr double kSurveyFoot = 1200.0 / 3937;
-
-std::string lowerCase(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return lower;
-}
-
-// Metres in the named unit of length, as GDAL's drivers and other programs write them.
-std::optional<double> metresIn(std::string_view unit) {
-    struct Unit {
-        std::string_view name;
-        double metres;
-    };
-    static constexpr Unit kUnits[] = {{"", 1},
-                                      {"m", 1},
-                                      {"metre", 1},
-                                      {"meter", 1},
-                                      {"metres", 1},
-                                      {"meters", 1},
-                                      {"ft", 0.3048},
-                                      {"foot", 0.3048},
-                                      {"feet", 0.3048},
-                                      {"international foot", 0.3048},
-                                      {"international feet", 0.3048},
-                                      {"intl foot", 0.3048},
-                                      {"us-ft", kSurveyFoot},
-                                      {"us_ft", kSurveyFoot},
-                                      {"us ft", kSurveyFoot},
-                                      {"usft", kSurveyFoot},
-                                      {"ftus", kSurveyFoot},
-                                      {"us survey foot", kSurveyFoot},
-                                      {"us survey feet", kSurveyFoot},
-                                      {"u.s. survey foot", kSurveyFoot},
-                                      {"u.s. survey feet", kSurveyFoot},
-                                      {"us_survey_foot", kSurveyFoot},
-                                      {"us_survey_feet", kSurveyFoot},
-                                      {"foot_us", kSurveyFoot},
-                                      {"survey foot", kSurveyFoot},
-                                      {"yd", 0.9144},
-                                      {"yard", 0.9144},
-                                      {"fathom", 1.8288},
-                                      {"dm", 0.1},
-                                      {"decimetre", 0.1},
-                                      {"decimeter", 0.1},
-                                      {"cm", 0.01},
-                                      {"centimetre", 0.01},
-                                      {"centimeter", 0.01},
-                                      {"mm", 0.001},
-                                      {"millimetre", 0.001},
-                                      {"millimeter", 0.001},
-                                      {"km", 1000},
-                                      {"kilometre", 1000},
-                                      {"kilometer", 1000}};
-    const std::string lower = lowerCase(unit);
-    for (const Unit& u : kUnits)
-        if (u.name == lower) return u.metres;
-    return std::nullopt;
-}
 
 std::string unitOf(GDALRasterBand& band) {
     return band.GetUnitType() ? band.GetUnitType() : "";
-}
-
-// Whether a name speaks of heights, and not of their error.
-bool speaksOfHeights(const std::string& text) {
-    std::vector<std::string> words(1);
-    for (const char c : lowerCase(text)) {
-        if (std::isalpha(static_cast<unsigned char>(c)))
-            words.back() += c;
-        else
-            words.emplace_back();
-    }
-    bool heights = false;
-    for (const std::string& word : words) {
-        for (const char* other :
-             {"err", "uncert", "qual", "mask", "count", "slope", "aspect", "std", "sigma"})
-            if (word.starts_with(other)) return false;
-        for (const char* begin : {"elev", "height", "altitude", "topograph", "bathy"})
-            heights |= word.starts_with(begin);
-        for (const char* whole : {"dem", "dtm", "dsm", "hgt", "alt", "z"}) heights |= word == whole;
-    }
-    return heights;
 }
 
 // What it is called that speaks of heights; "" else.
@@ -120,11 +38,11 @@ bool wholeNumbers(GDALRasterBand& band) {
 
 [[noreturn]] void throwPicture(GDALDataset& dataset, const std::filesystem::path& file) {
     const int bands = dataset.GetRasterCount();
-    throw Error(file.string(), "",
-                fmt::format("expected one band of elevations, found a picture ({}, {} band{} of {})",
-                            dataset.GetDriverName(), bands, bands == 1 ? "" : "s",
-                            GDALGetDataTypeName(dataset.GetRasterBand(1)->GetRasterDataType())),
-                kGiveHeights);
+    throw NoHeights(file, "",
+                    fmt::format("expected one band of elevations, found a picture ({}, {} band{} of {})",
+                                dataset.GetDriverName(), bands, bands == 1 ? "" : "s",
+                                GDALGetDataTypeName(dataset.GetRasterBand(1)->GetRasterDataType())),
+                    kGiveHeights, "a picture");
 }
 
 bool isAlphaOrPalette(GDALRasterBand& band) {
@@ -148,7 +66,7 @@ void chooseBand(GDALDataset& dataset, const std::filesystem::path& file, HeightB
             GDALRasterBand& band = *dataset.GetRasterBand(k);
             if (isAlphaOrPalette(band)) continue;
             first = k;
-            if (const std::string unit = unitOf(band); !unit.empty() && metresIn(unit))
+            if (const std::string unit = unitOf(band); !unit.empty() && heightUnitOf(unit))
                 withUnit = withUnit ? -1 : k;
         }
         if (withUnit > 0) return choose(withUnit, "it alone has a unit of length");
@@ -159,29 +77,65 @@ void chooseBand(GDALDataset& dataset, const std::filesystem::path& file, HeightB
     if (dataset.GetRasterBand(heights.number)->GetColorTable()) throwPicture(dataset, file);
 }
 
+// The axis along which heights are counted, of a reference system that has one.
+struct HeightAxis {
+    bool down = false;
+    double metres = 1;
+    std::string unit;  // its name
+};
+
+// Compound systems, systems of three axes, and those of heights alone: the last axis that goes up or down.
+std::optional<HeightAxis> heightAxisOf(const OGRSpatialReference& system) {
+    for (int n = system.GetAxesCount() - 1; n >= 0; --n) {
+        OGRAxisOrientation way = OAO_Other;
+        double metres = 1;
+        system.GetAxis(nullptr, n, &way, &metres);
+        if (way != OAO_Up && way != OAO_Down) continue;
+        HeightAxis axis{way == OAO_Down, metres, ""};
+        const char* name = nullptr;
+        if (system.IsCompound() || system.IsVertical())
+            axis.metres = system.GetTargetLinearUnits("VERT_CS", &name);
+        axis.unit = name ? name : "its own";
+        return axis;
+    }
+    return std::nullopt;
+}
+
+// Depths where the band itself says so, by the words of the CF conventions.
+bool bandCountsDown(GDALRasterBand& band) {
+    const char* const positive = band.GetMetadataItem("positive");
+    if (positive) return EQUAL(positive, "down");
+    const char* const name = band.GetMetadataItem("standard_name");
+    return name && std::string_view(name).find("depth_below") != std::string_view::npos;
+}
+
 void readUnit(GDALDataset& dataset, GDALRasterBand& band, const std::filesystem::path& file,
               HeightBand& heights) {
     std::string unit = unitOf(band);
-    auto metres = metresIn(unit);
-    if (!metres)
-        throw Error(file.string(), fmt::format("band {}", heights.number),
-                    "expected heights in metres or feet, got the unit \"" + unit + "\"",
-                    "convert the file to metres");
-    const char* says = "by the band";
+    const std::optional<HeightUnit> named = heightUnitOf(unit);
+    if (!named)
+        throw NoHeights(file, fmt::format("band {}", heights.number),
+                        "expected heights in metres or feet, got the unit \"" + unit + "\"",
+                        "convert the file to metres", "its unit is \"" + unit + "\"");
+    double metres = named->metres;
+    const char *says = "by the band", *down = nullptr;
     const OGRSpatialReference* system = dataset.GetSpatialRef();
     if (!system) system = dataset.GetGCPSpatialRef();
-    if (unit.empty() && system && system->IsCompound()) {
-        const char* name = nullptr;
-        metres = system->GetTargetLinearUnits("VERT_CS", &name);
-        unit = name ? name : "";
-        says = "by the vertical reference system";
-    }
-    if (*metres != 1) heights.unit = fmt::format("{}, {:.9g} m each, {}", unit, *metres, says);
-    heights.scale = band.GetScale() * *metres;
-    heights.offset = band.GetOffset() * *metres;
+    const std::optional<HeightAxis> axis = system ? heightAxisOf(*system) : std::nullopt;
+    if (unit.empty() && axis)
+        metres = axis->metres, unit = axis->unit, says = "by the vertical reference system";
+    if (axis && axis->down) down = "by the vertical reference system";
+    if (named->down || bandCountsDown(band)) down = "by the band";
+    const auto add = [&](const std::string& words) {
+        heights.unit += (heights.unit.empty() ? "" : "; ") + words;
+    };
+    if (metres != 1) add(fmt::format("{}, {:.9g} m each, {}", unit, metres, says));
+    if (down) add(fmt::format("depths, counted downward {}", down));
+    if (down) metres = -metres;
+    heights.scale = band.GetScale() * metres;
+    heights.offset = band.GetOffset() * metres;
     if (band.GetScale() != 1 || band.GetOffset() != 0)
-        heights.unit += fmt::format("{}stored times {:.9g} plus {:.9g}", heights.unit.empty() ? "" : "; ",
-                                    band.GetScale(), band.GetOffset());
+        add(fmt::format("stored times {:.9g} plus {:.9g}", band.GetScale(), band.GetOffset()));
     if (!std::isfinite(heights.scale) || !std::isfinite(heights.offset) || heights.scale == 0)
         throw Error(file.string(), fmt::format("band {}", heights.number),
                     fmt::format("expected a scale other than 0 and an offset, got {:g} and {:g}",
@@ -235,8 +189,8 @@ HeightBand heightBandOf(GDALDataset& dataset, const std::filesystem::path& file)
     chooseBand(dataset, file, heights);
     GDALRasterBand& band = *dataset.GetRasterBand(heights.number);
     if (GDALDataTypeIsComplex(band.GetRasterDataType()))
-        throw Error(file.string(), fmt::format("band {}", heights.number),
-                    "expected real numbers, got complex ones", kGiveHeights);
+        throw NoHeights(file, fmt::format("band {}", heights.number),
+                        "expected real numbers, got complex ones", kGiveHeights, "complex numbers");
     const char* pixels = band.GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE");
     heights.signedBytes =
         band.GetRasterDataType() == GDT_Byte && pixels && std::string_view(pixels) == "SIGNEDBYTE";

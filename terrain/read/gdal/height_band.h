@@ -6,6 +6,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+
+#include "engine/base/error.h"
 
 namespace stereonav {
 
@@ -27,10 +30,24 @@ struct HeightBand {
     double metres(double stored) const;
 };
 
+// A raster whose numbers are something else than heights.
+class NoHeights : public Error {
+public:
+    // why: "a picture", "its unit is \"degree\"".
+    NoHeights(const std::filesystem::path& file, const std::string& place, const std::string& problem,
+              const std::string& advice, std::string why)
+        : Error(file.string(), place, problem, advice), mWhy(std::move(why)) {}
+    const std::string& why() const { return mWhy; }
+
+private:
+    std::string mWhy;
+};
+
 // Of several bands: the one whose description or names speak of heights; else the only one with a unit of
 // length; else the first. A colour table, or three bands and more of whole numbers without such a word, are a
-// picture. Heights are in the band's unit, else in that of the vertical reference system, else in metres.
-// Throws Error named by `file`.
+// picture. Heights are in the band's unit, else in that of the vertical reference system, else in metres;
+// where band or system count downward they are turned over. Throws Error named by `file`, NoHeights among
+// them.
 HeightBand heightBandOf(GDALDataset& dataset, const std::filesystem::path& file);
 
 }  // namespace stereonav

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -44,10 +45,10 @@ public:
             throw Error(file.string(), "reference system",
                         "there is no known way from it to a projection in metres",
                         "reproject the file, for example with gdalwarp -t_srs EPSG:32633");
-        if (to.IsGeographic()) mTurn = 2 * std::numbers::pi / to.GetAngularUnits();
+        mTurn = fullTurnOf(to);
     }
 
-    // near: for geographic results, the longitude is taken within half a turn of near.x.
+    // near: of results that repeat around the body, the one within half a turn of near.x is taken.
     glm::dvec2 operator()(glm::dvec2 p, const glm::dvec2& near) const {
         if (!mTransform) return p;
         if (!mTransform->Transform(1, &p.x, &p.y)) return {kInfinity, kInfinity};
@@ -60,7 +61,7 @@ private:
         void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
     };
     std::unique_ptr<OGRCoordinateTransformation, Destroy> mTransform;
-    double mTurn = 0;  // a full turn in the target's units; 0 unless it is geographic
+    double mTurn = 0;  // a full turn in the target's units; 0 where it has none
 };
 
 std::string geographicWkt(const std::string& wkt) {
@@ -207,6 +208,42 @@ int nodeShift(const Georeference& target, const Exact& exact) {
 }
 
 }  // namespace
+
+double bodyRadiusOf(const Georeference& raster) {
+    if (raster.wkt.empty() || !onEarth(raster)) return 0;
+    const OGRSpatialReference system = referenceSystem(raster.wkt);
+    OGRErr failed = OGRERR_NONE;
+    const double a = system.GetSemiMajor(&failed);
+    if (failed != OGRERR_NONE) return 0;
+    const double b = system.GetSemiMinor(&failed);
+    return failed == OGRERR_NONE && a > 0 && b > 0 ? (2 * a + b) / 3 : 0;
+}
+
+double fullTurnOf(const OGRSpatialReference& system) {
+    if (system.IsGeographic()) return 2 * std::numbers::pi / system.GetAngularUnits();
+    const char* const projection = system.IsProjected() ? system.GetAttrValue("PROJECTION") : nullptr;
+    const auto isOneOf = [&](std::initializer_list<const char*> names) {
+        return std::any_of(names.begin(), names.end(),
+                           [&](const char* name) { return EQUAL(projection, name); });
+    };
+    if (!projection ||
+        !isOneOf({SRS_PT_MERCATOR_1SP, SRS_PT_MERCATOR_2SP, SRS_PT_MERCATOR_AUXILIARY_SPHERE,
+                  SRS_PT_EQUIRECTANGULAR, SRS_PT_MILLER_CYLINDRICAL, SRS_PT_CYLINDRICAL_EQUAL_AREA}))
+        return 0;
+    OGRSpatialReference own(system);
+    own.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    const std::unique_ptr<OGRSpatialReference> geographic(own.CloneGeogCS());
+    if (!geographic) return 0;
+    geographic->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    const std::unique_ptr<OGRCoordinateTransformation> way(
+        OGRCreateCoordinateTransformation(geographic.get(), &own));
+    if (!way) return 0;
+    const double middle = own.GetNormProjParm(SRS_PP_CENTRAL_MERIDIAN, 0.0),
+                 quarter = 0.5 * std::numbers::pi / geographic->GetAngularUnits();
+    double x[2] = {middle - quarter, middle + quarter}, y[2] = {0, 0};
+    if (!way->Transform(2, x, y) || !std::isfinite(x[1] - x[0])) return 0;
+    return 2 * std::abs(x[1] - x[0]);
+}
 
 double metresPerUnit(const Georeference& raster) {
     if (raster.wkt.empty()) return 1.0;

@@ -7,6 +7,8 @@
 
 #include "terrain/raster/georeference.h"
 
+class OGRSpatialReference;
+
 namespace stereonav {
 
 // Metres in one unit of the reference system: 1 where it has none; 0 for degrees.
@@ -18,6 +20,13 @@ glm::dvec2 groundScale(const Georeference& raster, const glm::dvec2& pixel);
 
 // Whether its reference system is tied to the Earth, or another body: geographic or projected.
 bool onEarth(const Georeference& raster);
+
+// Metres: the mean radius (2a + b) / 3 of the ellipsoid that it is tied to; 0 where it is tied to none.
+double bodyRadiusOf(const Georeference& raster);
+
+// What x grows by once around the body, in the system's units: 360 degrees, or of maps that are a strip
+// without ends (web Mercator, plate carree) their length; 0 of others.
+double fullTurnOf(const OGRSpatialReference& system);
 
 // Whether a projected raster lies over the north or the south pole.
 bool holdsPole(const Georeference& raster);

@@ -1,6 +1,7 @@
 // Tracks and drawn lines through OGR: GPX and GeoJSON.
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 
@@ -22,9 +23,9 @@ void registerTrackDrivers() {
     });
 }
 
-void addLine(const OGRSimpleCurve& curve, const std::string& name, bool closed,
+void addLine(const OGRSimpleCurve& curve, const std::string& name, bool closed, int feature,
              std::vector<TrackLine>& lines) {
-    TrackLine line{name, closed, {}};
+    TrackLine line{name, closed, {}, feature};
     for (int n = 0; n < curve.getNumPoints(); ++n) line.degrees.emplace_back(curve.getX(n), curve.getY(n));
     if (closed && line.degrees.size() > 1 && line.degrees.front() == line.degrees.back())
         line.degrees.pop_back();
@@ -33,15 +34,16 @@ void addLine(const OGRSimpleCurve& curve, const std::string& name, bool closed,
 
 // Lines, outer borders and, where asked for, places, whatever they lie in. A collection of collections that
 // goes on and on is cut off.
-void addParts(const OGRGeometry& geometry, const std::string& name, int depth, bool places, TrackFile& read) {
+void addParts(const OGRGeometry& geometry, const std::string& name, int feature, int depth, bool places,
+              TrackFile& read) {
     constexpr int kDeepest = 8;
     switch (wkbFlatten(geometry.getGeometryType())) {
         case wkbLineString:
-            addLine(*geometry.toLineString(), name, false, read.lines);
+            addLine(*geometry.toLineString(), name, false, feature, read.lines);
             break;
         case wkbPolygon:
             if (const OGRLinearRing* ring = geometry.toPolygon()->getExteriorRing())
-                addLine(*ring, name, true, read.lines);
+                addLine(*ring, name, true, feature, read.lines);
             break;
         case wkbPoint:
             if (const OGRPoint* point = geometry.toPoint(); places && !point->IsEmpty())
@@ -53,11 +55,23 @@ void addParts(const OGRGeometry& geometry, const std::string& name, int depth, b
         case wkbGeometryCollection:
             if (depth < kDeepest)
                 for (const OGRGeometry* part : geometry.toGeometryCollection())
-                    addParts(*part, name, depth + 1, places, read);
+                    addParts(*part, name, feature, depth + 1, places, read);
             break;
         default:
             break;
     }
+}
+
+// Segments without two places that differ, as receivers write them where they lose the sky: they are no
+// reason to refuse the others.
+void leaveOutPointless(TrackFile& read) {
+    const auto leadsNowhere = [](const TrackLine& line) {
+        return std::all_of(line.degrees.begin(), line.degrees.end(),
+                           [&](const glm::dvec2& place) { return place == line.degrees.front(); });
+    };
+    const auto lines =
+        static_cast<std::size_t>(std::count_if(read.lines.begin(), read.lines.end(), leadsNowhere));
+    if (lines < read.lines.size() || !read.places.empty()) std::erase_if(read.lines, leadsNowhere);
 }
 
 // The layer's places to longitude and latitude; false where there is no way.
@@ -81,6 +95,7 @@ TrackFile readTrackFile(const std::filesystem::path& file) {
         throw Error(file.string(), "", std::string("expected ") + kTrackFormats + ", found something else",
                     "tracks end in .gpx, drawn lines in .geojson or .json");
     TrackFile read;
+    int features = 0;
     for (OGRLayer* layer : dataset->GetLayers()) {
         // GPX has each track once as a line and once as its points.
         const std::string called = layer->GetName();
@@ -94,7 +109,7 @@ TrackFile readTrackFile(const std::filesystem::path& file) {
             if (!toDegrees(*own))
                 throw Error(file.string(), layer->GetName(), "lies in a system that has no longitudes",
                             "write it in WGS 84");
-            addParts(*own, name, 0, places, read);
+            addParts(*own, name, features++, 0, places, read);
         }
     }
     if (messages.hasError())
@@ -102,6 +117,7 @@ TrackFile readTrackFile(const std::filesystem::path& file) {
     if (read.lines.empty() && read.places.empty())
         throw Error(file.string(), "", "expected tracks, lines, areas or places, found none",
                     "tracks end in .gpx, drawn lines in .geojson or .json");
+    leaveOutPointless(read);
     return read;
 }
 

@@ -116,10 +116,11 @@ std::vector<std::filesystem::path> filesOfVirtualRaster(const std::filesystem::p
 }
 
 const char* const* rasterDrivers() {
-    static const char* const kDrivers[] = {
-        "GTiff",       "SRTMHGT", "USGSDEM", "AAIGrid", "GRASSASCIIGrid", "DTED",    "EHdr", "HFA",
-        "ENVI",        "SAGA",    "GSAG",    "GSBG",    "GS7BG",          "BT",      "WEBP", "GIF",
-        "JP2OpenJPEG", "PNG",     "JPEG",    "BMP",     "GPKG",           "MBTiles", "VRT",  nullptr};
+    static const char* const kDrivers[] = {"GTiff", "SRTMHGT",     "USGSDEM", "AAIGrid", "GRASSASCIIGrid",
+                                           "DTED",  "EHdr",        "HFA",     "ENVI",    "SAGA",
+                                           "GSAG",  "GSBG",        "GS7BG",   "BT",      "WEBP",
+                                           "GIF",   "JP2OpenJPEG", "PNG",     "JPEG",    "BMP",
+                                           "GPKG",  "MBTiles",     "netCDF",  "VRT",     nullptr};
     return kDrivers;
 }
 

@@ -1,0 +1,14 @@
+// Whether a classic netCDF file is whole: its library takes what is cut off for zeros, without a word.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace stereonav {
+
+// Bytes that the file has to have, by its header ("CDF" 1, 2 or 5); none where it is no such file, or the
+// header itself is damaged.
+std::optional<std::uint64_t> classicNetCdfSize(const std::filesystem::path& file);
+
+}  // namespace stereonav
