@@ -50,9 +50,9 @@ std::string sizeText(const std::vector<std::uint64_t>& size) {
 
 void checkFrame(const std::string& file, const VolumeFrame& frame) {
     constexpr double kLeast = 1e-9,
-                     kMost = 1e9;        // millimetres: a thousandth of an atom, a thousand kilometres
-    constexpr double kMostUneven = 100;  // slices of 10 mm and pixels of 0.3 are 33
-    constexpr double kFarthest = 1e10;   // spacings from the origin: doubles tell a millionth apart
+                     kMost = 1e9;       // millimetres: a thousandth of an atom, a thousand kilometres
+    constexpr double kMostUneven = 50;  // slices of 10 mm and pixels of 0.3 are 33
+    constexpr double kFarthest = 1e10;  // spacings from the origin: doubles tell a millionth apart
     const glm::dvec3 mm = frame.spacing * 1e3;
     const double least = std::min({mm.x, mm.y, mm.z}), most = std::max({mm.x, mm.y, mm.z});
     const std::string found = fmt::format("{:.4g} x {:.4g} x {:.4g} mm", mm.x, mm.y, mm.z);
