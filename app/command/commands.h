@@ -25,9 +25,9 @@ namespace stereonav {
 
 // Of CT studies; what is not given is chosen from the study.
 struct VolumeOptions {
-    std::string series;             // of a folder with several: its number or UID
-    std::optional<int> label;       // of a mask with several
-    std::vector<glm::dvec3> seeds;  // LPS, metres
+    std::string series;                // of a folder with several: its number or UID
+    std::optional<std::string> label;  // of a mask with several: its number or name
+    std::vector<glm::dvec3> seeds;     // LPS, metres
     FluidChoice fluid = FluidChoice::Out;
     bool resample = false;    // mend uneven or tilted slices
     bool isosurface = false;  // seen from outside, without looking for a colon

@@ -100,7 +100,9 @@ void tellErrors(CommandResult& result, const ColonScene& first, const ColonScene
 std::string tableOf(const ColonScene& first, const ColonScene& second, const LineRegistration& registration) {
     std::string text =
         "along_mm,left_mm,back_mm,head_mm,other_along_mm,other_left_mm,other_back_mm,other_head_mm\n";
-    for (double along = 0; along <= first.centreline.length(); along += kTableStep) {
+    constexpr double kMostRows = 100'000;
+    const double length = first.centreline.length(), step = std::max(kTableStep, length / kMostRows);
+    for (double along = 0; along <= length; along += step) {
         const double there = registration.toSecond(along);
         const glm::dvec3 a = 1e3 * placeAlong(first.centreline, along),
                          b = 1e3 * placeAlong(second.centreline, there);

@@ -73,7 +73,7 @@ int runRender(const RenderOptions& options) {
     checkStereoPicture("--out", options.out);
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     CommandResult result("render", options.telling, {{"--out", options.out}});
-    const PixelBytes bytes = withRays(kRenderBytes, options.rays);
+    const PixelBytes bytes = withRays(pictureBytes(options.out), options.rays);
     checkSize(options.size, options.scene, bytes);
     const std::string method = methodUnderLight(options.scene, options.method);
     checkMethod(options.scene, method);

@@ -2,6 +2,8 @@
 // table.
 #include "app/options/arguments.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -10,6 +12,7 @@
 
 #include "app/command/commands.h"
 #include "app/options/built_without.h"
+#include "app/options/number_text.h"
 #include "app/options/option_table.h"
 #include "app/options/pages.h"
 #include "app/options/parsed_options.h"
@@ -70,6 +73,15 @@ std::string commandIn(const CLI::App& app) {
     return chosen.empty() ? "" : " " + chosen.front()->get_name();
 }
 
+// The page that was asked for without the word that it has to have behind it; null: none.
+const PageFacts* pageIn(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    if (chosen.empty() || !chosen.front()->get_subcommands().empty()) return nullptr;
+    for (const PageFacts& page : pageFacts())
+        if (*page.of && chosen.front()->get_name() == page.name) return &page;
+    return nullptr;
+}
+
 // The option that a misspelled one may stand for; "" where none is like it.
 std::string similarOption(const CLI::App& app, const std::string& word) {
     const auto chosen = app.get_subcommands();
@@ -99,6 +111,13 @@ Error refusalOf(const CLI::App& app, const CLI::ParseError& error) {
                 : commandIn(app).empty() ? "there is no such command"
                                          : "is one word too many",
                 meant.empty() ? help : "did you mean " + meant + "? " + help};
+    }
+    if (const PageFacts* page = pageIn(app)) {
+        const std::vector<std::string> left = app.remaining(true);
+        return {page->name, "",
+                fmt::format("expected {}, {}", page->of,
+                            left.empty() ? "found nothing" : "got " + shownText(left.front())),
+                help};
     }
     if (dynamic_cast<const CLI::RequiredError*>(&error))
         return {said.substr(0, said.find(' ')), "", "is required", help};
@@ -151,6 +170,23 @@ void nameJsonFile(std::vector<std::string>& words) {
     }
 }
 
+// `help COMMAND` is `COMMAND --help`.
+void turnHelp(std::vector<std::string>& words) {
+    if (words.empty() || words.front() != "help") return;
+    words.erase(words.begin());
+    words.emplace_back("--help");
+}
+
+// --help stands for the help of what comes before it: of nothing that there is, it would be that of all.
+void checkIsCommand(const CLI::App& app, const std::vector<std::string>& words) {
+    const auto word =
+        std::find_if(words.begin(), words.end(), [](const auto& w) { return !w.starts_with("-"); });
+    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+    const auto isNamed = [&](const CLI::App* command) { return command->get_name() == *word; };
+    if (word == words.end() || std::any_of(commands.begin(), commands.end(), isNamed)) return;
+    throw Error(word->empty() ? "\"\"" : *word, "", "there is no such command", "see stereonav --help");
+}
+
 void parse(CLI::App& app, std::vector<std::string> words) {
     nameJsonFile(words);
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
@@ -169,11 +205,15 @@ int runCommandLine(int argc, char** argv) {
     app.set_version_flag("--version", versionText());
     app.require_subcommand(0, 1);
     app.footer(
-        "Without a command: flies the built-in terrain, or, where there is no display, plays it to out/.");
+        "stereonav help COMMAND tells of one. Without a command: flies the built-in terrain, or, where there "
+        "is "
+        "no display, plays it to out/.");
     ParsedOptions parsed;
     addCommands(app, parsed);
     try {
         std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+        turnHelp(words);
+        checkIsCommand(app, words);
         nameJsonFile(words);
         std::reverse(words.begin(), words.end());  // as CLI11 takes them
         app.parse(std::move(words));

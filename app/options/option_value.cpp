@@ -146,6 +146,10 @@ bool ValueType::takesNumbers() const {
            kind == ValueKind::Size || kind == ValueKind::Fraction || kind == ValueKind::WholeOrPart;
 }
 
+bool ValueType::takesText() const {
+    return kind == ValueKind::Text || kind == ValueKind::Words || isFile();
+}
+
 std::string ValueType::expected() const {
     switch (kind) {
         case ValueKind::Number:

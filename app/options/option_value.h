@@ -41,6 +41,7 @@ struct ValueType {
     // The same with this check.
     ValueType checked(std::optional<ValueProblem> (*by)(const std::string& text)) const;
     bool takesNumbers() const;
+    bool takesText() const;  // of any kind: a name, a file, words that a scene knows
     bool isFile() const { return kind == ValueKind::File || kind == ValueKind::FileOrWord; }
     // "1 to 170 degrees"; "" where anything may be written.
     std::string expected() const;

@@ -190,6 +190,11 @@ void chooseCommand(CommandSet which, ParsedOptions& parsed) {
 void takeOption(const Option& option, const std::string& text, const std::string& place,
                 ParsedOptions& parsed) {
     OptionValue value = readValue(place, option.value, option.advice, text);
+    if (text.empty() && option.value.takesText())  // which would be taken for none
+        throw Error(place, "", "expected a name, got \"\"",
+                    option.positional() && *option.fallback
+                        ? std::string("leave it out for ") + option.fallback
+                        : "give one, or leave it out");
     option.take(parsed.to, value);
     parsed.given.add(option.key, std::move(value), place);
 }

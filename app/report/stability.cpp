@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/base/module.h"
 
 namespace stereonav {
 namespace {
@@ -98,8 +99,8 @@ ReportSection noStabilitySection() {
 
 std::filesystem::path stabilityRowsOfThisBuild() {
     std::error_code code;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", code);
-    if (code) return {};
+    const std::filesystem::path program = programFile();
+    if (program.empty()) return {};
     const std::filesystem::path rows = program.parent_path().parent_path() / "stability_rows.jsonl";
     return std::filesystem::exists(rows, code) ? rows : std::filesystem::path();
 }

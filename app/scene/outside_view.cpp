@@ -19,7 +19,7 @@ constexpr double kExtentSeconds = 10;  // at normal speed
 
 void seeFromOutside(const glm::dvec3& low, const glm::dvec3& high, const std::string& flight, Scene& scene) {
     const glm::dvec3 middle = 0.5 * (low + high);
-    const double radius = std::max(0.5 * glm::length(high - low), 1e-6);
+    const double half = 0.5 * glm::length(high - low), radius = half > 0 ? half : 1e-6;
     const double distance = kFraming * radius / std::sin(0.5 * kFov);
     scene.lens.verticalFov = kFov;
     scene.lens.nearDepth = 0.005 * radius;

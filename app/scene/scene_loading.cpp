@@ -54,6 +54,7 @@ void checkSize(const SizeOption& size, const SceneOptions& options, const PixelB
     const ShownAs& shown = shownAs(options);
     const double picture = each.*shown.bytesAPixel * size.width * size.height;
     const double beside = each.beside + (picture > 0 ? shown.lightBytes : 0);
+    limitMemory(options.memory_bytes);
     const double bytes = picture + beside, there = availableMemoryFor(bytes);
     const double share = std::sqrt(std::clamp((there - beside) / picture, 0.0, 1.0));
     if (bytes > there)

@@ -59,10 +59,13 @@ const SceneType& sceneTypeNamed(const std::string& name) {
     refuseArchive(name);
     for (const SceneType* type : sceneTypes())
         if (type->owns && type->owns(name)) return *type;
+    std::string advice;
+    for (const SceneType* type : sceneTypes())
+        if (type->below && advice.empty()) advice = type->below(name);
     throw Error(
         name, "",
         "expected a file, or a folder of DICOM slices or elevation models, found a folder without any",
-        kAdvice);
+        advice.empty() ? kAdvice : advice);
 }
 
 }  // namespace stereonav

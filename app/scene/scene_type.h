@@ -26,6 +26,9 @@ struct SceneType {
     std::vector<std::string_view> builtIn = {};  // names that are no files
     // Whether a file or folder, which is there, is its own; asked in the order of sceneTypes().
     bool (*owns)(const std::string& file) = nullptr;  // null: none is
+    // Where its own lies below a folder that holds nothing itself, as advice; "" where it does not. Null: it
+    // is not looked for.
+    std::string (*below)(const std::string& folder) = nullptr;
     // By which options of it are told, however it is shown: cast and as a medium, where it can be both.
     SceneSet (*optionsFor)(const std::string& scene) = nullptr;
     // Files that a file of this type names. Null: none.

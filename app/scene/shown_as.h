@@ -16,18 +16,18 @@ namespace stereonav {
 
 struct SceneType;  // app/scene/scene_type.h
 
-// Bytes that a command holds for each pixel of one eye beside the scene, measured at 1500x1500 and rounded
-// up: both eyes and the composed picture while it is encoded (as WebP, which takes most) or refined; the
-// same for a video without what its codec holds (app/output/video_file.h), and its libraries; every method
-// with its truths and the intermediate pictures of SSIM and Butteraugli; eyes that are measured and not
-// composed; a window's frames, its software renderer's textures and a picture that is
-// saved (measured at 320x240, 1200x700 and 2400x1400; shaders of all modes take 40 MB, of which half is the
-// 20 MB that every program has).
+// Bytes that a command holds for each pixel of one eye beside the scene, measured at 1500x1500 or 2400x2000
+// and rounded up: both eyes and the composed picture while it is encoded (some take more: pictureBytes) or
+// refined; the same for a video without what its codec holds (app/output/video_file.h), and its libraries;
+// every method with its truths and the intermediate pictures of SSIM and Butteraugli; eyes that are measured
+// and not composed; a window's frames, its software renderer's textures and a picture that is saved (measured
+// at 320x240, 1200x700 and 2400x1400; shaders of all modes take 40 MB, of which half is the 20 MB that every
+// program has).
 struct PixelBytes {
     double cast = 0, swept = 0;  // of scenes whose rays are cast; of media
     double beside = 0;           // bytes, of pictures of any size
 };
-constexpr PixelBytes kRenderBytes{96, 184}, kVideoBytes{80, 168, 24e6}, kCompareBytes{400, 736},
+constexpr PixelBytes kRenderBytes{60, 132}, kVideoBytes{80, 168, 24e6}, kCompareBytes{400, 736},
     kInfoBytes{48, 128}, kViewBytes{108, 160, 24e6}, kNoPicture{};
 
 // More, where a picture of many rays a pixel is gathered.

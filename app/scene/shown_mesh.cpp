@@ -48,7 +48,8 @@ Facts ShownMesh::describe() const {
 
 std::unique_ptr<Flight> ShownMesh::makeFlight() const {
     const glm::dvec3 size = mRenderer.caster().high() - mRenderer.caster().low();
-    return freeFlight(startPose, std::max({size.x, size.y, size.z, 1e-6}));
+    const double extent = std::max({size.x, size.y, size.z});
+    return freeFlight(startPose, extent > 0 ? extent : 1e-6);
 }
 
 }  // namespace stereonav

@@ -25,6 +25,7 @@ const SceneType& volumeType() {
     static const SceneType type{.noun = "volume",
                                 .builtIn = {kBuiltIn},
                                 .owns = isStudyFile,
+                                .below = [](const std::string& folder) { return studyFoldersAdvice(folder); },
                                 .optionsFor = volumeOptions,
                                 .glance = glanceAtVolume,
                                 .load = loadColonScene,

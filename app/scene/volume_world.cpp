@@ -26,7 +26,7 @@ FreeDistance freeDistanceOf(const ColonScene& colon) {
 SeparationControl::Setting limitsOf(const StereoSetting& own, double most, double asked) {
     SeparationControl::Setting setting;
     setting.largest = std::max(std::min(2 * own.separation, most), asked);
-    setting.largest = std::max(setting.largest, 1e-6);
+    setting.largest = std::max(setting.largest, 1e-6 * own.zeroParallax);
     setting.smallest = std::min(setting.smallest, 0.1 * setting.largest);
     if (own.separation > 0) setting.share = own.separation / own.zeroParallax;
     return setting;

@@ -62,7 +62,7 @@ bool progressOf(const std::string& line, double& fraction, std::string& words) {
     return true;
 }
 
-Job::Job(std::string what, const std::vector<std::string>& words, const char* program)
+Job::Job(std::string what, const std::vector<std::string>& words, const std::filesystem::path& program)
     : mWhat(std::move(what)) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw noProcess(errno);
@@ -82,7 +82,7 @@ Job::Job(std::string what, const std::vector<std::string>& words, const char* pr
     pid_t process = 0;
     const WithoutPipeSignal how;
     const int code =
-        posix_spawn(&process, program, &files, &how.attributes, arguments.data(), environment.data());
+        posix_spawn(&process, program.c_str(), &files, &how.attributes, arguments.data(), environment.data());
     posix_spawn_file_actions_destroy(&files);
     if (code == 0) putBehindTheWindow(process);
     close(ends[1]);

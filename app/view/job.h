@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/module.h"
 #include "engine/base/stop.h"
 #include "engine/base/stopwatch.h"
 
@@ -15,7 +16,8 @@ namespace stereonav {
 class Job {
 public:
     // words: after the program's name; program: its file. Throws Error where no process can be made.
-    Job(std::string what, const std::vector<std::string>& words, const char* program = "/proc/self/exe");
+    Job(std::string what, const std::vector<std::string>& words,
+        const std::filesystem::path& program = programFile());
     ~Job();  // stops it, and waits until it has ended
     Job(const Job&) = delete;
     Job& operator=(const Job&) = delete;

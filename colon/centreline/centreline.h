@@ -22,7 +22,7 @@ struct Centreline {
 };
 
 struct CentrelineSetting {
-    double spacing = 0.001;  // metres between points
+    double spacing = 0.001;  // metres between points; more where they would be more than 50,000
     bool reversed = false;   // the ends were taken for each other: the whole line the other way round
     // A piece of more voxels is searched in blocks of two along all axes, also where one is sampled more
     // coarsely: that takes as long as there are blocks.

@@ -13,9 +13,10 @@ namespace stereonav {
 namespace {
 
 constexpr double kFirstLook = 0.002,
-                 kFartherLook = 4;   // metres; and how much further where no wall is so near
-constexpr double kTightness = 1e-5;  // metres
-constexpr int kMostHalvings = 20;    // of the way between two samples
+                 kFartherLook = 4;    // metres; and how much further where no wall is so near
+constexpr double kTightness = 1e-5;   // metres, or
+constexpr double kTightShare = 5e-6;  // of the flight's length, which bounds how many looks are taken
+constexpr int kMostHalvings = 20;     // of the way between two samples
 
 double freeAt(const FreeDistance& free, const glm::dvec3& point, double upTo) {
     const double distance = free(point, upTo);
@@ -27,7 +28,7 @@ struct Flier {
     const RecordedPath& path;
     const FreeDistance& free;
     double aside;  // metres to the head's right
-    double upTo;
+    double tightness, upTo;
 
     struct Look {
         double time, distance;
@@ -46,12 +47,12 @@ struct Flier {
                std::abs(aside) * 2 * std::asin(std::min(sine, 1.0));
     }
 
-    // Never above what is kept between the two, and below it by no more than kTightness or the whole flight's
-    // least, which is brought down by each look.
+    // Never above what is kept between the two, and below it by no more than the tightness or the whole
+    // flight's least, which is brought down by each look.
     double leastBetween(const Look& a, const Look& b, double& leastSeen, int halvings) const {
         leastSeen = std::min({leastSeen, a.distance, b.distance});
         const double bound = std::max(0.0, (a.distance + b.distance - way(a, b)) / 2);
-        if (bound >= leastSeen - kTightness || halvings == kMostHalvings) return bound;
+        if (bound >= leastSeen - tightness || halvings == kMostHalvings) return bound;
         const Look middle = lookAt((a.time + b.time) / 2);
         return std::min(leastBetween(a, middle, leastSeen, halvings + 1),
                         leastBetween(middle, b, leastSeen, halvings + 1));
@@ -73,11 +74,21 @@ struct Flier {
     }
 };
 
+double lengthOf(const RecordedPath& path) {
+    double length = 0;
+    const std::vector<PathSample>& samples = path.samples();
+    for (std::size_t n = 1; n < samples.size(); ++n)
+        length += glm::distance(samples[n - 1].pose.position, samples[n].pose.position);
+    return length;
+}
+
 double leastOf(const RecordedPath& path, const FreeDistance& free, double aside) {
-    double upTo = kFirstLook;
+    const double tightness = std::max(kTightness, kTightShare * lengthOf(path));
+    double upTo = std::max(kFirstLook, 8 * tightness);
     for (;; upTo = std::min(kFartherLook * upTo, ColonFlight::kFarthestClearance)) {
-        const double least = Flier{path, free, aside, upTo}.leastOfAll();
-        if (least < upTo - 2 * kTightness || upTo >= ColonFlight::kFarthestClearance) return least;
+        const double least = Flier{path, free, aside, tightness, upTo}.leastOfAll();
+        if (least < upTo - 2 * tightness || upTo >= ColonFlight::kFarthestClearance)
+            return std::min(least, ColonFlight::kFarthestClearance);
     }
 }
 

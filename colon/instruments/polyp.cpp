@@ -161,14 +161,15 @@ std::vector<std::array<std::uint32_t, 3>> trianglesOf(const WallMesh& mesh, cons
 // In planes of voxels half a millimetre apart, as a reader would page through slices.
 void measureSlices(const WallMesh& mesh, const std::vector<std::array<std::uint32_t, 3>>& triangles,
                    MeasuredPolyp& polyp) {
-    constexpr double kApart = 0.0005;
+    constexpr double kApart = 0.0005, kMostPlanes = 4000;
     for (int axis = 0; axis < 3; ++axis) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (const std::uint32_t v : polyp.vertices) {
             low = std::min<double>(low, mesh.places[v][axis]);
             high = std::max<double>(high, mesh.places[v][axis]);
         }
-        for (double at = std::ceil(low / kApart) * kApart; at <= high; at += kApart) {
+        const double apart = std::max(kApart, (high - low) / kMostPlanes);
+        for (double at = std::ceil(low / apart) * apart; at <= high; at += apart) {
             std::vector<glm::dvec3> cut;
             for (const auto& t : triangles)
                 for (int n = 0; n < 3; ++n) {

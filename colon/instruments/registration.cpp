@@ -56,7 +56,9 @@ std::vector<Feature> featuresOf(const Centreline& line, const RegistrationSettin
     if (line.points.size() < 2 || !(length > 0))
         throw Error("registration", "", "expected a centreline of two places or more",
                     "choose another study");
-    const int count = std::max(static_cast<int>(std::lround(length / setting.step)), 4) + 1;
+    // Places of one line times those of the other are held: of very long lines they are further apart.
+    constexpr double kMostPlaces = 4000;
+    const int count = static_cast<int>(std::clamp(std::round(length / setting.step), 4.0, kMostPlaces)) + 1;
     std::vector<glm::dvec3> places(count);
     std::vector<double> radii(count);
     std::size_t at = 0;

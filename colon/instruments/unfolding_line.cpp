@@ -1,5 +1,7 @@
 #include "colon/instruments/unfolding_line.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -12,10 +14,11 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSmoothLine = 6;    // frames, sigma
-constexpr double kStraightOn = 0.1;  // metres beyond an end at most
-constexpr int kEndFrames = 10;       // whose way the line goes on in
-constexpr int kOfOneTask = 4096;     // vertices
+constexpr double kSmoothLine = 6;     // frames, sigma
+constexpr double kStraightOn = 0.1;   // metres beyond an end at most
+constexpr double kLongestLine = 100;  // metres: frames are held, and each is near to some of the wall
+constexpr int kEndFrames = 10;        // whose way the line goes on in
+constexpr int kOfOneTask = 4096;      // vertices
 
 std::vector<glm::dvec3> evenPlaces(const Centreline& line, double step) {
     std::vector<glm::dvec3> places;
@@ -107,6 +110,11 @@ void fillUnknown(const WallNeighbours& neighbours, std::vector<glm::vec3>& value
 }  // namespace
 
 UnfoldingLine::UnfoldingLine(const Centreline& line, const LineOfSight& sight) {
+    if (!(line.length() <= kLongestLine))
+        throw Error("unfold", "",
+                    fmt::format("expected a centreline of at most {:g} m, found {:.4g} m", kLongestLine,
+                                line.length()),
+                    "choose another study, or correct its spacing");
     std::vector<glm::dvec3> places = evenPlaces(line, kStep);
     if (places.size() < 3)
         throw Error("unfold", "", "expected a centreline of 2 mm or more", "choose another study");

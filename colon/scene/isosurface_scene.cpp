@@ -134,7 +134,7 @@ struct Ball {
     glm::dvec3 middle{0.0};  // world
     double radius = 0;
 };
-// Around the box of the voxels that reach the isovalue.
+// Around the box of the voxels that reach the isovalue; of one voxel around that.
 Ball ballAround(const GreyVolume& field, float isovalue) {
     glm::ivec3 low = field.frame.size, high(-1);
     const glm::ivec3 size = field.frame.size;
@@ -153,7 +153,9 @@ Ball ballAround(const GreyVolume& field, float isovalue) {
     });
     const glm::dvec3 a = field.frame.worldFromVoxel(glm::dvec3(low)),
                      b = field.frame.worldFromVoxel(glm::dvec3(high));
-    return {0.5 * (a + b), std::max(0.5 * glm::length(b - a), 1e-6)};
+    const glm::dvec3& spacing = field.frame.spacing;
+    const double least = 0.5 * std::min({spacing.x, spacing.y, spacing.z});
+    return {0.5 * (a + b), std::max(0.5 * glm::length(b - a), least)};
 }
 
 void placeViewer(ColonScene& scene) {

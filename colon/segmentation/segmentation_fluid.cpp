@@ -53,7 +53,8 @@ bool mayBeColon(AirKind kind) {
 std::vector<Surface> surfacesOf(const FluidPools& fluid, const GreyVolume& study, const AirPieces& air,
                                 int up) {
     std::vector<Surface> surfaces(fluid.cores.parts.list.size());
-    const int reach = 2 + static_cast<int>(std::ceil(kThickestFilm / study.frame.spacing[fluid.axis]));
+    const double film = std::ceil(kThickestFilm / study.frame.spacing[fluid.axis]);
+    const int reach = 2 + static_cast<int>(std::min<double>(film, study.frame.size[fluid.axis]));
     forVoxels(fluid.cores, [&](std::uint32_t core, const glm::ivec3& voxel) {
         glm::ivec3 at = voxel;
         at[fluid.axis] += up;

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <set>
 #include <utility>
 
+#include "colon/study/study_folder.h"
 #include "colon/study/study_header.h"
+#include "colon/study/study_labels.h"
 #include "colon/study/study_mapped.h"
 #include "colon/study/study_text.h"
 #include "engine/base/file.h"
@@ -38,26 +38,6 @@ bool isVolumeName(const fs::path& path) {
     return isNiftiPair(path);  // .hdr and .img are names of other things as well
 }
 
-// DICOM slices are called anything: with .dcm or .ima, without an extension, or by a UID, whose last part
-// looks like one.
-bool isSliceName(const fs::path& path) {
-    const std::string extension = loweredText(path.extension().string());
-    if (isHiddenFile(path)) return false;
-    return extension.empty() || extension == ".dcm" || extension == ".ima" || extension == ".dicom" ||
-           extension.find_first_not_of(".0123456789") == std::string::npos;
-}
-
-// A slice by its name, or by what it begins with.
-bool isDicomFile(const fs::path& path) {
-    const std::string extension = loweredText(path.extension().string());
-    std::error_code code;
-    if (!fs::is_regular_file(path, code)) return false;
-    if (extension == ".dcm" || extension == ".ima" || extension == ".dicom") return true;
-    char head[132];
-    std::ifstream in(path, std::ios::binary);
-    return in.read(head, sizeof head) && std::memcmp(head + 128, "DICM", 4) == 0;
-}
-
 // In blocks on all threads; the value depends on the bytes alone.
 std::uint64_t hashOfFile(const fs::path& file) {
     const MappedFile mapped(file);
@@ -80,7 +60,11 @@ std::uint64_t keyOfFiles(const std::vector<fs::path>& files, const StudyOptions&
     hash.add(kReaderVersion).add(hashes.data(), hashes.size() * sizeof(std::uint64_t));
     hash.add(static_cast<std::int64_t>(options.resample));
     hash.add(static_cast<std::int64_t>(options.label.has_value()));
-    return hash.add(static_cast<std::int64_t>(options.label.value_or(0))).value();
+    // Names begin behind what is hashed for numbers.
+    const auto number = options.label ? labelNumber(*options.label) : std::optional<std::int64_t>(0);
+    hash.add(number.value_or(0));
+    if (!number) hash.add(*options.label);
+    return hash.value();
 }
 
 // The header itself and the files that it names, in their order.
@@ -201,7 +185,7 @@ Study readStudy(const fs::path& path, const StudyOptions& options, Progress& pro
     study.format = file.format;
     study.description = file.description;
     study.notes = std::move(file.notes);
-    takeValues(std::move(file.raw), std::move(file.looks), path.string(), options, study);
+    takeValues(std::move(file.raw), std::move(file.looks), file.labels, path.string(), options, study);
     progress.report(0.95, "computing the key");
     study.key = options.key ? *options.key : studyKey(path, options);
     progress.report(1, "read " + path.filename().string());

@@ -1,5 +1,5 @@
-// A CT study or a ready mask from files: a folder of DICOM slices, an enhanced DICOM file, NIfTI, NRRD,
-// MetaImage.
+// A CT study or a ready mask from files: a folder of DICOM slices, the root of a disc with a DICOMDIR, an
+// enhanced DICOM file, NIfTI, NRRD, MetaImage.
 // World: the patient's axes (LPS) in metres; orientation and spacing as the file says.
 #pragma once
 
@@ -22,7 +22,8 @@ namespace stereonav {
 struct StudyOptions {
     std::string series;     // of a DICOM folder with several: its number in the list (1, 2, ...) or its UID
     bool resample = false;  // mend uneven or tilted slices onto an even upright grid
-    std::optional<int> label;  // the one label of a mask with several
+    // The one label of a mask with several: its number, or its name where the header names it.
+    std::optional<std::string> label;
     // Study::key where the caller has it, or does not ask for it: the files are not hashed then.
     std::optional<std::uint64_t> key;
     // HU: where values are below it is looked for while other slices are read (Study::air).
@@ -75,9 +76,13 @@ struct StudyGlance {
 // Of a folder some files, spread over all, are looked at. Throws Error, Cancelled.
 StudyGlance glanceAtStudy(const std::filesystem::path& path, Progress& progress);
 
-// True where readStudy would try: a folder with DICOM files, or a name ending in .nrrd .nhdr .nii .nii.gz
-// .mha .mhd .dcm .ima; also what begins as DICOM or is a NIfTI pair, and samples of a header beside them,
-// which it refuses by naming that. No more is read than the folder's list and headers.
+// Which folders below hold DICOM slices, as advice: "its folder ST1 holds DICOM slices: give that one"; ""
+// where none do. A bounded part of what is there is looked at.
+std::string studyFoldersAdvice(const std::filesystem::path& folder);
+
+// True where readStudy would try: a folder with DICOM files or a DICOMDIR, or a name ending in .nrrd .nhdr
+// .nii .nii.gz .mha .mhd .dcm .ima; also what begins as DICOM or is a NIfTI pair, and samples of a header
+// beside them, which it refuses by naming that. No more is read than the folder's list and headers.
 bool looksLikeStudy(const std::filesystem::path& path);
 
 // The study's key without decoding its voxels, for looking into the cache first.

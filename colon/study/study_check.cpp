@@ -48,6 +48,32 @@ std::string sizeText(const std::vector<std::uint64_t>& size) {
     return fmt::format("{}", fmt::join(size, " x "));
 }
 
+void checkFrame(const std::string& file, const VolumeFrame& frame) {
+    constexpr double kLeast = 1e-9,
+                     kMost = 1e9;       // millimetres: a thousandth of an atom, a thousand kilometres
+    constexpr double kMostUneven = 50;  // slices of 10 mm and pixels of 0.3 are 33
+    constexpr double kFarthest = 1e10;  // spacings from the origin: doubles tell a millionth apart
+    const glm::dvec3 mm = frame.spacing * 1e3;
+    const double least = std::min({mm.x, mm.y, mm.z}), most = std::max({mm.x, mm.y, mm.z});
+    const std::string found = fmt::format("{:.4g} x {:.4g} x {:.4g} mm", mm.x, mm.y, mm.z);
+    if (!(least >= kLeast && most <= kMost))
+        throw Error(file, "",
+                    fmt::format("expected a spacing of {:g} to {:g} mm, found {}", kLeast, kMost, found),
+                    "correct it in the header");
+    if (most > kMostUneven * least)
+        throw Error(file, "",
+                    fmt::format("its spacing is too uneven: {}, the largest is {:.3g} times the smallest, "
+                                "expected at most {:g} times",
+                                found, most / least, kMostUneven),
+                    "correct it in the header, or resample the volume");
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(frame.origin[axis]) <= kFarthest * 1e-3 * least))
+            throw Error(file, "",
+                        fmt::format("expected an origin within {:g} spacings, found {:.4g} mm", kFarthest,
+                                    frame.origin[axis] * 1e3),
+                        "correct it in the header");
+}
+
 double bytesHeld(const std::vector<std::uint64_t>& size, int sampleBytes, const StudyOptions& options) {
     const double voxels = voxelsOf(size), values = voxels * sizeof(std::int16_t);
     return std::max(voxels * sampleBytes, values + (options.working ? options.working(voxels) : 0.0));

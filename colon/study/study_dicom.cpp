@@ -11,6 +11,7 @@
 
 #include "colon/study/picture_decoder.h"
 #include "colon/study/study_facts.h"
+#include "colon/study/study_folder.h"
 #include "colon/study/study_parts.h"
 #include "engine/base/file.h"
 #include "engine/base/parallel.h"
@@ -20,19 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kLeastHu = -1024;  // of CT; lower numbers only mark what was not scanned
-
-std::vector<fs::path> filesAt(const fs::path& place) {
-    std::error_code code;
-    if (!fs::is_directory(place, code)) return {place};
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(place, code))
-        if (entry.is_regular_file(code) && entry.path().filename() != "DICOMDIR" &&
-            !isHiddenFile(entry.path()))
-            files.push_back(entry.path());
-    if (code) throw Error(place.string(), "", "can not be opened", "check the name and its permissions");
-    std::sort(files.begin(), files.end());
-    return files;
-}
 
 struct PixelCounts {
     std::atomic<std::size_t> padding = 0;
@@ -143,8 +131,7 @@ struct Scanned {
     std::size_t files = 0;
 };
 
-Scanned scanFiles(const fs::path& place) {
-    const std::vector<fs::path> files = filesAt(place);
+Scanned scanFiles(const std::vector<fs::path>& files) {
     std::vector<std::vector<DicomSlice>> found(files.size());
     std::vector<char> dicom(files.size(), 0);
     parallelFor(static_cast<int>(files.size()), [&](int n) {
@@ -159,6 +146,13 @@ Scanned scanFiles(const fs::path& place) {
         for (DicomSlice& slice : found[n]) all.slices.push_back(std::move(slice));
     }
     return all;
+}
+
+// In the folder itself, or, where it is the root of a disc without any, in those below.
+Scanned scanPlace(const fs::path& folder) {
+    Scanned scanned = scanFiles(filesIn(folder));
+    if (scanned.slices.empty() && isRootOfDisc(folder)) scanned = scanFiles(filesBelow(folder));
+    return scanned;
 }
 
 // Leaves out localizers and the like where anything else is there. Returns a note about it, "" for none.
@@ -196,8 +190,9 @@ double valueOf(const DicomSlice& slice, double stored) {
     return (*slice.table)[static_cast<std::size_t>(at)];
 }
 
-std::vector<DicomSeries> scanFolder(const fs::path& place) {
-    Scanned scanned = scanFiles(place);
+std::vector<DicomSeries> scanFolder(const fs::path& given) {
+    const fs::path place = folderOfStudy(given);
+    Scanned scanned = scanPlace(place);
     const std::string aside = leaveAside(scanned.slices);
     std::map<std::string, DicomSeries> byUid;
     for (DicomSlice& slice : scanned.slices) {
@@ -210,10 +205,12 @@ std::vector<DicomSeries> scanFolder(const fs::path& place) {
         throw Error(
             place.string(), "", "expected a DICOM image, found another file",
             "give a folder of DICOM slices, or a volume file (.nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd)");
-    if (byUid.empty())
+    if (byUid.empty()) {
+        const std::string advice = studyFoldersAdvice(place);
         throw Error(place.string(), "",
                     fmt::format("expected DICOM images, found none among {} files", scanned.files),
-                    "give the folder that holds the slices themselves");
+                    advice.empty() ? "give the folder that holds the slices themselves" : advice);
+    }
     std::vector<DicomSeries> all;
     for (auto& [uid, series] : byUid) {
         if (!aside.empty()) series.notes.push_back(aside);
@@ -244,6 +241,7 @@ VolumeFile readDicom(const fs::path& place, const StudyOptions& options, Progres
     progress.report(0, "looking through " + place.filename().string());
     DicomSeries series = chooseSeries(place, options.series);
     const SlicePlaces places = placeSlices(place, series.slices, options.resample, series.strangers);
+    checkFrame(place.string(), places.frame);
     const DicomSlice& first = series.slices.front();
     const glm::ivec3 size = places.frame.size;
     const std::vector<std::uint64_t> voxels = {static_cast<std::uint64_t>(size.x),

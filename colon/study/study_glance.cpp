@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "colon/study/study_folder.h"
 #include "colon/study/study_parts.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -15,10 +16,16 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostFiles = 100'000;  // that are counted
 constexpr std::size_t kMostLooks = 16;       // that are opened
 
+// Of the root of a disc those below that may be slices, by their names.
 std::vector<fs::path> filesAt(const fs::path& place, Progress& progress) {
     progress.report(0, "listing");
     std::error_code code;
     if (!fs::is_directory(place, code)) return {place};
+    if (isRootOfDisc(place)) {
+        std::vector<fs::path> below = filesBelow(place);
+        std::erase_if(below, [](const fs::path& file) { return !isSliceName(file); });
+        return below;
+    }
     std::vector<fs::path> files;
     for (fs::directory_iterator entry(place, code), end; entry != end && files.size() < kMostFiles && !code;
          entry.increment(code)) {
@@ -41,7 +48,8 @@ void take(StudyGlance& glance, const DicomSlice& slice) {
 
 }  // namespace
 
-StudyGlance glanceAtSlices(const fs::path& place, Progress& progress) {
+StudyGlance glanceAtSlices(const fs::path& given, Progress& progress) {
+    const fs::path place = folderOfStudy(given);
     const std::vector<fs::path> files = filesAt(place, progress);
     StudyGlance glance;
     glance.format = "DICOM";

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "colon/study/study_labels.h"
 #include "colon/study/study_parts.h"
 
 namespace stereonav {
@@ -41,7 +42,11 @@ struct VolumeHeader {
     double slope = 1, intercept = 0;  // value = stored * slope + intercept
     std::vector<std::filesystem::path> headers;  // files that the header itself was read from
     SamplePlace place;
+    MaskLabels labels;
     std::vector<std::string> notes;
+
+    // Samples of a voxel, in bytes: of all layers.
+    int voxelBytes() const { return bytesOf(type) * static_cast<int>(labels.layers.count); }
 };
 
 // All throw Error, with the place in the file where there is one.

@@ -1,6 +1,6 @@
 // NIfTI-1 and NIfTI-2 headers, in either byte order, with the samples in the same file or in an .img beside
 // it. Values and places are those that nibabel gives: the sform counts where its code is above 0, else the
-// qform, else the grid is centred. Offsets: nifti1.h, nifti2.h.
+// qform, else the grid is centred. What does not count may hold anything. Offsets: nifti1.h, nifti2.h.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kFirstSize = 348, kSecondSize = 540;
 constexpr double kMostMillimetres = 1e12;  // far beyond any body
+constexpr double kMostSquare = 1.001;      // of a rotation in 32-bit floats no more than 1 + 4e-7
 
 struct NiftiNumbers {
     bool turned = false, pair = false;
@@ -133,6 +134,26 @@ NiftiNumbers numbersOf(const fs::path& file, const std::string& head) {
                 "give a volume file (.nrrd, .nhdr, .nii, .nii.gz, .hdr, .mha, .mhd) or a folder of DICOM");
 }
 
+bool isLength(double number) {
+    return std::abs(number) < kMostMillimetres;
+}
+
+// Whether values are scaled at all, as nibabel has it.
+bool isScaled(const NiftiNumbers& n) {
+    return std::isfinite(n.slope) && n.slope != 0;
+}
+
+double squareOf(const double (&quatern)[3]) {
+    return quatern[0] * quatern[0] + quatern[1] * quatern[1] + quatern[2] * quatern[2];
+}
+
+bool isUsableQform(const NiftiNumbers& n) {
+    bool usable = squareOf(n.quatern) <= kMostSquare;
+    for (int axis = 0; axis < 3; ++axis) usable &= isLength(n.pixdim[axis + 1]) && isLength(n.qoffset[axis]);
+    return usable;
+}
+
+// Throws Error over numbers that count.
 void checkNumbers(const fs::path& file, const NiftiNumbers& n) {
     for (int axis = 1; axis <= std::min(n.axes, 3); ++axis)
         if (n.size[axis] < 1)
@@ -140,26 +161,28 @@ void checkNumbers(const fs::path& file, const NiftiNumbers& n) {
                         fmt::format("expected a size above 0 along axis {}, found {}", axis, n.size[axis]),
                         "correct it in the header");
     const auto check = [&](std::size_t start, std::size_t index, double number, const char* what) {
-        if (!(std::abs(number) < kMostMillimetres))
+        if (!isLength(number))
             throw Error(file.string(), fmt::format("byte {}", start + index * n.numberBytes),
                         fmt::format("expected a number of millimetres for {}, found {:g}", what, number),
                         "correct it in the header");
     };
-    for (std::size_t axis = 0; axis < 4; ++axis) check(n.pixdimAt, axis, n.pixdim[axis], "the spacing");
     constexpr const char* kPlace = "the directions and the origin";
     for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (n.sformCode > 0) {
+            for (std::size_t c = 0; c < 4; ++c) check(n.quaternAt, 6 + 4 * axis + c, n.srow[axis][c], kPlace);
+            continue;
+        }
+        check(n.pixdimAt, axis + 1, n.pixdim[axis + 1], "the spacing");
+        if (n.qformCode <= 0) continue;
         check(n.quaternAt, axis, n.quatern[axis], kPlace);
         check(n.quaternAt, 3 + axis, n.qoffset[axis], kPlace);
-        for (std::size_t c = 0; c < 4; ++c) check(n.quaternAt, 6 + 4 * axis + c, n.srow[axis][c], kPlace);
     }
-    for (const std::size_t index : {0u, 1u}) {
-        const double number = index == 0 ? n.slope : n.intercept;
-        if (!std::isfinite(number) && (index == 0 || n.slope != 0))
-            throw Error(file.string(), fmt::format("byte {}", n.slopeAt + index * n.numberBytes),
-                        fmt::format("expected a finite number for {}, found {:g}",
-                                    index == 0 ? "scl_slope" : "scl_inter", number),
-                        "correct it in the header: 0 for values as they are stored");
-    }
+    if (isScaled(n) && !std::isfinite(n.intercept))
+        throw Error(
+            file.string(), fmt::format("byte {}", n.slopeAt + n.numberBytes),
+            fmt::format("expected a finite number for scl_inter beside a scl_slope of {:g}, found {:g}",
+                        n.slope, n.intercept),
+            "correct it in the header: a scl_slope of 0 for values as they are stored");
 }
 
 SampleType niftiType(const fs::path& file, int datatype) {
@@ -222,9 +245,8 @@ double qformSpacing(const NiftiNumbers& n, int axis) {
 }
 
 Affine qformOf(const fs::path& file, const NiftiNumbers& n) {
-    constexpr double kMostSquare = 1.001;  // of a rotation in 32-bit floats no more than 1 + 4e-7
     double b = n.quatern[0], c = n.quatern[1], d = n.quatern[2];
-    const double square = b * b + c * c + d * d;
+    const double square = squareOf(n.quatern);
     if (square > kMostSquare)
         throw Error(file.string(), fmt::format("byte {}", n.quaternAt),
                     fmt::format("expected a rotation in the qform, found a quaternion of length {:g}",
@@ -279,12 +301,18 @@ Affine affineOf(const fs::path& file, const NiftiNumbers& n, std::vector<std::st
     if (n.sformCode > 0) {
         const Affine sform = sformOf(n);
         double millimetres = 0;
-        if (n.qformCode > 0 && differenceOf(sform, qformOf(file, n), n, millimetres) > kAlike)
+        if (n.qformCode > 0 && !isUsableQform(n))
+            notes.push_back("its qform is no rotation of a grid and is left aside: the sform counts");
+        else if (n.qformCode > 0 && differenceOf(sform, qformOf(file, n), n, millimetres) > kAlike)
             notes.push_back(
                 fmt::format("its sform and qform differ by up to {:.3g} mm: the sform counts", millimetres));
         return sform;
     }
-    if (n.qformCode > 0) return qformOf(file, n);
+    if (n.qformCode > 0) {
+        if (!std::isfinite(n.pixdim[0]))
+            notes.push_back("its qfac (pixdim[0]) is no number: 1 is taken, a grid that is not mirrored");
+        return qformOf(file, n);
+    }
     notes.push_back(
         "the header has neither sform nor qform: i is taken for the patient's left, j for front, k for up, "
         "which may be a mirror image");
@@ -373,7 +401,10 @@ VolumeHeader readNiftiHeader(const fs::path& file) {
     header.size = threeSizes(file, size);
     header.type = niftiType(headerFile, n.datatype);
     takeNiftiPlaces(headerFile, n, header);
-    if (n.slope != 0) header.slope = n.slope, header.intercept = n.intercept;
+    if (isScaled(n)) header.slope = n.slope, header.intercept = n.intercept;
+    if (!std::isfinite(n.slope))
+        header.notes.push_back(
+            fmt::format("its scl_slope is {:g}: values are taken as they are stored", n.slope));
     SamplePlace& place = header.place;
     place.files = {n.pair ? otherOfPair(headerFile, ".img") : headerFile};
     if (isGzip(place.files[0])) place.encoding = SampleEncoding::Deflate;

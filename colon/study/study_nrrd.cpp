@@ -27,6 +27,7 @@ struct NrrdField {
 struct NrrdText {
     fs::path file;
     std::map<std::string, NrrdField> fields;  // names without blanks, in small letters
+    HeaderFields keyed;                       // "key:=value"
     std::string comment;                      // the key "comment", or "content"
     std::string text;                         // of the file's beginning
     std::size_t end = 0;                      // of the header in it
@@ -61,6 +62,7 @@ NrrdText readNrrdText(const fs::path& file) {
         const std::size_t keyed = line.find(":=");
         const std::size_t colon = line.find(':');
         if (keyed != std::string::npos && keyed == colon) {
+            nrrd.keyed.emplace_back(line.substr(0, keyed), line.substr(keyed + 2));
             if (loweredText(line.substr(0, keyed)) == "comment") nrrd.comment = line.substr(keyed + 2);
             continue;
         }
@@ -213,19 +215,25 @@ bool isComponents(const NrrdText& nrrd, std::size_t axis, const NrrdVectors& dir
     return true;
 }
 
-// The axes of space among all, of which the others must have one entry.
+// The axes of space among all. Of the others one may have several entries, the layers of a mask whose labels
+// the header names.
 std::vector<std::size_t> spaceAxes(const NrrdText& nrrd, const std::vector<std::uint64_t>& sizes,
-                                   const NrrdVectors& directions) {
+                                   const NrrdVectors& directions, LabelLayers& layers) {
+    constexpr std::uint64_t kMostLayers = 4096;
+    const bool named = namesLabels(nrrd.keyed);
     std::vector<std::size_t> axes;
+    std::uint64_t before = 1;  // samples, as far as they are bounded by what memory holds
     for (std::size_t axis = 0; axis < sizes.size(); ++axis) {
         if (!isComponents(nrrd, axis, directions)) {
             axes.push_back(axis);
-            continue;
+        } else if (sizes[axis] > 1) {
+            if (!named || layers.count > 1 || sizes[axis] > kMostLayers)
+                throw Error(nrrd.file.string(), "",
+                            fmt::format("expected one number a voxel, found {}", sizes[axis]),
+                            "save one component of it alone");
+            layers = {sizes[axis], before};
         }
-        if (sizes[axis] > 1)
-            throw Error(nrrd.file.string(), "",
-                        fmt::format("expected one number a voxel, found {}", sizes[axis]),
-                        "save one component of it alone");
+        before *= sizes[axis];
     }
     return axes;
 }
@@ -386,7 +394,8 @@ VolumeHeader readNrrdHeader(const fs::path& file) {
     if (!directions.empty() && directions.size() != sizes.size())
         nrrd.refuse("spacedirections",
                     fmt::format("expected {} space directions, found {}", sizes.size(), directions.size()));
-    std::vector<std::size_t> axes = spaceAxes(nrrd, sizes, directions);
+    std::vector<std::size_t> axes = spaceAxes(nrrd, sizes, directions, header.labels.layers);
+    header.labels.named = namedLabelsOf(file.string(), nrrd.keyed, header.labels.layers.count);
     std::vector<std::uint64_t> extents;
     for (const std::size_t axis : axes) extents.push_back(sizes[axis]);
     header.size = threeSizes(file, extents);

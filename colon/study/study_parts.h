@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "colon/study/study.h"
+#include "colon/study/study_labels.h"
 
 namespace stereonav {
 
@@ -61,6 +62,9 @@ decltype(auto) withSamples(const RawStudy& raw, Use&& use) {
 // Throws Error unless there are two or more voxels along each axis and so many bytes fit into the memory that
 // can be had; it says what would fit.
 void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, double bytes);
+// Throws Error unless spacings are such that work on the volume ends: neither very small nor very large, none
+// of them far from the others, and the first voxel at a place that numbers tell from that of the next.
+void checkFrame(const std::string& file, const VolumeFrame& frame);
 // Bytes that are held at once: samples of so many bytes, which go as values come, or values with what the
 // caller takes beside those.
 double bytesHeld(const std::vector<std::uint64_t>& size, int sampleBytes, const StudyOptions& options);
@@ -89,6 +93,7 @@ struct VolumeFile {
     std::string format, description;
     std::vector<std::string> notes;
     SliceLooks looks;
+    MaskLabels labels;  // the samples are of one layer
 };
 // NRRD, NIfTI or MetaImage. Throws Error, Cancelled.
 VolumeFile readVolumeFile(const std::filesystem::path& file, const StudyOptions& options, Progress& progress);
@@ -169,7 +174,7 @@ RawStudy resampleSlices(const RawStudy& raw, const SlicePlaces& places, const st
 // Fills mask or grey (which have the samples' frame), air, and the notes. looks: VolumeFile's. Values that
 // stay as they are take over the samples' memory, others come slice by slice, and the samples' memory goes.
 // Throws Error about labels and values that are not numbers.
-void takeValues(RawStudy raw, SliceLooks looks, const std::string& file, const StudyOptions& options,
-                Study& study);
+void takeValues(RawStudy raw, SliceLooks looks, const MaskLabels& labels, const std::string& file,
+                const StudyOptions& options, Study& study);
 
 }  // namespace stereonav

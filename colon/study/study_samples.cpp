@@ -22,7 +22,7 @@ constexpr std::size_t kReadBlock = 8 << 20;
 constexpr std::size_t kLongestNumber = 400;  // characters
 
 std::uint64_t bytesExpected(const VolumeHeader& header) {
-    std::uint64_t bytes = static_cast<std::uint64_t>(bytesOf(header.type));
+    auto bytes = static_cast<std::uint64_t>(header.voxelBytes());
     for (const std::uint64_t n : header.size) bytes *= n;
     return bytes;
 }

@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "colon/study/study_facts.h"
+#include "colon/study/study_labels.h"
 #include "colon/study/study_parts.h"
+#include "colon/study/study_text.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -42,21 +44,28 @@ ValueFacts scaledFacts(ValueFacts facts, const RawStudy& raw) {
     return facts;
 }
 
-std::string labelList(const std::vector<double>& values) {
+// With the names that the header gives.
+std::string labelList(const std::vector<double>& values, const MaskLabels& labels) {
     std::string text;
     int listed = 0;
     for (const double value : values) {
         if (value == 0) continue;
         if (listed++ == kMostListed) return text + ", ...";
-        text += (text.empty() ? "" : ", ") + fmt::format("{}", value);
+        text += text.empty() ? "" : ", ";
+        std::vector<NamedLabel> named;
+        for (const NamedLabel& label : labels.named)
+            if (static_cast<double>(label.value) == value && named.empty()) named.push_back(label);
+        text += named.empty() ? fmt::format("{}", value) : labelListText(named);
     }
     return text;
 }
 
-bool looksLikeLabels(const ValueFacts& facts) {
-    return !facts.many && facts.fractions == 0 && facts.notNumbers == 0 && facts.distinct.size() > 2 &&
-           facts.distinct.front() >= 0 &&
-           static_cast<double>(facts.equalPairs) > kLabelEquality * static_cast<double>(facts.pairs);
+// named: the header says that they are labels.
+bool looksLikeLabels(const ValueFacts& facts, bool named) {
+    const bool could = !facts.many && facts.fractions == 0 && facts.notNumbers == 0 &&
+                       facts.distinct.size() > 2 && facts.distinct.front() >= 0;
+    return could && (named || static_cast<double>(facts.equalPairs) >
+                                  kLabelEquality * static_cast<double>(facts.pairs));
 }
 
 bool isMask(const ValueFacts& facts) {
@@ -64,27 +73,37 @@ bool isMask(const ValueFacts& facts) {
            (facts.distinct[0] == 0 || facts.distinct[1] == 0);
 }
 
-// The label that the mask is, or none for grey values. Throws Error where a label is missing.
-std::optional<double> chosenLabel(const std::string& file, const ValueFacts& facts,
+// The label that the mask is, by its values, or none for grey values. Throws Error where a label is missing.
+std::optional<double> chosenLabel(const std::string& file, const ValueFacts& facts, const MaskLabels& named,
                                   const StudyOptions& options) {
-    const bool mask = isMask(facts), labels = looksLikeLabels(facts);
+    const bool mask = isMask(facts), labels = looksLikeLabels(facts, !named.named.empty());
     if (!options.label) {
         if (mask) return facts.distinct[0] == 0 ? facts.distinct[1] : facts.distinct[0];
+        if (!named.named.empty() && facts.lowest == 0 && facts.highest == 0)
+            throw Error(file, "", "a mask without voxels, of " + labelListText(named.named),
+                        "save it with what is in it");
         if (!labels) return {};
-        throw Error(file, "", "a mask of several labels: " + labelList(facts.distinct),
-                    "choose one with --label N");
+        throw Error(
+            file, "", "a mask of several labels: " + labelList(facts.distinct, named),
+            named.named.empty() ? "choose one with --label N" : "choose one with --label N, or by its name");
     }
+    const std::optional<std::int64_t> number = labelNumber(*options.label);
+    if (!number)
+        throw Error(file, "",
+                    fmt::format("expected the number of a label, as it names none, got --label {}",
+                                shortText(*options.label)),
+                    "give a whole number, or leave --label out");
     if (!mask && !labels)
-        throw Error(file, "", fmt::format("expected a mask with label {}, found grey values", *options.label),
+        throw Error(file, "", fmt::format("expected a mask with label {}, found grey values", *number),
                     "leave --label out");
-    const bool there = *options.label != 0 && std::binary_search(facts.distinct.begin(), facts.distinct.end(),
-                                                                 static_cast<double>(*options.label));
+    const bool there = *number != 0 && std::binary_search(facts.distinct.begin(), facts.distinct.end(),
+                                                          static_cast<double>(*number));
     if (!there)
         throw Error(file, "",
-                    fmt::format("label {} is not in the mask, which has {}", *options.label,
-                                labelList(facts.distinct)),
+                    fmt::format("label {} is not in the mask, which has {}", *number,
+                                labelList(facts.distinct, named)),
                     "choose one of these");
-    return static_cast<double>(*options.label);
+    return static_cast<double>(*number);
 }
 
 // Calls use(k, its samples) for every slice; the samples' memory is given back behind it.
@@ -116,6 +135,20 @@ double sampleOf(double label, const ValueFacts& facts, const ValueFacts& stored,
     const auto at = std::lower_bound(facts.distinct.begin(), facts.distinct.end(), label);
     const auto n = static_cast<std::size_t>(at - facts.distinct.begin());
     return stored.distinct[raw.slope < 0 ? stored.distinct.size() - 1 - n : n];
+}
+
+// The mask of a label that the header names, as it stands in the file.
+template <typename T>
+void takeNamed(RawStudy& raw, const NamedLabel& label, const ValueFacts& stored, const std::string& file,
+               MaskVolume& mask) {
+    const auto value = static_cast<double>(label.value);
+    bool there = label.value != 0 && value >= stored.lowest && value <= stored.highest;
+    if (there) takeMask<T>(raw, value, mask);
+    there = there && std::any_of(mask.values.data(), mask.values.data() + mask.values.size(),
+                                 [](std::uint8_t v) { return v != 0; });
+    if (!there)
+        throw Error(file, "", fmt::format("the label {} has no voxels", labelListText({label})),
+                    "choose another one with --label");
 }
 
 bool fitsShort(const ValueFacts& facts) {
@@ -178,8 +211,8 @@ void takeGrey(RawStudy& raw, const ValueFacts& facts, GreyVolume& grey) {
 
 }  // namespace
 
-void takeValues(RawStudy raw, SliceLooks looks, const std::string& file, const StudyOptions& options,
-                Study& study) {
+void takeValues(RawStudy raw, SliceLooks looks, const MaskLabels& labels, const std::string& file,
+                const StudyOptions& options, Study& study) {
     const ValueFacts stored = factsOf(raw, std::move(looks.facts));
     withSamples(raw, [&](const auto* samples) {
         using Sample = std::remove_cvref_t<decltype(*samples)>;
@@ -192,8 +225,18 @@ void takeValues(RawStudy raw, SliceLooks looks, const std::string& file, const S
                 file, "",
                 fmt::format("its values ({:g} to {:g}) are beyond all numbers", facts.lowest, facts.highest),
                 "correct the scale in the header");
-        const auto label = chosenLabel(file, facts, options);
+        if (labels.chosen) {
+            study.isMask = true;
+            if (labels.named.size() > 1)
+                study.notes.push_back(fmt::format("the label {} of {} that the header names",
+                                                  labelListText({*labels.chosen}), labels.named.size()));
+            return takeNamed<Sample>(raw, *labels.chosen, stored, file, study.mask);
+        }
+        const auto label = chosenLabel(file, facts, labels, options);
         study.isMask = label.has_value();
+        if (label && !options.label && labels.named.size() > 1)
+            study.notes.push_back("of the labels that the header names only this one has voxels: " +
+                                  labelList({*label}, labels));
         if (label) return takeMask<Sample>(raw, sampleOf(*label, facts, stored, raw), study.mask);
         if (options.airBelow && showsAir(raw))
             study.air = airOf(raw, *options.airBelow, std::move(looks.air));

@@ -34,6 +34,7 @@ VolumeFrame frameOfHeader(const fs::path& file, const VolumeHeader& header) {
         frame.origin[axis] = header.origin[axis] * kMetresPerMillimetre;
         frame.axes[axis] = header.steps[axis] / spacing;
     }
+    checkFrame(file.string(), frame);
     return frame;
 }
 
@@ -91,8 +92,12 @@ VolumeHeader readVolumeHeader(const fs::path& file) {
 
 VolumeFile readVolumeFile(const fs::path& file, const StudyOptions& options, Progress& progress) {
     progress.report(0, "reading " + file.filename().string());
-    const VolumeHeader header = readVolumeHeader(file);
-    checkSize(file.string(), header.size, bytesHeld(header.size, bytesOf(header.type), options));
+    VolumeHeader header = readVolumeHeader(file);
+    const bool layered = header.labels.layers.count > 1;
+    // A layer is held beside all of them once.
+    const int held = header.voxelBytes() + (layered ? bytesOf(header.type) : 0);
+    checkSize(file.string(), header.size, bytesHeld(header.size, held, options));
+    chooseLabel(file.string(), options, header.labels);
     VolumeFile result;
     result.format = header.format;
     result.description = header.description;
@@ -103,14 +108,16 @@ VolumeFile readVolumeFile(const fs::path& file, const StudyOptions& options, Pro
     result.raw.frame = frameOfHeader(file, header);
     checkSampleFiles(file, header);  // before anything is taken for as many slices as the header says
     const SlicePlaces places = placesOfGrid(file, result.raw.frame, options.resample);
-    result.raw.bytes = LazyArray<unsigned char>(result.raw.frame.count() * bytesOf(header.type));
-    const bool asTheyCome = places.upright && !header.place.turned;
+    result.raw.bytes = LazyArray<unsigned char>(result.raw.frame.count() * header.voxelBytes());
+    const bool asTheyCome = places.upright && !header.place.turned && !layered;
     FactsBeside facts(result.raw, showsAir(result.raw) ? options.airBelow : std::nullopt);
     Progress reading(progress, 0, 0.7);
     readSamples(file, header, result.raw.bytes.data(), reading, [&](std::uint64_t bytes) {
         if (asTheyCome) facts.come(bytes);
     });
     result.looks = facts.take();
+    if (layered) keepLayer(header.labels.layers, header.labels.chosen->layer, result.raw);
+    result.labels = std::move(header.labels);
     progress.report(0.7, "reading " + file.filename().string());
     if (!places.upright) {
         result.raw = resampleSlices(result.raw, places, file.string());

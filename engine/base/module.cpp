@@ -4,6 +4,7 @@
 
 #include <dlfcn.h>
 #include <link.h>
+#include <sys/auxv.h>
 
 #include <string_view>
 
@@ -69,11 +70,17 @@ void setModuleFolder(const fs::path& folder) {
     chosenFolder() = folder;
 }
 
+fs::path programFile(const fs::path& root) {
+    std::error_code code;
+    const fs::path program = fs::read_symlink(root / "proc/self/exe", code);
+    if (!code) return program;
+    const auto* const started = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+    return started ? fs::canonical(started, code) : fs::path();
+}
+
 fs::path moduleFolder() {
     if (!chosenFolder().empty()) return chosenFolder();
-    std::error_code code;
-    const fs::path program = fs::read_symlink("/proc/self/exe", code);
-    return program.parent_path().parent_path() / "lib" / "stereonav";
+    return programFile().parent_path().parent_path() / "lib" / "stereonav";
 }
 
 std::vector<std::string> loadedLibraries() {

@@ -45,6 +45,10 @@ const Functions& moduleFunctions(const std::string& name, const std::string& pur
 // Whether its file is there; nothing is loaded.
 bool hasModule(const std::string& name);
 
+// The program's own file: as the system says, or, where no /proc is mounted, as it was started. "" where
+// neither tells. root: where proc is; another one for tests.
+std::filesystem::path programFile(const std::filesystem::path& root = "/");
+
 // Where modules are: ../lib/stereonav from the program's own folder, so that it can be moved as a whole.
 std::filesystem::path moduleFolder();
 // For programs that lie elsewhere: before the first call of a module's function, while no other thread runs.

@@ -112,6 +112,8 @@ int stoppingTime_ms(double bytes) {
 
 void catchStopSignals() {
     Stop::own();  // there before a handler asks for it
+    // What is written beyond a limit on the size of files fails then, and is told.
+    signal(SIGXFSZ, SIG_IGN);
     pageSize = static_cast<double>(sysconf(_SC_PAGE_SIZE));
     sigevent event{};
     event.sigev_notify = SIGEV_SIGNAL;

@@ -14,7 +14,7 @@ constexpr int kMostStopping_ms = 700;
 int stoppingTime_ms(double bytes);
 
 // From here on SIGINT, SIGTERM and SIGHUP are such wishes, unless whoever started the program had them
-// ignored. A second one ends the run at once.
+// ignored. A second one ends the run at once. Beyond a limit on the size of files (SIGXFSZ) writing fails.
 void catchStopSignals();
 
 bool stopWished();

@@ -1,11 +1,10 @@
 // Reading and checking glTF. tinygltf trusts lengths in places (a BIN chunk may overrun the file by
-// its header), so the frame of a .glb is checked here first, and every accessor before it is read.
+// its header), so the frame of a .glb is checked here first.
 #include "engine/camera/gltf_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <set>
@@ -49,7 +48,8 @@ void checkBinaryFrame(const std::string& bytes, const std::string& name) {
 }
 
 void checkExtensions(const GltfFile& file) {
-    static const std::set<std::string> known = {"KHR_materials_unlit", "KHR_lights_punctual"};
+    static const std::set<std::string> known = {"KHR_lights_punctual", "KHR_materials_unlit",
+                                                "KHR_mesh_quantization", "KHR_texture_transform"};
     for (const std::string& extension : file.model.extensionsRequired)
         if (!known.contains(extension))
             throw Error(file.name, "extensionsRequired", "needs " + extension + ", which is not supported",
@@ -63,71 +63,6 @@ bool keepImageBytes(tinygltf::Image* image, int index, std::string*, std::string
     kept.resize(std::max(kept.size(), static_cast<std::size_t>(index) + 1));
     if (image->bufferView < 0 && size > 0) kept[index].assign(bytes, bytes + size);
     return true;
-}
-
-double numberAt(const unsigned char* at, int componentType, bool normalized) {
-    const auto read = [&]<typename T>(T value, double scale) {
-        std::memcpy(&value, at, sizeof value);
-        return normalized ? std::max(static_cast<double>(value) / scale, -1.0) : static_cast<double>(value);
-    };
-    switch (componentType) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return read(std::int8_t{}, 127);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return read(std::uint8_t{}, 255);
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return read(std::int16_t{}, 32767);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return read(std::uint16_t{}, 65535);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return read(std::uint32_t{}, 4294967295.0);
-        default: {
-            float value = 0;
-            std::memcpy(&value, at, sizeof value);
-            return value;
-        }
-    }
-}
-
-bool isKnownComponentType(int type) {
-    return type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
-           (type >= TINYGLTF_COMPONENT_TYPE_BYTE && type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT &&
-            type != TINYGLTF_COMPONENT_TYPE_INT);
-}
-
-const tinygltf::Accessor& accessorAt(const GltfFile& file, int index, const std::string& place) {
-    if (index < 0 || static_cast<std::size_t>(index) >= file.model.accessors.size())
-        throw Error(file.name, place,
-                    fmt::format("refers to accessor {}, the file has {}", index, file.model.accessors.size()),
-                    "export the file again");
-    const tinygltf::Accessor& accessor = file.model.accessors[index];
-    if (!isKnownComponentType(accessor.componentType))
-        throw Error(file.name, fmt::format("accessor {}", index),
-                    fmt::format("expected a component type of 5120 to 5126, got {}", accessor.componentType),
-                    "export the file again");
-    if (accessor.sparse.isSparse || accessor.bufferView < 0)
-        throw Error(file.name, fmt::format("accessor {}", index),
-                    "is sparse or compressed, expected plain data", "export it without compression");
-    return accessor;
-}
-
-// Bytes of an accessor from its first element on, once all its elements are known to lie inside.
-std::span<const unsigned char> elementBytes(const GltfFile& file, int index, std::size_t elementSize,
-                                            std::size_t stride) {
-    const tinygltf::Accessor& accessor = file.model.accessors[index];
-    const std::string place = fmt::format("accessor {}", index);
-    const auto bytes = bufferViewBytes(file, accessor.bufferView, place);
-    const bool fits = accessor.byteOffset <= bytes.size() &&
-                      elementSize <= bytes.size() - accessor.byteOffset &&
-                      (accessor.count - 1) <= (bytes.size() - accessor.byteOffset - elementSize) / stride;
-    if (!fits)
-        throw Error(
-            file.name, place,
-            fmt::format("expected {} elements of {} bytes, stride {} from byte {}, inside a buffer view of "
-                        "{} bytes",
-                        accessor.count, elementSize, stride, accessor.byteOffset, bytes.size()),
-            "the file is damaged: export it again");
-    return bytes.subspan(accessor.byteOffset);
 }
 
 void visit(const GltfFile& file, int node, std::vector<int> chain, std::vector<std::vector<int>>& chains) {
@@ -204,43 +139,6 @@ std::span<const unsigned char> bufferViewBytes(const GltfFile& file, int bufferV
         throw damaged(fmt::format("expected {} bytes from {} in buffer {}, which has {}", view.byteLength,
                                   view.byteOffset, view.buffer, data.size()));
     return std::span(data).subspan(view.byteOffset, view.byteLength);
-}
-
-int accessorComponents(const GltfFile& file, int accessor, const std::string& place) {
-    return tinygltf::GetNumComponentsInType(
-        static_cast<std::uint32_t>(accessorAt(file, accessor, place).type));
-}
-
-std::vector<double> accessorValues(const GltfFile& file, int index, int components,
-                                   const std::string& place) {
-    const tinygltf::Accessor& accessor = accessorAt(file, index, place);
-    const int found = accessorComponents(file, index, place);
-    if (found != components)
-        throw Error(
-            file.name, place,
-            fmt::format("expected {} numbers an element, accessor {} has {}", components, index, found),
-            "export the file again");
-    if (accessor.count == 0) return {};
-    const std::size_t size = static_cast<std::size_t>(
-        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)));
-    const std::size_t given = file.model.bufferViews.size() > static_cast<std::size_t>(accessor.bufferView)
-                                  ? file.model.bufferViews[accessor.bufferView].byteStride
-                                  : 0;
-    const std::size_t stride = given != 0 ? given : size * components;
-    const auto bytes = elementBytes(file, index, size * components, stride);
-    std::vector<double> values;
-    values.reserve(accessor.count * components);
-    for (std::size_t e = 0; e < accessor.count; ++e)
-        for (int c = 0; c < components; ++c) {
-            const double v =
-                numberAt(&bytes[e * stride + c * size], accessor.componentType, accessor.normalized);
-            if (!std::isfinite(v))
-                throw Error(file.name, place,
-                            fmt::format("element {} of accessor {} is not a finite number", e, index),
-                            "remove NaN and infinite values");
-            values.push_back(v);
-        }
-    return values;
 }
 
 glm::dmat4 NodePlacement::parentFromNode() const {

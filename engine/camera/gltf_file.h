@@ -38,12 +38,15 @@ GltfFile readGltf(const std::filesystem::path& file);
 bool hasGltfExtension(const std::filesystem::path& file);
 
 // Elements of an accessor as numbers, `components` a piece; normalised integers become [0, 1] or
-// [-1, 1]. Throws Error with `place` unless the accessor exists, has that many components, lies
-// inside its buffer, and every value is finite.
+// [-1, 1]. Sparse ones too; what a file has no data for is 0. Throws Error with `place` unless the
+// accessor exists, has that many components, lies inside its buffer, and every value is finite.
 std::vector<double> accessorValues(const GltfFile& file, int accessor, int components,
                                    const std::string& place);
 // Components of an accessor's elements (3 for VEC3); throws Error when there is no such accessor.
 int accessorComponents(const GltfFile& file, int accessor, const std::string& place);
+// Elements that accessorValues() may give: no more than the accessor's buffer has bytes for, 0 where
+// there is no such accessor.
+std::size_t accessorCountWithin(const GltfFile& file, int accessor);
 
 std::span<const unsigned char> bufferViewBytes(const GltfFile& file, int bufferView,
                                                const std::string& place);

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
 
 #include "engine/base/error.h"
@@ -21,6 +22,39 @@ namespace {
 constexpr const char* kMeshAdvice = "export the mesh again";
 constexpr std::size_t kMaxVertices = 1u << 30;
 constexpr std::size_t kTellEach = 1u << 16;  // vertices
+
+// Which of a vertex's texture coordinates count, and how they are placed (KHR_texture_transform).
+struct TexturePlaces {
+    int set = 0;
+    glm::dvec2 offset{0.0}, scale{1.0};
+    double rotation = 0;  // radians, counter-clockwise with v downwards
+
+    glm::dvec2 placed(const glm::dvec2& uv) const {
+        const double c = std::cos(rotation), s = std::sin(rotation);
+        const glm::dvec2 p = scale * uv;
+        return offset + glm::dvec2(c * p.x + s * p.y, c * p.y - s * p.x);
+    }
+};
+
+TexturePlaces texturePlacesOf(const tinygltf::TextureInfo& texture) {
+    TexturePlaces places;
+    places.set = std::max(texture.texCoord, 0);
+    const auto found = texture.extensions.find("KHR_texture_transform");
+    if (found == texture.extensions.end()) return places;
+    const tinygltf::Value& given = found->second;
+    const auto take = [&](const char* name, glm::dvec2& to) {
+        if (!given.Has(name) || given.Get(name).ArrayLen() != 2) return;
+        for (int c = 0; c < 2; ++c)
+            if (given.Get(name).Get(c).IsNumber()) to[c] = given.Get(name).Get(c).GetNumberAsDouble();
+    };
+    take("offset", places.offset);
+    take("scale", places.scale);
+    if (given.Has("rotation") && given.Get("rotation").IsNumber())
+        places.rotation = given.Get("rotation").GetNumberAsDouble();
+    if (given.Has("texCoord") && given.Get("texCoord").IsInt())
+        places.set = std::max(given.Get("texCoord").Get<int>(), 0);
+    return places;
+}
 
 class MeshReader {
 public:
@@ -40,6 +74,7 @@ public:
 private:
     void makeRoom(const std::vector<std::vector<int>>& chains);
     void readMaterials();
+    TextureWrap wrapOf(int code, const std::string& place) const;
     int readTexture(int texture, MeshMaterial& material);
     void readNode(const std::vector<int>& chain);
     void readPrimitive(const tinygltf::Primitive& primitive, const glm::dmat4& sceneFromNode,
@@ -55,7 +90,7 @@ private:
     const GltfFile& mFile;
     Progress& mProgress;
     TriangleMesh mMesh;
-    std::vector<int> mTexCoordSet;  // of each material's base colour texture
+    std::vector<TexturePlaces> mTexturePlaces;  // of each material's base colour texture
 };
 
 // A mesh that several nodes show is there several times. No accessor counts for more elements than its buffer
@@ -64,29 +99,16 @@ void MeshReader::makeRoom(const std::vector<std::vector<int>>& chains) {
     // Of Embree, a triangle, while its tree is built, beside its copy of the mesh: measured 110 to 131.
     constexpr double kTreeBytes = 140;
     const auto& model = mFile.model;
-    const auto holds = [](int index, const auto& list) {
-        return index >= 0 && static_cast<std::size_t>(index) < list.size();
-    };
-    const auto countAt = [&](int index) -> std::size_t {
-        if (!holds(index, model.accessors)) return 0;
-        const tinygltf::Accessor& accessor = model.accessors[index];
-        if (!holds(accessor.bufferView, model.bufferViews)) return 0;
-        const int buffer = model.bufferViews[accessor.bufferView].buffer;
-        const int component =
-            tinygltf::GetComponentSizeInBytes(static_cast<unsigned>(accessor.componentType));
-        const int components = tinygltf::GetNumComponentsInType(static_cast<unsigned>(accessor.type));
-        if (!holds(buffer, model.buffers) || component <= 0 || components <= 0) return 0;
-        const std::size_t bytes = static_cast<std::size_t>(component) * static_cast<std::size_t>(components);
-        return std::min<std::size_t>(accessor.count, model.buffers[buffer].data.size() / bytes);
-    };
     double vertices = 0, triangles = 0, most = 0;
     for (const auto& chain : chains) {
         const int mesh = model.nodes[chain.back()].mesh;
         if (mesh < 0 || static_cast<std::size_t>(mesh) >= model.meshes.size()) continue;
         for (const tinygltf::Primitive& primitive : model.meshes[mesh].primitives) {
             const auto position = primitive.attributes.find("POSITION");
-            const std::size_t own = position == primitive.attributes.end() ? 0 : countAt(position->second);
-            const std::size_t corners = primitive.indices >= 0 ? countAt(primitive.indices) : own;
+            const std::size_t own =
+                position == primitive.attributes.end() ? 0 : accessorCountWithin(mFile, position->second);
+            const std::size_t corners =
+                primitive.indices >= 0 ? accessorCountWithin(mFile, primitive.indices) : own;
             vertices += static_cast<double>(own);
             triangles += static_cast<double>(corners) / (primitive.mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1);
             double numbers = 0;  // a vertex
@@ -116,12 +138,26 @@ void MeshReader::readMaterials() {
         const auto& factor = source.pbrMetallicRoughness.baseColorFactor;
         if (factor.size() >= 3) material.baseColor = glm::vec3(factor[0], factor[1], factor[2]);
         const auto& texture = source.pbrMetallicRoughness.baseColorTexture;
-        mTexCoordSet.push_back(std::max(texture.texCoord, 0));
+        mTexturePlaces.push_back(texturePlacesOf(texture));
         if (texture.index >= 0) material.texture = readTexture(texture.index, material);
         mMesh.materials.push_back(material);
     }
     mMesh.materials.emplace_back();  // of primitives without one
-    mTexCoordSet.push_back(0);
+    mTexturePlaces.emplace_back();
+}
+
+TextureWrap MeshReader::wrapOf(int code, const std::string& place) const {
+    switch (code) {
+        case TINYGLTF_TEXTURE_WRAP_REPEAT:
+            return TextureWrap::Repeat;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return TextureWrap::MirroredRepeat;
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return TextureWrap::ClampToEdge;
+        default:
+            throw Error(mFile.name, place,
+                        fmt::format("expected a wrap of 10497, 33071 or 33648, got {}", code), kMeshAdvice);
+    }
 }
 
 int MeshReader::readTexture(int index, MeshMaterial& material) {
@@ -134,8 +170,9 @@ int MeshReader::readTexture(int index, MeshMaterial& material) {
         throw Error(mFile.name, place, "expected a PNG or JPEG image, found none", kMeshAdvice);
     if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) < model.samplers.size()) {
         const tinygltf::Sampler& sampler = model.samplers[texture.sampler];
-        material.repeatX = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-        material.repeatY = sampler.wrapT != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+        const std::string samplerPlace = fmt::format("sampler {}", texture.sampler);
+        material.wrapX = wrapOf(sampler.wrapS, samplerPlace);
+        material.wrapY = wrapOf(sampler.wrapT, samplerPlace);
     }
     const tinygltf::Image& image = model.images[texture.source];
     const std::span<const unsigned char> bytes = image.bufferView >= 0
@@ -199,8 +236,9 @@ void MeshReader::readVertices(const tinygltf::Primitive& primitive, const glm::d
                              ? 3
                              : accessorComponents(mFile, color->second, place + ", COLOR_0");
     const int material = primitive.material;
-    const bool known = material >= 0 && static_cast<std::size_t>(material) < mTexCoordSet.size();
-    const std::string uvName = fmt::format("TEXCOORD_{}", known ? mTexCoordSet[material] : 0);
+    const bool known = material >= 0 && static_cast<std::size_t>(material) < mTexturePlaces.size();
+    const TexturePlaces places = known ? mTexturePlaces[material] : TexturePlaces();
+    const std::string uvName = fmt::format("TEXCOORD_{}", places.set);
     const auto normals = attribute(primitive, "NORMAL", 3, count, place);
     const auto colors = attribute(primitive, "COLOR_0", std::max(channels, 3), count, place);
     const auto uvs = attribute(primitive, uvName, 2, count, place);
@@ -223,7 +261,10 @@ void MeshReader::readVertices(const tinygltf::Primitive& primitive, const glm::d
         }
         if (!colors.empty())
             v.color = glm::vec3(colors[channels * k], colors[channels * k + 1], colors[channels * k + 2]);
-        if (!uvs.empty()) v.uv = glm::vec2(uvs[2 * k], uvs[2 * k + 1]);
+        if (!uvs.empty()) v.uv = glm::vec2(places.placed({uvs[2 * k], uvs[2 * k + 1]}));
+        if (!std::isfinite(v.uv.x) || !std::isfinite(v.uv.y))
+            throw Error(mFile.name, place + ", " + uvName,
+                        fmt::format("element {} is no place of a texture", k), kMeshAdvice);
         mMesh.vertices.push_back(v);
     }
 }

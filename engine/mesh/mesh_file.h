@@ -1,5 +1,5 @@
 // Shape and colour as read from glTF: the triangles of the default scene, node transforms applied. Not
-// read: skins, morphing, opacity, texture transforms, and every texture but the base colour's.
+// read: skins, morphing, opacity, and every texture but the base colour's.
 #pragma once
 
 #include <filesystem>

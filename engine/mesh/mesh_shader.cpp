@@ -10,8 +10,18 @@
 namespace stereonav {
 namespace {
 
-int wrapped(int i, int size, bool repeat) {
-    if (!repeat) return std::clamp(i, 0, size - 1);
+// The place of 0 to 1 that is shown at `x`. Whole repeats are taken off first, so that texel numbers fit
+// integers.
+float placeInTexture(float x, TextureWrap wrap) {
+    if (wrap == TextureWrap::ClampToEdge) return std::clamp(x, 0.0f, 1.0f);
+    if (wrap == TextureWrap::Repeat) return x - std::floor(x);
+    const float pair = x - 2 * std::floor(0.5f * x);  // a picture and its mirror image
+    return pair > 1 ? 2 - pair : pair;
+}
+
+// The number of a texel that may lie one beyond the border. Beyond a mirror is the border's texel again.
+int texelNumber(int i, int size, TextureWrap wrap) {
+    if (wrap != TextureWrap::Repeat) return std::clamp(i, 0, size - 1);
     const int rest = i % size;
     return rest < 0 ? rest + size : rest;
 }
@@ -19,17 +29,15 @@ int wrapped(int i, int size, bool repeat) {
 // Bilinear, in linear light. uv: v downwards; rows of a level run upwards.
 glm::vec3 sampleLevel(const ColorTexture& texture, int k, const glm::vec2& uv, const MeshMaterial& material) {
     const auto& level = texture.level(k);
-    // Whole repeats are taken off first, so that the texel number fits an integer.
-    const float fx = material.repeatX ? uv.x - std::floor(uv.x) : std::clamp(uv.x, 0.0f, 1.0f);
-    const float fy = material.repeatY ? uv.y - std::floor(uv.y) : std::clamp(uv.y, 0.0f, 1.0f);
+    const float fx = placeInTexture(uv.x, material.wrapX), fy = placeInTexture(uv.y, material.wrapY);
     const float x = fx * static_cast<float>(level.width()) - 0.5f;
     const float y = (1 - fy) * static_cast<float>(level.height()) - 0.5f;
     const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
     const float u = x - static_cast<float>(i), v = y - static_cast<float>(j);
-    const int i0 = wrapped(i, level.width(), material.repeatX),
-              i1 = wrapped(i + 1, level.width(), material.repeatX);
-    const int j0 = wrapped(j, level.height(), material.repeatY),
-              j1 = wrapped(j + 1, level.height(), material.repeatY);
+    const int i0 = texelNumber(i, level.width(), material.wrapX),
+              i1 = texelNumber(i + 1, level.width(), material.wrapX);
+    const int j0 = texelNumber(j, level.height(), material.wrapY),
+              j1 = texelNumber(j + 1, level.height(), material.wrapY);
     const glm::vec3 low = glm::mix(unpackColor(level.at(i0, j0)), unpackColor(level.at(i1, j0)), u);
     const glm::vec3 high = glm::mix(unpackColor(level.at(i0, j1)), unpackColor(level.at(i1, j1)), u);
     return glm::mix(low, high, v);

@@ -10,10 +10,13 @@
 
 namespace stereonav {
 
+// How a texture goes on beyond its borders.
+enum class TextureWrap { Repeat, MirroredRepeat, ClampToEdge };
+
 struct MeshMaterial {
     glm::vec3 baseColor{1.0f};  // linear
     int texture = -1;           // index into textures, -1 for none
-    bool repeatX = true, repeatY = true;
+    TextureWrap wrapX = TextureWrap::Repeat, wrapY = TextureWrap::Repeat;
 };
 
 struct TriangleMesh {

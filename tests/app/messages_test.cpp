@@ -1,6 +1,7 @@
 // Refusals name the file or the option that they are about, in our words and in one line.
 #include <gtest/gtest.h>
 
+#include "app/options/option_table.h"
 #include "tests/app/volume_input.h"
 
 namespace stereonav::test {
@@ -63,12 +64,46 @@ TEST_F(Messages, OfTheCommandLineAreInOurWords) {
     expectRefused({"mesh", "terrain", "terrain", "--out", "a.glb"},
                   {"stereonav: terrain: is one word too many; see stereonav mesh"});
     expectRefused({"fly"}, {"stereonav: fly: there is no such command; see stereonav --help"});
+    for (const char* help : {"--help", "-h"}) {
+        expectRefused({"fly", help}, {"stereonav: fly: there is no such command; see stereonav --help"});
+        expectRefused({help, "fly"}, {"stereonav: fly: there is no such command; see stereonav --help"});
+    }
+    expectRefused({"help", "fly"}, {"stereonav: fly: there is no such command; see stereonav --help"});
+    expectRefused({""}, {"stereonav: \"\": there is no such command"});
+    expectRefused({"completion", "zsh"},
+                  {"stereonav: completion: expected bash, got \"zsh\"; see stereonav completion --help"});
+    expectRefused({"completion"}, {"stereonav: completion: expected bash, found nothing"});
+    expectRefused({"completion", "bash", "zsh"}, {"stereonav: zsh: is one word too many"});
     expectRefused({"mesh", "terrain"}, {"stereonav: --out: is required; see stereonav mesh --help"});
     expectRefused({"render", "--out"}, {"stereonav: --out: expected a value, found none"});
     expectRefused({"render", "--fov", "40", "--fov", "50", "--out", "a.png"},
                   {"stereonav: --fov: is given more than once"});
     expectRefused({"render", "--out", "a.png", "--out", "b.png"},
                   {"stereonav: --out: is given more than once"});
+}
+
+TEST_F(Messages, HelpIsThatOfTheCommandThatIsNamed) {
+    for (const CommandFacts& command : commandFacts()) {
+        const Outcome asked = run({"help", command.name}), usual = run({command.name, "--help"});
+        ASSERT_EQ(asked.status, 0) << command.name;
+        EXPECT_EQ(asked.out, usual.out) << command.name;
+        EXPECT_NE(asked.out.find(command.help), std::string::npos) << command.name;
+    }
+    EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+}
+
+// An empty word would be taken for none: another scene would open, or nothing be written.
+TEST_F(Messages, EmptyNamesAreRefused) {
+    expectRefused({"info", ""}, {"SCENE: expected a name, got \"\"; leave it out for the built-in terrain"});
+    for (const char* option : {"--image", "--sky", "--light", "--tracks", "--set"})
+        expectRefused({"render", "terrain", option, "", "--out", "a.png"},
+                      {"stereonav: " + std::string(option) + ": expected "});
+    expectRefused({"render", "terrain", "--out", ""}, {"stereonav: --out: expected a name, got \"\""});
+    expectRefused({"render", "terrain", "--set", "image=", "--out", "a.png"},
+                  {"stereonav: --set image: expected a name, got \"\""});
+    expectRefused({"play", "terrain", "--video", ""}, {"stereonav: --video: expected a name, got \"\""});
+    expectRefused({"compare", "terrain", "--csv", ""}, {"stereonav: --csv: expected a name, got \"\""});
+    expectRefused({"register", "colon", "--with", ""}, {"stereonav: --with: expected a name, got \"\""});
 }
 
 TEST_F(Messages, SayWhatWasFound) {

@@ -151,7 +151,8 @@ private:
         const int outFile = open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
         const int errFile = open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
         if (outFile < 0 || errFile < 0 || chdir(place().c_str()) != 0) return;
-        signal(SIGINT, SIG_DFL);  // a shell has it ignored by what it runs in the background
+        signal(SIGINT, SIG_DFL);   // a shell has it ignored by what it runs in the background
+        signal(SIGXFSZ, SIG_DFL);  // a test that limits files ignores it, a shell does not
         // Lines of progress are of runs that take long, which depends on the machine.
         setenv("STEREONAV_PROGRESS_SECONDS", "1000000", 0);
         dup2(outFile, STDOUT_FILENO);

@@ -47,6 +47,13 @@ TEST(Module, IsLoadedWhenItsFunctionsAreAskedForAndStays) {
     EXPECT_EQ(&module(), &first);
 }
 
+// Without /proc the program's file is the one that was started, by whatever name.
+TEST(Module, TheProgramsFileIsKnownWithoutProc) {
+    const std::filesystem::path expected = std::filesystem::canonical("/proc/self/exe");
+    EXPECT_EQ(programFile(), expected);
+    EXPECT_EQ(programFile("/nowhere"), expected);
+}
+
 TEST(Module, ErrorsPassTheBorder) {
     EXPECT_EQ(moduleMessageOf([] { module().throwError("a.txt"); }),
               "a.txt:line 3: expected a number; write one");

@@ -226,6 +226,32 @@ TEST(GltfPath, StridesAreHonoured) {
     EXPECT_EQ(path.samples()[2].pose.position.x, 30);
 }
 
+// The second place is given by its number, over the buffer's own and over nothing.
+TEST(GltfPath, SparseKeyframesCount) {
+    const TemporaryFolder folder;
+    for (const bool base : {true, false}) {
+        HandMade made = twoKeys(folder, 0, 1).set("mode", "LINEAR");
+        made.append<std::uint16_t>({1, 0}).append({9.f, 8.f, 7.f});
+        const auto replace = [&](const std::string& from, const std::string& to) {
+            const auto at = made.text.find(from);
+            ASSERT_NE(at, made.text.npos) << from;
+            made.text.replace(at, from.size(), to);
+        };
+        replace(R"("byteOffset":32,"byteLength":32}])",
+                R"("byteOffset":32,"byteLength":32},{"buffer":0,"byteOffset":64,"byteLength":2},)"
+                R"({"buffer":0,"byteOffset":68,"byteLength":12}])");
+        replace(R"({"bufferView":1,"componentType":5126,"count":2,"type":"VEC3"})",
+                std::string(base ? R"({"bufferView":1,)" : "{") +
+                    R"("componentType":5126,"count":2,"type":"VEC3","sparse":{"count":1,)"
+                    R"("indices":{"bufferView":3,"componentType":5123},"values":{"bufferView":4}}})");
+        const RecordedPath path = readPath(made.write());
+        ASSERT_EQ(path.samples().size(), 2u);
+        const glm::dvec3 first = base ? glm::dvec3(1, -3, 2) : glm::dvec3(0.0);
+        EXPECT_LT(glm::distance(path.samples()[0].pose.position, first), 1e-9) << base;
+        EXPECT_LT(glm::distance(path.samples()[1].pose.position, glm::dvec3(9, -7, 8)), 1e-9) << base;
+    }
+}
+
 TEST(GltfPath, BadKeyframesAreNamed) {
     const TemporaryFolder folder;
     const float nan = std::numeric_limits<float>::quiet_NaN();

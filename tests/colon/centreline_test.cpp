@@ -396,8 +396,18 @@ TEST(Centreline, RefusesWhatHasNone) {
     for (const double spacing : {0.0, -1.0, double(NAN), double(INFINITY)})
         EXPECT_THAT(lineErrorOf(good, distanceToOutside(good.lumen), spacing),
                     HasSubstr("expected metres, more than 0"));
-    EXPECT_THAT(lineErrorOf(good, distanceToOutside(good.lumen), 1e-11),
-                HasSubstr("more than ten million points"));
+}
+
+// As of a lumen of kilometres, in which a point each millimetre would be no line that anybody waits for.
+TEST(Centreline, PointsOfVeryLongLinesAreFurtherApart) {
+    const LumenField good = lumenOfVoxels({{1, 1, 1}, {1, 1, 2}}, glm::ivec3(4));
+    const DistanceVolume distance = distanceToOutside(good.lumen);
+    Progress progress;
+    CentrelineSetting fine, usual;
+    fine.spacing = 1e-11;
+    const Centreline line = findCentreline(good, distance, fine, progress);
+    EXPECT_EQ(line.points.size(), 50'001u);
+    EXPECT_NEAR(line.length(), findCentreline(good, distance, usual, progress).length(), 1e-9);
 }
 
 TEST(Centreline, StopsWhenCancelled) {

@@ -108,7 +108,7 @@ TEST(ColonKey, OfAStudyHasHowItIsRead) {
     const auto file = writeNrrd(folder / "a.nrrd", kShortLines, bytesOfSamples(ramp<short>()));
     const auto key = [&](const StudyOptions& options) { return studyKey(file, options); };
     StudyOptions labelled;
-    labelled.label = 3;
+    labelled.label = "3";
     const StudyOptions plain;
     for (const StudyOptions& base : {plain, labelled}) {
         expectKeysDiffer(base, eachMemberChanged(base, {"series", "key", "airBelow", "working"}), key);

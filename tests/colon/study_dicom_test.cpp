@@ -390,7 +390,7 @@ TEST(StudyReal, OtherVolumesRead) {
     EXPECT_EQ(read(folder / "trunk_ct_3mm.nii.gz").grey.frame.size, glm::ivec3(122, 101, 112));
     expectError(folder / "trunk_ct_3mm_seg30.nii.gz", {"several labels: 1, 2", "--label N"});
     StudyOptions options;
-    options.label = 20;
+    options.label = "20";
     EXPECT_TRUE(read(folder / "trunk_ct_3mm_seg30.nii.gz", options).isMask);
 }
 

@@ -91,16 +91,32 @@ TEST(StudyNiftiValues, ASlopeOf0MeansNoScale) {
     expectRamp(readNifti(ramp<short>(), s));
 }
 
-TEST(StudyNiftiValues, AScaleThatIsNoNumberIsRefused) {
-    const TemporaryFolder folder;
-    const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
+// As nibabel: a slope that is no number scales nothing, and the intercept does not count then.
+TEST(StudyNiftiValues, ASlopeThatIsNoNumberMeansNoScaleAndItIsSaid) {
+    const double nan = std::numeric_limits<double>::quiet_NaN(),
+                 inf = std::numeric_limits<double>::infinity();
     for (const int version : {1, 2})
-        for (const double number : bad) {
+        for (const double slope : {nan, inf, -inf})
+            for (const double intercept : {0.0, 5.0, nan, inf}) {
+                NiftiSpec s = placed();
+                s.version = version;
+                s.slope = slope;
+                s.intercept = intercept;
+                const Study study = readNifti(ramp<short>(), s);
+                expectRamp(study);
+                ASSERT_EQ(study.notes.size(), 1u);
+                EXPECT_THAT(study.notes[0], HasSubstr("scl_slope is"));
+                EXPECT_THAT(study.notes[0], HasSubstr("values are taken as they are stored"));
+            }
+}
+
+TEST(StudyNiftiValues, AnInterceptThatIsNoNumberIsRefusedBesideAScale) {
+    const TemporaryFolder folder;
+    for (const int version : {1, 2})
+        for (const double number :
+             {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
             NiftiSpec s = placed();
             s.version = version;
-            s.slope = number;
-            writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
-            expectError(folder / "a.nii", {version == 1 ? "byte 112" : "byte 176", "scl_slope"});
             s.slope = 1;
             s.intercept = number;
             writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
@@ -241,6 +257,107 @@ TEST(StudyNiftiPlaces, RotationsThatAreNoneAreRefused) {
     s.srow = {};
     writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
     expectError(folder / "a.nii", {"spacing above 0 along axis 1"});
+}
+
+// Where the sform counts, a qform and spacings that are no numbers, or no rotation, change nothing.
+TEST(StudyNiftiPlaces, WhatDoesNotCountBesideASformMayHoldAnything) {
+    const double nan = std::numeric_limits<double>::quiet_NaN(),
+                 inf = std::numeric_limits<double>::infinity();
+    const auto place = [](const Study& study) { return study.grey.frame.worldFromVoxel({4, 3, 2}); };
+    for (const int version : {1, 2})
+        for (const int qformCode : {0, 1, 4})
+            for (const double bad : {nan, inf, 1e30, 0.9}) {
+                SCOPED_TRACE(fmt::format("version {} qform {} {}", version, qformCode, bad));
+                NiftiSpec s = placed();
+                s.version = version;
+                s.qformCode = qformCode;
+                s.quatern = {bad, bad, 0};
+                Study study = readNifti(ramp<short>(), s);
+                expectRamp(study);
+                expectNear(place(study), {-0.012, -0.02225, 0.034}, 1e-8);
+                ASSERT_EQ(study.notes.size(), qformCode > 0 ? 1u : 0u);
+                if (qformCode > 0) {
+                    EXPECT_THAT(study.notes[0], HasSubstr("left aside: the sform counts"));
+                }
+                if (bad == 0.9) continue;  // a spacing that could be
+                for (const int field : {0, 1, 2, 3}) {
+                    NiftiSpec t = placed();
+                    t.version = version;
+                    t.qformCode = qformCode;
+                    if (field == 0)
+                        t.qoffset[1] = bad;
+                    else
+                        t.pixdim[static_cast<std::size_t>(field)] = bad;
+                    study = readNifti(ramp<short>(), t);
+                    expectNear(place(study), {-0.012, -0.02225, 0.034}, 1e-8);
+                    expectNear(study.grey.frame.spacing, {0.0005, 0.00075, 0.002}, 1e-9);
+                    ASSERT_EQ(study.notes.size(), qformCode > 0 ? 1u : 0u) << field;
+                }
+            }
+}
+
+TEST(StudyNiftiPlaces, RowsOfASformThatDoesNotCountMayHoldAnything) {
+    const double nan = std::numeric_limits<double>::quiet_NaN(),
+                 inf = std::numeric_limits<double>::infinity();
+    for (const int version : {1, 2})
+        for (const bool qform : {true, false})
+            for (const double bad : {nan, inf, 1e30})
+                for (std::size_t at = 0; at < 12; ++at) {
+                    NiftiSpec s;
+                    s.version = version;
+                    if (qform) turnQuarter(s);
+                    s.srow[at] = bad;
+                    if (!qform) s.quatern[at % 3] = s.qoffset[at % 3] = bad;
+                    const Study study = readNifti(ramp<short>(), s);
+                    expectRamp(study);
+                    const glm::dvec3 place = study.grey.frame.worldFromVoxel({4, 3, 2});
+                    expectNear(
+                        place,
+                        qform ? glm::dvec3(-0.00775, -0.022, 0.034) : glm::dvec3(0.001, -0.001125, 0.002),
+                        1e-8);
+                    ASSERT_EQ(study.notes.size(), qform ? 0u : 1u) << at;
+                }
+}
+
+TEST(StudyNiftiPlaces, AQfacThatIsNoNumberIsTakenAsOneAndItIsSaid) {
+    NiftiSpec s;
+    s.qformCode = 1;
+    s.pixdim[0] = std::numeric_limits<double>::quiet_NaN();
+    const Study study = readNifti(ramp<short>(), s);
+    expectNear(study.grey.frame.worldFromVoxel({0, 0, 2}), {-0.010, -0.020, 0.034}, 1e-8);
+    ASSERT_EQ(study.notes.size(), 1u);
+    EXPECT_THAT(study.notes[0], HasSubstr("qfac"));
+}
+
+// The same numbers are refused where they count.
+TEST(StudyNiftiPlaces, NumbersThatCountAreChecked) {
+    const TemporaryFolder folder;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto expectByte = [&](const NiftiSpec& s, int byte) {
+        writeBytes(folder / "a.nii", niftiFile(ramp<short>(), s));
+        expectError(folder / "a.nii", {fmt::format("byte {}: expected a number of millimetres", byte)});
+    };
+    for (int n = 0; n < 12; ++n) {
+        NiftiSpec s = placed();
+        s.srow[static_cast<std::size_t>(n)] = nan;
+        expectByte(s, 280 + 4 * n);
+    }
+    for (std::size_t n = 0; n < 3; ++n)
+        for (const int qformCode : {0, 1}) {
+            NiftiSpec s;
+            s.qformCode = qformCode;
+            s.pixdim[n + 1] = nan;
+            expectByte(s, 80 + 4 * static_cast<int>(n));
+            if (qformCode == 0) continue;
+            s = {};
+            s.qformCode = 1;
+            s.quatern[n] = nan;
+            expectByte(s, 256 + 4 * static_cast<int>(n));
+            s = {};
+            s.qformCode = 1;
+            s.qoffset[n] = nan;
+            expectByte(s, 268 + 4 * static_cast<int>(n));
+        }
 }
 
 TEST(StudyNiftiPairs, AreReadByEitherName) {

@@ -197,11 +197,11 @@ TEST(StudyMask, OneLabelOfSeveralIsChosen) {
     writeNrrd(folder / "a.nrrd", replaced(kShortLines, "short", "unsigned char"), bytesOfSamples(values));
     expectError(folder / "a.nrrd", {"several labels: 4, 9", "--label N"});
     StudyOptions options;
-    options.label = 9;
+    options.label = "9";
     const Study study = read(folder / "a.nrrd", options);
     ASSERT_TRUE(study.isMask);
     for (int n = 0; n < 60; ++n) EXPECT_EQ(study.mask.values[n], values[n] == 9);
-    options.label = 5;
+    options.label = "5";
     expectError(folder / "a.nrrd", {"label 5 is not in the mask", "4, 9"}, options);
     writeNrrd(folder / "grey.nrrd", kShortLines, bytesOfSamples(ramp<short>()));
     expectError(folder / "grey.nrrd", {"found grey values"}, options);
@@ -239,7 +239,7 @@ TEST(StudyKey, IsTheSameWithoutDecodingAndChangesWithContentAndOptions) {
     EXPECT_EQ(read(file).key, key);
     StudyOptions resample, label;
     resample.resample = true;
-    label.label = 1;
+    label.label = "1";
     EXPECT_NE(studyKey(file, resample), key);
     EXPECT_NE(studyKey(file, label), key);
     writeNrrd(folder / "same.nrrd", kShortLines, bytes);

@@ -1,15 +1,18 @@
 // Pictures on meshes: what a glTF file says of each of their two directions, and which texel a place shows.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
+#include <vector>
 
 #include "engine/camera/gltf_file.h"
 #include "engine/image/image_file.h"
+#include "engine/math/constants.h"
 #include "engine/mesh/mesh_file.h"
 #include "engine/mesh/mesh_shader.h"
 #include "tests/camera/temporary_folder.h"
+#include "tests/support/error_of.h"
 
 namespace stereonav {
 namespace {
@@ -48,19 +51,80 @@ tinygltf::Model picturedTriangle(int wrapS, int wrapT) {
 
 TEST(MeshTexture, EachDirectionIsRepeatedOrNotByItsOwnWord) {
     const TemporaryFolder folder;
-    constexpr int kClamp = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE, kRepeat = TINYGLTF_TEXTURE_WRAP_REPEAT;
-    for (const int wrapS : {kClamp, kRepeat})
-        for (const int wrapT : {kClamp, kRepeat}) {
+    // glTF 2.0, 5.26: the numbers that stand for each.
+    const std::pair<int, TextureWrap> kWraps[] = {{33071, TextureWrap::ClampToEdge},
+                                                  {33648, TextureWrap::MirroredRepeat},
+                                                  {10497, TextureWrap::Repeat}};
+    for (const auto& [wrapS, wrapX] : kWraps)
+        for (const auto& [wrapT, wrapY] : kWraps) {
             writeGltf(folder / "a.glb", picturedTriangle(wrapS, wrapT));
             const TriangleMesh mesh = readMesh(folder / "a.glb");
             const MeshMaterial& material = mesh.materials.at(0);
             ASSERT_EQ(material.texture, 0);
-            EXPECT_EQ(material.repeatX, wrapS == kRepeat) << wrapS << " " << wrapT;
-            EXPECT_EQ(material.repeatY, wrapT == kRepeat) << wrapS << " " << wrapT;
+            EXPECT_EQ(material.wrapX, wrapX) << wrapS << " " << wrapT;
+            EXPECT_EQ(material.wrapY, wrapY) << wrapS << " " << wrapT;
         }
     writeGltf(folder / "b.glb", picturedTriangle(-1, -1));
     const MeshMaterial bare = readMesh(folder / "b.glb").materials.at(0);
-    EXPECT_TRUE(bare.repeatX && bare.repeatY) << "as glTF says of textures without a sampler";
+    EXPECT_EQ(bare.wrapX, TextureWrap::Repeat) << "as glTF says of textures without a sampler";
+    EXPECT_EQ(bare.wrapY, TextureWrap::Repeat);
+}
+
+TEST(MeshTexture, AWrapThatGltfDoesNotKnowIsRefusedByItsNumber) {
+    const TemporaryFolder folder;
+    for (const bool across : {true, false}) {
+        writeGltf(folder / "a.glb", picturedTriangle(across ? 10496 : 10497, across ? 10497 : 10496));
+        EXPECT_THAT(test::errorOf([&] { readMesh(folder / "a.glb"); }),
+                    testing::AllOf(testing::HasSubstr("a.glb:sampler 0: expected a wrap of 10497, 33071 or"),
+                                   testing::HasSubstr("got 10496")));
+    }
+}
+
+// The extension's own first example: the lower left quarter of a picture, turned clockwise by 90 degrees. Its
+// second one: v counted from below.
+TEST(MeshTexture, CoordinatesArePlacedAsKhrTextureTransformSays) {
+    const TemporaryFolder folder;
+    const auto number = [](double x) { return tinygltf::Value(x); };
+    const auto pair = [&](double x, double y) {
+        return tinygltf::Value(tinygltf::Value::Array{number(x), number(y)});
+    };
+    const auto uvsOf = [&](const tinygltf::Value::Object& transform) {
+        tinygltf::Model model = picturedTriangle(-1, -1);
+        model.extensionsUsed = model.extensionsRequired = {"KHR_texture_transform"};
+        model.materials[0].pbrMetallicRoughness.baseColorTexture.extensions["KHR_texture_transform"] =
+            tinygltf::Value(transform);
+        writeGltf(folder / "a.glb", model);
+        std::vector<glm::vec2> uvs;
+        for (const auto& vertex : readMesh(folder / "a.glb").vertices) uvs.push_back(vertex.uv);
+        return uvs;
+    };
+    const auto expectUvs = [](const std::vector<glm::vec2>& uvs, const std::vector<glm::vec2>& expected) {
+        ASSERT_EQ(uvs.size(), expected.size());
+        for (std::size_t k = 0; k < uvs.size(); ++k)
+            ASSERT_LT(glm::distance(uvs[k], expected[k]), 1e-6) << k << ": " << uvs[k].x << " " << uvs[k].y;
+    };
+    // Of the triangle: (0, 1) lower left, (1, 1) lower right, (0, 0) upper left.
+    expectUvs(uvsOf({{"offset", pair(0, 1)}, {"rotation", number(kPi / 2)}, {"scale", pair(0.5, 0.5)}}),
+              {{0.5, 1}, {0.5, 0.5}, {0, 1}});
+    expectUvs(uvsOf({{"offset", pair(0, 1)}, {"scale", pair(1, -1)}}), {{0, 0}, {1, 0}, {0, 1}});
+    // Scaled before it is turned.
+    expectUvs(uvsOf({{"rotation", number(kPi / 2)}, {"scale", pair(3, 2)}}), {{2, 0}, {2, -3}, {0, 0}});
+    expectUvs(uvsOf({}), {{0, 1}, {1, 1}, {0, 0}});
+}
+
+TEST(MeshTexture, TheTransformsOwnSetOfCoordinatesCounts) {
+    const TemporaryFolder folder;
+    tinygltf::Model model = picturedTriangle(-1, -1);
+    const std::vector<float> others{0.25, 0.5, 0.75, 0.5, 0.25, 0.125};
+    model.meshes[0].primitives[0].attributes["TEXCOORD_1"] = addFloats(model, others, 2, false);
+    auto& texture = model.materials[0].pbrMetallicRoughness.baseColorTexture;
+    texture.extensions["KHR_texture_transform"] =
+        tinygltf::Value(tinygltf::Value::Object{{"texCoord", tinygltf::Value(1)}});
+    writeGltf(folder / "a.glb", model);
+    const TriangleMesh mesh = readMesh(folder / "a.glb");
+    ASSERT_EQ(mesh.vertices.size(), 3u);
+    for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(mesh.vertices[k].uv, glm::vec2(others[2 * k], others[2 * k + 1])) << k;
 }
 
 // A picture of 5 x 3 texels, each of its own colour, as the material of one triangle.
@@ -105,24 +169,60 @@ TEST_F(TexelsOfAMesh, LieWhereTheirCoordinatesSay) {
     EXPECT_LT(glm::distance(at(1.5, 0.75), 0.75f * texel(1, 0) + 0.25f * texel(1, 1)), 3e-3);
 }
 
+// Which texel is shown where texel n of an endless row would be: written out, after the pictures of glTF's
+// sample TextureSettingsTest.
+int shownTexel(int n, int size, TextureWrap wrap) {
+    std::vector<int> row;  // of a picture before, the picture, and one behind it
+    for (int k = 0; k < size; ++k)
+        row.push_back(wrap == TextureWrap::Repeat ? k : wrap == TextureWrap::ClampToEdge ? 0 : size - 1 - k);
+    for (int k = 0; k < size; ++k) row.push_back(k);
+    for (int k = 0; k < size; ++k)
+        row.push_back(wrap == TextureWrap::Repeat        ? k
+                      : wrap == TextureWrap::ClampToEdge ? size - 1
+                                                         : size - 1 - k);
+    return row.at(static_cast<std::size_t>(n + size));
+}
+
 TEST_F(TexelsOfAMesh, GoOnOrEndInEachDirectionByItself) {
-    for (const bool repeatX : {false, true})
-        for (const bool repeatY : {false, true}) {
-            mMesh.materials[0].repeatX = repeatX, mMesh.materials[0].repeatY = repeatY;
-            for (const int x : {-6, -1, 2, 5, 13})
-                for (const int y : {-4, -1, 1, 3, 8}) {
-                    const int i = repeatX ? (x + 5 * kWide) % kWide : std::clamp(x, 0, kWide - 1),
-                              j = repeatY ? (y + 5 * kHigh) % kHigh : std::clamp(y, 0, kHigh - 1);
-                    EXPECT_LT(glm::distance(at(x + 0.5, y + 0.5), texel(i, j)), 3e-3)
-                        << x << " " << y << " " << repeatX << repeatY;
+    constexpr TextureWrap kWraps[] = {TextureWrap::Repeat, TextureWrap::MirroredRepeat,
+                                      TextureWrap::ClampToEdge};
+    for (const TextureWrap wrapX : kWraps)
+        for (const TextureWrap wrapY : kWraps) {
+            SCOPED_TRACE(static_cast<int>(wrapX) * 10 + static_cast<int>(wrapY));
+            mMesh.materials[0].wrapX = wrapX, mMesh.materials[0].wrapY = wrapY;
+            for (int x = -kWide; x < 2 * kWide; ++x)
+                for (int y = -kHigh; y < 2 * kHigh; ++y) {
+                    const int i = shownTexel(x, kWide, wrapX), j = shownTexel(y, kHigh, wrapY);
+                    ASSERT_LT(glm::distance(at(x + 0.5, y + 0.5), texel(i, j)), 3e-3) << x << " " << y;
+                    // A quarter of the way to the next texel, over borders too.
+                    if (x + 1 < 2 * kWide) {
+                        const glm::vec3 east = texel(shownTexel(x + 1, kWide, wrapX), j);
+                        ASSERT_LT(glm::distance(at(x + 0.75, y + 0.5), 0.75f * texel(i, j) + 0.25f * east),
+                                  3e-3)
+                            << x << " " << y;
+                    }
+                    if (y + 1 < 2 * kHigh) {
+                        const glm::vec3 south = texel(i, shownTexel(y + 1, kHigh, wrapY));
+                        ASSERT_LT(glm::distance(at(x + 0.5, y + 0.75), 0.75f * texel(i, j) + 0.25f * south),
+                                  3e-3)
+                            << x << " " << y;
+                    }
                 }
-            // Between the last texel and the first one.
-            const glm::vec3 east = repeatX ? texel(0, 1) : texel(kWide - 1, 1),
-                            south = repeatY ? texel(2, 0) : texel(2, kHigh - 1);
-            EXPECT_LT(glm::distance(at(kWide - 0.25, 1.5), 0.75f * texel(kWide - 1, 1) + 0.25f * east), 3e-3);
-            EXPECT_LT(glm::distance(at(2.5, kHigh - 0.25), 0.75f * texel(2, kHigh - 1) + 0.25f * south),
-                      3e-3);
         }
+}
+
+// A picture and its mirror image are two: what is shown comes again after twice the picture's width.
+TEST_F(TexelsOfAMesh, FarAwayAndBelowZeroMirrorsStillAlternate) {
+    mMesh.materials[0].wrapX = mMesh.materials[0].wrapY = TextureWrap::MirroredRepeat;
+    for (const int pictures : {-7, -6, -3, -2, -1, 1, 2, 3, 6, 7, 100, 101})
+        for (int x = 0; x < kWide; ++x)
+            for (int y = 0; y < kHigh; ++y) {
+                const bool turned = pictures % 2 != 0;
+                const glm::vec3 shown = texel(turned ? kWide - 1 - x : x, turned ? kHigh - 1 - y : y);
+                ASSERT_LT(glm::distance(at(pictures * kWide + x + 0.5, pictures * kHigh + y + 0.5), shown),
+                          3e-3)
+                    << pictures << ": " << x << " " << y;
+            }
 }
 
 }  // namespace
