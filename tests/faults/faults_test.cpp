@@ -3,7 +3,6 @@
 // came of them.
 #include <algorithm>
 #include <fstream>
-#include <utility>
 
 #include "tests/faults/fault_case.h"
 
@@ -62,8 +61,8 @@ TEST_F(Faults, OfBakes) {
     tryAll("bake", kSample);
 }
 
-// A bake that is there holds more than is asked for, so that one that was made anew would be another: what
-// can not be read now may be whole, and is not written over.
+// A bake that can not be read now may be whole: it is not written over. One of these holds more than is asked
+// for, so that a bake that was made anew would be another; of the others the exit status tells.
 TEST_F(Faults, OfBakesThatAreThere) {
     const std::string scene = hills(), study = maskedTube();
     const auto tube = [&](const char* samples) {
