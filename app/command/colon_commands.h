@@ -43,6 +43,7 @@ struct RegisterOptions {
     double bend_mm = 0;          // of the other one where it is the built-in colon
     double inflate = 1;          //
     std::vector<glm::dvec3> at;  // LPS, metres, in the first study
+    bool force = false;          // though both do not match
     std::string out;             // .csv, or -; "": not written
 };
 int runRegister(const RegisterOptions& options);

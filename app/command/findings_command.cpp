@@ -54,17 +54,20 @@ std::vector<Finding> collect(const FindingsOptions& options, const FindingTool& 
     std::vector<Finding> findings;
     if (!options.file.empty())
         for (const KeptFinding& kept : readFindings(options.file)) {
-            findings.push_back(tool.at(kept.place));
-            findings.back().comment = kept.comment;
+            Finding finding = tool.at(kept.place);
+            finding.comment = kept.comment;
+            finding.candidate = kept.candidate;
+            addFinding(findings, std::move(finding));
         }
     for (const glm::dvec3& place : options.at) {
-        findings.push_back(tool.at(place));
-        findings.back().comment = options.comment;
+        Finding finding = tool.at(place);
+        finding.comment = options.comment;
+        addFinding(findings, std::move(finding));
     }
     if (options.atTruth)
-        for (Finding& finding : tool.atTruth()) findings.push_back(std::move(finding));
+        for (Finding& finding : tool.atTruth()) addFinding(findings, std::move(finding));
     if (options.candidates)
-        for (Finding& finding : tool.candidates(progress)) findings.push_back(std::move(finding));
+        for (Finding& finding : tool.candidates(progress)) addFinding(findings, std::move(finding));
     noteDoubles(findings);
     return findings;
 }
@@ -101,7 +104,7 @@ void tellFindings(CommandResult& result, const std::vector<Finding>& findings) {
                                          1e3 * finding.diameter()));
     }
     result.add("findings", std::move(list));
-    result.add("crads", cradsClassOf(findings));
+    if (const std::string crads = cradsClassOf(findings); !crads.empty()) result.add("crads", crads);
     if (truths == 0) return;
     result.say(fmt::format("{} of {} within 1 mm or 10 % of the truth\n", right, truths));
     result.add("truths", truths);
@@ -127,8 +130,11 @@ int runFindings(const FindingsOptions& options) {
     const FindingTool tool(colon, joinedWall(colon, bar.progress()));
     const std::vector<Finding> findings = collect(options, tool, bar.progress());
     bar.clear();
-    result.say(fmt::format("{}: {} findings, C-RADS {} by size and count alone; {}\n", options.scene.scene,
-                           findings.size(), cradsClassOf(findings), kNoMedicalDevice));
+    if (!options.sr.empty() && cradsClassOf(findings).empty())
+        throw Error("--sr", "", "expected a finding that a person kept, found candidates alone",
+                    "give those that are polyps with --at x,y,z");
+    result.say(fmt::format("{}: {} findings, {}; {}\n", options.scene.scene, findings.size(),
+                           cradsWords(findings), kNoMedicalDevice));
     result.add("scene", options.scene.scene);
     result.add("notice", std::string(kNoMedicalDevice));
     tellFindings(result, findings);

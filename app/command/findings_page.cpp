@@ -98,9 +98,9 @@ std::string findingsPage(const ColonScene& colon, const GreyVolume& study,
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/><title>Findings in {0}</title>\n"
         "<style>{1}</style></head><body>\n<h1>Findings in {0}</h1>\n<p class=\"warn\">{2}. Sizes are "
         "computed "
-        "and may be wrong; nothing here is a diagnosis.</p>\n<p>C-RADS by size and count alone: {3}. C0, and "
+        "and may be wrong; nothing here is a diagnosis.</p>\n<p>{3}. C0, and "
         "what lies outside the colon, are left to the reader.</p>\n",
-        escapedXml(colon.name), kStyle, kNoMedicalDevice, cradsClassOf(findings));
+        escapedXml(colon.name), kStyle, kNoMedicalDevice, cradsWords(findings));
     html +=
         "<table><tr><th></th><th>left, back, head mm</th><th>longest mm</th><th>in a slice "
         "mm</th><th>mm\u00b3</th><th>HU, sigma (voxels)</th>"

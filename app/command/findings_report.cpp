@@ -7,11 +7,15 @@
 
 #include "app/command/findings_words.h"
 #include "app/options/built_without.h"
+#include "engine/base/error.h"
 
 namespace stereonav {
 
 // Of a study that is not DICOM its content tells which it is; of the built-in colon what it was made of.
 std::string findingsReport(const ColonOptions& reading, const std::vector<Finding>& findings) {
+    if (cradsClassOf(findings).empty())
+        throw Error("report", "", "expected a finding that a person kept, found candidates alone",
+                    "give those that are polyps with --at x,y,z");
     std::optional<StudySource> source;
     if (!reading.study.empty()) source = sourceOf(reading.study, reading.reading);
     std::string study = fmt::format("built-in colon {}", reading.builtIn.seed);

@@ -70,8 +70,15 @@ Facts factsOf(const Finding& finding, std::size_t number) {
         facts.push_back(factForJson("within", finding.right()));
     }
     if (!finding.problem.empty()) facts.push_back(factForJson("note", finding.problem));
+    if (finding.candidate) facts.push_back(factForJson("candidate", true));
     if (!finding.comment.empty()) facts.push_back(factForJson("comment", finding.comment));
     return facts;
+}
+
+std::string cradsWords(const std::vector<Finding>& findings) {
+    const std::string crads = cradsClassOf(findings);
+    return crads.empty() ? "no C-RADS class, as nobody has kept one of the candidates"
+                         : fmt::format("C-RADS {} by size and count alone", crads);
 }
 
 std::string lineOf(const Finding& finding, std::size_t number) {
@@ -138,6 +145,10 @@ std::vector<KeptFinding> findingsIn(const std::string& text, const std::filesyst
         for (int axis = 0; axis < 3; ++axis) {
             if (!one["place_mm"][axis].is_number()) refuse(file, place, "\"place_mm\" of three numbers");
             finding.place[axis] = 1e-3 * one["place_mm"][axis].get<double>();
+        }
+        if (one.contains("candidate")) {
+            if (!one["candidate"].is_boolean()) refuse(file, place, "\"candidate\" as true or false");
+            finding.candidate = one["candidate"].get<bool>();
         }
         if (one.contains("comment")) {
             if (!one["comment"].is_string()) refuse(file, place, "\"comment\" as text");

@@ -19,6 +19,8 @@ const char* nameOfSlice(int axis);
 
 // One finding for a JSON document; number: from 1.
 Facts factsOf(const Finding& finding, std::size_t number);
+// "C-RADS C2 by size and count alone", of what a person kept; or that nobody has.
+std::string cradsWords(const std::vector<Finding>& findings);
 // A line for people.
 std::string lineOf(const Finding& finding, std::size_t number);
 std::string csvOf(const std::vector<Finding>& findings);
@@ -27,6 +29,7 @@ std::string csvOf(const std::vector<Finding>& findings);
 struct KeptFinding {
     glm::dvec3 place{0.0};  // world, metres
     std::string comment;
+    bool candidate = false;  // nobody has kept it
 };
 // Of a document that writeFindings wrote; none where there is no such file. Throws Error where it is another.
 std::vector<KeptFinding> readFindings(const std::filesystem::path& file);

@@ -124,6 +124,13 @@ int runRegister(const RegisterOptions& options) {
     checkNotRead({{"--out", options.out}});
     const LineRegistration registration(first.centreline, second.centreline);
     bar.clear();
+    if (!registration.matches() && !options.force)
+        throw Error(
+            options.with, "",
+            fmt::format("is not of the same colon as {}: the mean cost of a pair is {:.3f}, of one colon it "
+                        "is at most {:g}",
+                        options.scene.scene, registration.cost(), kMostCostOfOneColon),
+            "give two studies of one patient, or add --force");
     result.say(fmt::format("{}, {:.0f} mm, and {}, {:.0f} mm: mean cost of a pair {:.3f}; {}\n",
                            options.scene.scene, 1e3 * first.centreline.length(), options.with,
                            1e3 * second.centreline.length(), registration.cost(), kNoMedicalDevice));
@@ -132,6 +139,10 @@ int runRegister(const RegisterOptions& options) {
     result.add("length_mm", 1e3 * first.centreline.length());
     result.add("other_length_mm", 1e3 * second.centreline.length());
     result.add("cost", registration.cost());
+    result.add("matches", registration.matches());
+    if (!registration.matches())
+        result.say(
+            fmt::format("  they do not match: of one colon the cost is at most {:g}\n", kMostCostOfOneColon));
     tellPlaces(result, options, first, second, registration);
     tellErrors(result, first, second, registration);
     if (!options.out.empty()) {

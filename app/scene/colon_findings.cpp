@@ -21,6 +21,7 @@ std::vector<Finding> findingsOf(const FindingRefs& list) {
     for (const SurfaceFinding* const one : list) {
         findings.push_back(static_cast<const OwnFinding&>(*one->own).finding);
         findings.back().comment = one->comment;
+        findings.back().candidate = false;  // a person lists it
     }
     noteDoubles(findings);
     return findings;
@@ -114,7 +115,7 @@ std::vector<std::string> ColonFindings::notesOn(const FindingRefs& list) const {
 }
 
 std::string ColonFindings::summaryOf(const FindingRefs& list) const {
-    return fmt::format("C-RADS {} by size and count alone", cradsClassOf(findingsOf(list)));
+    return cradsWords(findingsOf(list));
 }
 
 std::string ColonFindings::notice() const {

@@ -23,7 +23,9 @@ constexpr double kGroundOpacity = 0.9;  // of a layer one sample spacing thick, 
 constexpr double kSoftSlices = 3;       // fewer, and each slice shows as a terrace
 constexpr double kThickness = 0.02;     // of the longer side: how far down the ground is solid
 constexpr double kTaper = 0.5;          // sample spacings over which it begins at least
-constexpr double kMistTaper = 0.3;      // of the mist's thickness
+// Sines of the sun's elevation: from the one on faces are as above, towards the other softer.
+constexpr double kHighSun = 0.5, kLowestSun = 0.1;
+constexpr double kMistTaper = 0.3;  // of the mist's thickness
 constexpr float kMistAlbedo = 0.97f;
 constexpr glm::vec3 kMistColor{0.62f};  // beside ground whose colours are as the eye is used to them
 
@@ -66,7 +68,10 @@ HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& option
     // A face thinner than slices are apart, or the light's texels wide, shows them as terraces.
     const double slice = glm::length(extent) / sweep.slices;
     const double step = std::max(slice, glm::length(extent) / sweep.lightSize);
-    layer.taper = std::min(std::max(kTaper * layer.spacing, step), 0.5 * layer.below);
+    // Light that comes in low goes through more of it, and would end within a part of a texel: ripples.
+    const double low = std::max(std::abs(std::sin(terrain.look.sunElevation)), kLowestSun);
+    layer.taper = std::min(std::max(kTaper * layer.spacing, step) * (kHighSun / std::min(low, kHighSun)),
+                           0.5 * layer.below);
     const bool ownColors = options.ground();
     const MediumTransfer transfer = ownColors
                                         ? groundTransfer(ground, std::max(layer.spacing, kSoftSlices * slice))

@@ -9,11 +9,13 @@
 #include <numbers>
 #include <utility>
 
+#include "app/command/narrowed_eyes.h"
 #include "app/scene/scene_type.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/memory.h"
 #include "engine/base/parallel.h"
+#include "engine/camera/timed_poses.h"
 #include "engine/math/constants.h"
 #include "engine/volume/transfer_text.h"
 
@@ -132,10 +134,18 @@ void adjustViews(const SceneOptions& options, Scene& scene) {
 }
 
 std::optional<FramePlan> planScene(const Scene& scene) {
-    constexpr int kPosesAlongTheFlight = 4;
-    std::vector<StereoViews> views{scene.viewsAt(scene.startPose)};
-    if (!scene.path.samples().empty())
-        for (const Pose& pose : scene.path.frames(kPosesAlongTheFlight)) views.push_back(scene.viewsAt(pose));
+    // From the middle of the flight outwards: of a slow scene the first ones tell, and its ends are unlike
+    // the rest of it.
+    constexpr int kPosesAlongTheFlight = 7, kOrder[] = {3, 1, 5, 2, 4};
+    std::vector<TimedPose> poses{{scene.startPose, 0}};
+    if (!scene.path.samples().empty()) {
+        const std::vector<TimedPose> flight = timedFrames(scene.path, kPosesAlongTheFlight);
+        poses.clear();
+        for (const int n : kOrder) poses.push_back(flight[std::min<std::size_t>(n, flight.size() - 1)]);
+    }
+    std::vector<StereoViews> views;
+    for (const TimedPose& pose : poses)  // as render, play and compare have the eyes
+        views.push_back(makeStereoViews(pose.pose, scene.lens, NarrowedEyes(scene).at(pose.pose, pose.time)));
     return scene.frames().measure(views);
 }
 

@@ -45,8 +45,8 @@ std::string_view methodNamed(const std::string& name, const Scene& scene);
 // Separation, zero parallax and field of view that were asked for.
 void adjustViews(const SceneOptions& options, Scene& scene);
 
-// The frame plan of a loaded scene: measured at the start pose and along its flight. Nothing where there is
-// nothing to weigh.
+// The frame plan of a loaded scene: measured along its flight, or at its start where it has none, with the
+// eyes as frames have them (NarrowedEyes). Nothing where there is nothing to weigh.
 std::optional<FramePlan> planScene(const Scene& scene);
 
 // The processor's name, "unknown" where the system does not tell.

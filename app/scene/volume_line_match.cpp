@@ -18,6 +18,7 @@ public:
     double toOther(double along) const override { return mLines.toSecond(along); }
     double fromOther(double along) const override { return mLines.toFirst(along); }
     double cost() const override { return mLines.cost(); }
+    bool matches() const override { return mLines.matches(); }
 
 private:
     LineRegistration mLines;

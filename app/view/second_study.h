@@ -51,7 +51,8 @@ public:
 
     // Null until it is there.
     const std::shared_ptr<const OpenScene>& other() const { return mOther; }
-    double cost() const { return mMatch ? mMatch->cost() : 0; }  // LineMatch::cost
+    double cost() const { return mMatch ? mMatch->cost() : 0; }         // LineMatch::cost
+    bool matches() const { return mMatch ? mMatch->matches() : true; }  // LineMatch::matches
     // Which of its places is that of an eye in the flown one; there, and the flown scene has a line.
     std::optional<SecondPlace> matching(const Scene& flown, const Pose& eye) const;
     Pose poseAt(const SecondPlace& place) const;

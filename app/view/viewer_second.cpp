@@ -55,7 +55,9 @@ SettingTexts Viewer::settingsToOpen() const {
 
 void Viewer::followSecond() {
     try {
-        if (mSecond.poll()) mSession->notify("the other study is there: F3");
+        if (mSecond.poll())
+            mSession->notify(mSecond.matches() ? "the other study is there: F3"
+                                               : "the other study is not of the same colon: F3");
     } catch (const Cancelled&) {
         mSession->notify("the other study was not opened");
     } catch (const std::exception& error) {

@@ -55,8 +55,7 @@ std::vector<Candidate> polypCandidates(const WallMesh& mesh, const WallNeighbour
         auto polyp = polypAt(mesh, neighbours, tip, setting.polyp, why);
         if (!polyp || taken[polyp->tip]) continue;
         for (const std::uint32_t v : polyp->vertices) taken[v] = 1;
-        const double wide = polyp->widest.length,
-                     score = polyp->area > 0 ? 3 * polyp->volume / polyp->area : 0;
+        const double wide = polyp->widest.length, score = polyp->score();
         if (wide < setting.leastWide || wide > setting.mostWide || score < setting.leastScore) continue;
         found.push_back({std::move(*polyp), score});
     }

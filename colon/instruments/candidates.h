@@ -21,8 +21,7 @@ struct CandidateSetting {
 
 struct Candidate {
     MeasuredPolyp polyp;
-    // Metres: volume over area, times three: the radius of a ball, about one and a half times the height of a
-    // flat one.
+    // Metres: MeasuredPolyp::score.
     double score = 0;
 };
 

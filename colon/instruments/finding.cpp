@@ -65,6 +65,12 @@ Landmarks landmarksOf(const Centreline& line) {
     return marks;
 }
 
+// The second one's tip is of the first one's head.
+bool ofOnePolyp(const Finding& first, const Finding& second) {
+    return first.polyp && second.polyp &&
+           std::binary_search(first.polyp->vertices.begin(), first.polyp->vertices.end(), second.polyp->tip);
+}
+
 }  // namespace
 
 bool Finding::right() const {
@@ -112,6 +118,7 @@ std::vector<Finding> FindingTool::candidates(Progress& progress) const {
     ProgressSteps measured(measuring, found.size(), "measuring candidates");
     for (const Candidate& candidate : found) {
         findings.push_back(at(glm::dvec3(wall().places[candidate.polyp.tip])));
+        findings.back().candidate = true;
         findings.back().comment =
             fmt::format("candidate {}, score {:.2f} mm", findings.size(), 1e3 * candidate.score);
         measured.done();
@@ -119,12 +126,26 @@ std::vector<Finding> FindingTool::candidates(Progress& progress) const {
     return findings;
 }
 
+void addFinding(std::vector<Finding>& findings, Finding finding) {
+    const auto same = [&finding](const Finding& other) {
+        if (glm::distance(other.asked, finding.asked) <= kSamePlace) return true;
+        return (other.candidate || finding.candidate) && ofOnePolyp(other, finding);
+    };
+    const auto at = std::find_if(findings.begin(), findings.end(), same);
+    if (at == findings.end()) {
+        findings.push_back(std::move(finding));
+        return;
+    }
+    if (finding.candidate) return;
+    if (at->candidate || !finding.comment.empty()) at->comment = finding.comment;
+    at->candidate = false;
+    if (finding.truth) at->truth = finding.truth;
+}
+
 void noteDoubles(std::vector<Finding>& findings) {
     for (std::size_t b = 0; b < findings.size(); ++b)
         for (std::size_t a = 0; a < b; ++a) {
-            const auto &first = findings[a].polyp, &second = findings[b].polyp;
-            if (!first || !second || !findings[b].problem.empty()) continue;
-            if (!std::binary_search(first->vertices.begin(), first->vertices.end(), second->tip)) continue;
+            if (!findings[b].problem.empty() || !ofOnePolyp(findings[a], findings[b])) continue;
             findings[b].doubled = true;
             findings[b].problem = fmt::format("the same polyp as finding {}", a + 1);
         }
@@ -154,8 +175,10 @@ std::string colonSegmentAt(const Centreline& line, double along) {
 
 std::string cradsClassOf(const std::vector<Finding>& findings) {
     int middle = 0, large = 0, masses = 0;
+    const auto unseen = [](const Finding& finding) { return finding.candidate; };
+    if (!findings.empty() && std::all_of(findings.begin(), findings.end(), unseen)) return "";
     for (const Finding& finding : findings) {
-        if (finding.doubled) continue;
+        if (finding.doubled || finding.candidate) continue;
         const double mm = 1e3 * finding.diameter();
         middle += mm >= 6 && mm < 10;
         large += mm >= 10;

@@ -25,6 +25,8 @@ struct Finding {
     std::string segment;                // of the colon, by landmarks; "": not told
     std::optional<PolypValues> values;  // of the CT inside it; none: not told
 
+    bool candidate = false;  // of the program alone: nobody has looked at it and kept it
+
     double diameter() const { return polyp ? polyp->widest.length : 0; }  // metres
     bool doubled = false;  // of the same polyp as one before it in its list
     // Whether the diameter is that of the truth, within 1 mm or a tenth. True without a truth.
@@ -42,7 +44,7 @@ public:
     Finding at(const glm::dvec3& place) const;
     // Those of a generated colon, at their true places.
     std::vector<Finding> atTruth() const;
-    // Places that look like polyps (candidates.h), with a comment that says so.
+    // Places that look like polyps (candidates.h), as candidates, with a comment that says so.
     std::vector<Finding> candidates(Progress& progress) const;
 
     const WallMesh& wall() const { return mWall->mesh; }
@@ -53,6 +55,12 @@ private:
     const GreyVolume* mStudy = nullptr;  // null: it has no values
     std::optional<double> mBlur;         // of mStudy across the wall, metres
 };
+
+// Adds one to a list in which the same place is one entry: a place that is there already (within
+// kSamePlace) or, where either is a candidate, a polyp that is there already. What a person gives is no
+// candidate any more, and has their comment.
+void addFinding(std::vector<Finding>& findings, Finding finding);
+constexpr double kSamePlace = 0.0005;  // metres
 
 // Notes on findings that are of one polyp: each but the first says so. Nothing is left out.
 void noteDoubles(std::vector<Finding>& findings);
@@ -68,8 +76,8 @@ std::string colonSegmentAt(const Centreline& line, double along);
 double alongLine(const Centreline& line, const glm::dvec3& place);
 
 // C-RADS (Zalis et al., "CT colonography reporting and data system: a consensus proposal", Radiology 236
-// (2005)) by size and count alone: "C1" to "C4". C0, an inadequate study, and what is outside the colon are
-// left to the reader.
+// (2005)) by size and count alone: "C1" to "C4", of findings that a person kept; "" where there are
+// candidates alone. C0, an inadequate study, and what is outside the colon are left to the reader.
 std::string cradsClassOf(const std::vector<Finding>& findings);
 
 }  // namespace stereonav

@@ -85,7 +85,7 @@ StructuredReport reportOf(const std::string& study, const std::optional<StudySou
         crads);
     const bool named = source && !source->study.empty();
     for (std::size_t n = 0; n < findings.size(); ++n)
-        if (!findings[n].doubled)
+        if (!findings[n].doubled && !findings[n].candidate)
             report.findings.push_back(reportedOf(findings[n], n + 1, named ? source->study : report.study));
     const std::string words = wordsOf(report);
     report.document = uidOfText("document " + words);

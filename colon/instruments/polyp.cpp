@@ -222,6 +222,8 @@ PolypSetting polypSettingOf(const VolumeFrame& frame) {
     PolypSetting setting;
     const double voxel = std::max({frame.spacing.x, frame.spacing.y, frame.spacing.z});
     setting.curvatureRadius = std::max(setting.curvatureRadius, 1.6 * voxel);
+    setting.leastVolume = 6 * frame.spacing.x * frame.spacing.y * frame.spacing.z;
+    setting.leastScore = 0.5 * voxel;
     return setting;
 }
 
@@ -263,6 +265,11 @@ std::optional<MeasuredPolyp> polypAt(const WallMesh& mesh, const WallNeighbours&
     polyp.vertices = around.withoutTails(polyp.vertices, polyp.tip);
     polyp.outline = around.outlineOf(polyp.vertices);
     measure(mesh, polyp);
+    if (polyp.volume < setting.leastVolume || polyp.score() < setting.leastScore) {
+        why = fmt::format("what bulges there, {:.1f} mm wide and {:.1f} mm^3, can not be told from noise",
+                          1e3 * polyp.widest.length, 1e9 * polyp.volume);
+        return std::nullopt;
+    }
     return polyp;
 }
 

@@ -26,9 +26,12 @@ struct PolypSetting {
     double reach = 0.004;             // metres, > 0: how far from the place its tip may be
     double largest = 0.04;            // metres, > 0: how far from the tip its outline may be
     double flattest = 20;             // 1/metre, > 0: the tip is curved by at least this both ways
+    // Less is told from noise by nobody: cubic metres, and metres of three times the volume over the area.
+    double leastVolume = 0, leastScore = 0;
 };
 
-// With a curvatureRadius of 1.6 voxels at least, as fewer vertices tell nothing.
+// With a curvatureRadius of 1.6 voxels at least, as fewer vertices tell nothing; a polyp has six voxels,
+// and a score of half a voxel (docs/instruments.md).
 PolypSetting polypSettingOf(const VolumeFrame& frame);
 
 // The longest way between two places of it.
@@ -48,13 +51,16 @@ struct MeasuredPolyp {
     int sliceAxis = 2;                    // of that plane: 0 sagittal, 1 coronal, 2 axial
     double slice = 0;                     // where on that axis, metres
     double area = 0, volume = 0;          // square and cubic metres; the volume above a lid on its outline
+    // Metres: volume over area, times three: the radius of a ball, about one and a half times the height of a
+    // flat one.
+    double score() const { return area > 0 ? 3 * volume / area : 0; }
 };
 
 // The vertex nearest to a place. Throws Error where the mesh has none.
 std::uint32_t nearestVertex(const WallMesh& mesh, const glm::dvec3& place);
 
-// The polyp at or next to a place. Nothing where the wall does not bulge there, or it is larger than the
-// setting allows; `why` then says so in a clause.
+// The polyp at or next to a place. Nothing where the wall does not bulge there, or it is larger or
+// less than the setting allows; `why` then says so in a clause.
 std::optional<MeasuredPolyp> polypAt(const WallMesh& mesh, const WallNeighbours& neighbours,
                                      const glm::dvec3& place, const PolypSetting& setting, std::string& why);
 

@@ -11,6 +11,9 @@
 
 namespace stereonav {
 
+// At a mean cost of a pair above it two lines are not of one colon. Measured: see docs/instruments.md.
+constexpr double kMostCostOfOneColon = 1;
+
 struct RegistrationSetting {
     double step = 0.003;    // metres between samples of a line, > 0
     double smooth = 0.008;  // metres, sigma: of radii and places before they are compared, > 0
@@ -32,6 +35,8 @@ public:
     double toFirst(double along) const { return mapped(mPairs, along, true); }
     // Mean cost of a matched pair: lower is more alike; 0 of a line with itself.
     double cost() const { return mCost; }
+    // Whether they may be of one colon.
+    bool matches() const { return mCost <= kMostCostOfOneColon; }
 
 private:
     struct Pair {

@@ -269,6 +269,14 @@ void UnfoldedWall::drawTriangle(const std::array<std::uint32_t, 3>& t) {
 void UnfoldedWall::drawFlat(const std::array<std::uint32_t, 3>& t, const std::array<glm::dvec2, 3>& p) {
     const double doubled = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
     if (doubled == 0) return;
+    // A vertex of flesh thinner than a voxel may be of both its sides: then its normal is of neither.
+    const glm::vec3 &a3 = mMesh.places[t[0]], &b3 = mMesh.places[t[1]], &c3 = mMesh.places[t[2]];
+    const glm::vec3 across = glm::cross(b3 - a3, c3 - a3);
+    glm::vec3 normals[3];
+    for (int n = 0; n < 3; ++n) {
+        normals[n] = mMesh.normals[t[n]];
+        if (glm::dot(normals[n], across) < 0) normals[n] = glm::normalize(across);
+    }
     const int x0 = std::max(static_cast<int>(std::ceil(std::min({p[0].x, p[1].x, p[2].x}))), 0);
     const int x1 = std::min(static_cast<int>(std::floor(std::max({p[0].x, p[1].x, p[2].x}))), mWidth - 1);
     for (int x = x0; x <= x1; ++x) {
@@ -290,7 +298,7 @@ void UnfoldedWall::drawFlat(const std::array<std::uint32_t, 3>& t, const std::ar
             mPlaces[at] = mNormals[at] = glm::vec3(0);
             for (int n = 0; n < 3; ++n) {
                 mPlaces[at] += share[n] * mMesh.places[t[n]];
-                mNormals[at] += share[n] * mMesh.normals[t[n]];
+                mNormals[at] += share[n] * normals[n];
             }
         }
     }

@@ -27,9 +27,13 @@ Plane<PackedColor> UnfoldedWall::picture(const VolumeLook& look, std::span<const
             const std::uint32_t vertex = x < mWidth && y < mHeight ? vertexAt(x, y) : kNone;
             if (vertex == kNone) continue;
             const std::size_t at = static_cast<std::size_t>(y) * mWidth + x;
-            const glm::dvec3 eye = mLine.at(alongAt(x)).place, normal(glm::normalize(mNormals[at]));
-            picture.at(x, y) = packColor(glm::vec3(
-                shadePlain(look, glm::dvec3(mPlaces[at]), normal, eye, eye, glm::dvec3(look.surface))));
+            const glm::dvec3 eye = mLine.at(alongAt(x)).place, place(mPlaces[at]);
+            glm::dvec3 normal(glm::normalize(mNormals[at]));
+            // What turns away from the line, behind folds and thin flesh, is seen here too: from its own
+            // side.
+            if (glm::dot(normal, eye - place) < 0) normal = -normal;
+            picture.at(x, y) =
+                packColor(glm::vec3(shadePlain(look, place, normal, eye, eye, glm::dvec3(look.surface))));
         }
     });
     // Outlines two pixels wide: what is marked and lies next to what is not.

@@ -4,11 +4,23 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
+
+#include "engine/volume/plain_volume_caster.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kStep = 0.25;  // of the smallest spacing
+constexpr double kBeyond = 1e-7;  // of the smallest spacing: on into the next cell
+
+// How far a line gets within a cell, from a place in it.
+double leaving(const glm::dvec3& local, const glm::dvec3& perMetre) {
+    double ahead = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis)
+        if (perMetre[axis] != 0)
+            ahead = std::min(ahead, ((perMetre[axis] > 0 ? 1 : 0) - local[axis]) / perMetre[axis]);
+    return ahead;
+}
 
 }  // namespace
 
@@ -43,17 +55,25 @@ double LineOfSight::valueAt(const glm::dvec3& world) const {
 double LineOfSight::reach(const glm::dvec3& from, const glm::dvec3& direction, double upTo) const {
     const VolumeFrame& frame = mField.frame;
     const glm::dvec3 start = frame.voxelFromWorld(from), perMetre = frame.voxelDirection(direction);
-    const double step = kStep * mSmallest;
     for (double way = 0;;) {
         const glm::dvec3 voxel = start + way * perMetre;
         if (!contains(voxel)) return way;
+        if (way >= upTo) return upTo;
         const glm::ivec3 cell = glm::min(glm::ivec3(voxel), frame.size - 2);
         const std::uint8_t code = mCells.code(cell);
+        if (code > kCellNear) {
+            way = std::min(way + (code - 1) * mCells.leapUnit, upTo);
+            continue;
+        }
+        const glm::dvec3 local = voxel - glm::dvec3(cell);
+        const double ahead = std::min(leaving(local, perMetre), upTo - way);
         // Leaps are known where the region is; its other cells count as active.
-        const double free = code > kCellNear ? (code - 1) * mCells.leapUnit : 0;
-        if (code == kCellActive && valueIn(voxel) >= mIsovalue) return way;
-        if (way >= upTo) return upTo;
-        way = std::min(way + std::max(free, step), upTo);
+        if (code == kCellActive) {
+            const glm::dvec3 end = glm::clamp(local + ahead * perMetre, glm::dvec3(0.0), glm::dvec3(1.0));
+            const double share = firstInCell(mField, mIsovalue, cell, local, end - local);
+            if (share <= 1) return way + share * ahead;
+        }
+        way = std::min(way + std::max(ahead, kBeyond * mSmallest), upTo);
     }
 }
 

@@ -15,13 +15,12 @@ public:
     // of that surface or of more.
     LineOfSight(const GreyVolume& field, const SurfaceCells& cells, double isovalue);
 
-    // No wall on the way, both ends included. World, metres. Cells with wall are looked at every quarter of
-    // the smallest spacing, others are leapt over: what is thinner than that may be missed. Where either end
-    // is outside the volume, the answer is no.
+    // No wall on the way, both ends included, however thin. World, metres. Where either end is outside the
+    // volume, the answer is no.
     bool clear(const glm::dvec3& from, const glm::dvec3& to) const;
 
-    // How far a line from `from` (in the lumen) gets towards `direction` (unit) before it meets wall, metres,
-    // to a quarter of the smallest spacing; `upTo` where it meets none before; 0 where it starts in the wall.
+    // How far a line from `from` (in the lumen) gets towards `direction` (unit) before it meets wall, metres;
+    // `upTo` where it meets none before; 0 where it starts in the wall.
     double reach(const glm::dvec3& from, const glm::dvec3& direction, double upTo) const;
 
     double smallestSpacing() const { return mSmallest; }  // metres

@@ -18,6 +18,8 @@ public:
     virtual double fromOther(double along) const = 0;
     // How unlike matched places are: 0 of a way with itself.
     virtual double cost() const = 0;
+    // Whether both may be the same way; where they are not, their places have nothing to do with each other.
+    virtual bool matches() const = 0;
 };
 
 // A capability (capabilities.h), beside LineThrough.

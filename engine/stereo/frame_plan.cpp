@@ -11,6 +11,8 @@
 namespace stereonav {
 namespace {
 
+constexpr std::size_t kLeastFrames = 3;  // one alone may be unlike all others
+
 struct Sample {
     double cast_ms = 0, warp_ms = 0, fill_ms = 0;
     long long holes = 0;
@@ -46,19 +48,18 @@ double median(std::vector<double> values) {
 }
 
 FrameCosts costsOf(const std::vector<Sample>& samples, double pixels) {
-    std::vector<double> cast, warp, share;
+    std::vector<double> cast, warp;
     double fill_ms = 0, holes = 0;
     for (const Sample& sample : samples) {
         cast.push_back(sample.cast_ms);
         warp.push_back(sample.warp_ms);
-        share.push_back(static_cast<double>(sample.holes) / pixels);
         fill_ms += sample.fill_ms;
         holes += static_cast<double>(sample.holes);
     }
     FrameCosts costs;
     costs.cast_ns = median(cast) * 1e6 / pixels;
     costs.warp_ns = median(warp) * 1e6 / pixels;
-    costs.holeShare = median(share);
+    costs.holeShare = holes / (pixels * static_cast<double>(samples.size()));
     costs.hole_ns = holes > 0 ? fill_ms * 1e6 / holes : 0.0;
     return costs;
 }
@@ -114,7 +115,7 @@ FramePlan planFrame(const EyeRenderer& renderer, std::span<const StereoViews> vi
     std::vector<Sample> samples;
     for (const StereoViews& view : views) {
         samples.push_back(bench.run(view));
-        if (watch.elapsed_ms() > budget_ms) break;
+        if (samples.size() >= kLeastFrames && watch.elapsed_ms() > budget_ms) break;
     }
     const EyeView& size = views.front().right;
     const double pixels = static_cast<double>(size.width) * size.height;

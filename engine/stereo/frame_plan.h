@@ -18,7 +18,7 @@ struct FrameCosts {
     double cast_ns = 0;    // a pixel of a full cast, all threads together
     double warp_ns = 0;    // a pixel of the warp
     double hole_ns = 0;    // a ray cast into a hole; 0 when there were none
-    double holeShare = 0;  // holes of all pixels of the right eye, 0..1; 1 where all are cast with a jump
+    double holeShare = 0;  // holes of all pixels of all right eyes, 0..1; 1 where all are cast with a jump
 };
 
 struct FramePlan {
@@ -38,9 +38,9 @@ struct FramePlan {
 FramePlan planFromCosts(const FrameCosts& costs, int width, int height, ViewDependence dependence,
                         RightEyeMethod warp = kDefaultRightEyeMethod);
 
-// Measures a few calibration frames (all views of one size, at least one) and decides. Takes about
-// `budget_ms`, at least one frame; each frame is cast once before it is timed. warp: the method that is
-// weighed against the full cast; none: defaultMethodFor(renderer).
+// Measures a few calibration frames (all views of one size, at least one), in their order, and decides. Takes
+// about `budget_ms`, but three frames at least, where there are so many; the first is made once before it is
+// timed. warp: the method that is weighed against the full cast; none: defaultMethodFor(renderer).
 FramePlan planFrame(const EyeRenderer& renderer, std::span<const StereoViews> views,
                     std::optional<RightEyeMethod> warp = std::nullopt, double budget_ms = 300.0);
 

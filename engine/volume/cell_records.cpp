@@ -21,32 +21,47 @@ constexpr int kBrick = 16, kBrickCells = kBrick * kBrick * kBrick;
 // Kernels count words of 4 bytes with 32-bit numbers.
 constexpr std::uint64_t kMostWords = 1ull << 31;
 
-// The gradient at a voxel of the values smoothed by a tricubic B-spline: weights 1/6, 4/6, 1/6 across and
-// -1/2, 0, 1/2 along. In stored numbers a metre along i, j, k. Summed in whole numbers, so that what is the
-// same all around has none, whatever its value.
-glm::dvec3 gradientAt(const GreyVolume& volume, const glm::ivec3& at) {
+// The slope at a voxel of the values smoothed by a tricubic B-spline: weights 1/6, 4/6, 1/6 across and -1/2,
+// 0, 1/2 along. In stored numbers a metre along i, j, k. Summed in whole numbers, so that what is the same
+// all around has none, whatever its value. And the same of what values rise and fall by, whichever they do.
+struct SlopeAt {
+    glm::dvec3 slope, change;
+};
+SlopeAt slopeAt(const GreyVolume& volume, const glm::ivec3& at) {
     const glm::ivec3 last = volume.frame.size - 1;
     const int x[3] = {std::max(at.x - 1, 0), at.x, std::min(at.x + 1, last.x)};
     constexpr int kSmooth[3] = {1, 4, 1};  // sixths
-    int gx = 0, gy = 0, gz = 0;            // 72nds
+    int v[3][3][3];                        // by z, y, x
     for (int c = 0; c < 3; ++c)
         for (int b = 0; b < 3; ++b) {
             const std::int16_t* row =
                 volume.values.data() + volume.frame.index(0, std::clamp(at.y + b - 1, 0, last.y),
                                                           std::clamp(at.z + c - 1, 0, last.z));
-            const int v0 = row[x[0]], v1 = row[x[1]], v2 = row[x[2]];
-            const int across = v0 + 4 * v1 + v2;
-            gx += kSmooth[b] * kSmooth[c] * (v2 - v0);
-            gy += (b - 1) * kSmooth[c] * across;
-            gz += kSmooth[b] * (c - 1) * across;
+            for (int a = 0; a < 3; ++a) v[c][b][a] = row[x[a]];
         }
-    return glm::dvec3(gx, gy, gz) / (72.0 * volume.frame.spacing);
+    glm::ivec3 slope(0), change(0);  // 72nds
+    const auto add = [&](int axis, int weight, int before, int here, int after) {
+        slope[axis] += weight * (after - before);
+        change[axis] += weight * (std::abs(after - here) + std::abs(here - before));
+    };
+    for (int c = 0; c < 3; ++c)
+        for (int b = 0; b < 3; ++b) {
+            const int weight = kSmooth[b] * kSmooth[c];
+            add(0, weight, v[c][b][0], v[c][b][1], v[c][b][2]);
+            add(1, weight, v[c][0][b], v[c][1][b], v[c][2][b]);
+            add(2, weight, v[0][c][b], v[1][c][b], v[2][c][b]);
+        }
+    const glm::dvec3 metres = 72.0 * volume.frame.spacing;
+    return {glm::dvec3(slope) / metres, glm::dvec3(change) / metres};
 }
 
 std::uint32_t normalAt(const GreyVolume& volume, const glm::ivec3& at) {
-    const glm::dvec3 down = -(volume.frame.axes * gradientAt(volume, at));
-    const double length = glm::length(down);
-    return packCornerNormal(length > 0 ? down / length : glm::dvec3(0, 0, 1));
+    const SlopeAt here = slopeAt(volume, at);
+    const double length = glm::length(here.slope);
+    // In the middle of what is thin values rise and fall by more than the slope: its neighbours alone count.
+    if (!(length > 0 && length >= kOneSided * glm::length(here.change)))
+        return packCornerNormal(glm::dvec3(0));
+    return packCornerNormal(-(volume.frame.axes * here.slope) / length);
 }
 
 // Where one brick's active cells go; corners that they share are computed once.

@@ -39,7 +39,8 @@ STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, 
     const V3 local{inCell(grid.eyeX, w.t, r.direction.x, w.at.x),
                    inCell(grid.eyeY, w.t, r.direction.y, w.at.y),
                    inCell(grid.eyeZ, w.t, r.direction.z, w.at.z)};
-    const F value = valueAt(cornersOf(grid, word, w.at, m), local) + F(grid.data.isovalue);
+    const Corners corners = cornersOf(grid, word, w.at, m);
+    const F value = valueAt(corners, local) + F(grid.data.isovalue);
     const TransferData& transfer = data.transfer;
     const F at =
         clamp((value - F(transfer.first)) * F(transfer.scale), F(0.0f), F(TransferData::kEntries - 0.01f));
@@ -54,7 +55,8 @@ STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, 
     const I color = gather(transfer.color, entry, seen);
     // Lanes that are not seen have a share of 0, and light that is finite: nothing of it stays.
     const Falling lit = fallingOn(data, view, r, w.t, seen, kLeastKnown, [&] {
-        const V3 n = directionOf(normalIn(grid.data, word, local, seen));
+        const V3 n = directionOf(normalIn(
+            grid.data, word, [&] { return corners; }, local, seen));
         return litBy(data, view, r, w.t, n, F(1.0f));
     });
     const F passes = exp2(density * F(-1.44269504f * transfer.step));

@@ -1,71 +1,11 @@
-// Normals from the corners of cells, and Blinn-Phong under a lamp at the head. Included by kernels only.
+// Blinn-Phong under a lamp at the head, baked light and openness. Included by kernels only.
 #pragma once
 
 #include "engine/volume/kernel_baked.h"
 #include "engine/volume/kernel_bytes.h"
-#include "engine/volume/kernel_cell.h"
+#include "engine/volume/kernel_normal.h"
 
 namespace stereonav::STEREONAV_ISA {
-
-// Three channels of 10 bits, spread so that all three can be mixed in 16-bit halves, with four more bits of
-// fraction.
-struct Channels {
-    I xz, y;
-};
-STEREONAV_INLINE Channels openChannels(I packed) {
-    return {(shiftLeft<4>(packed) & I(0x3FF0)) | (packed & I(0x3FF00000)), shiftRight<6>(packed) & I(0x3FF0)};
-}
-STEREONAV_INLINE I closeChannels(Channels c) {
-    const I x = shiftRight<4>(c.xz + I(8)) & I(0x3FF);
-    const I y = shiftLeft<6>(c.y + I(8)) & I(0xFFC00);
-    return x | y | ((c.xz + I(0x80000)) & I(0x3FF00000));
-}
-STEREONAV_INLINE Channels mix(Channels a, Channels b, I t) {
-    return {lerpHalves(a.xz, b.xz, t), lerpHalves(a.y, b.y, t)};
-}
-// A weight for lerpHalves in both halves.
-STEREONAV_INLINE I weightOf(F t) {
-    const I w = truncateToInt(min(t, F(0.99996f)) * F(32768.0f));
-    return w | shiftLeft<16>(w);
-}
-
-// The eight corners' words from `first` on, mixed at a place in the cell.
-template <typename Ends>
-STEREONAV_INLINE Channels mixCorners(const Ends& endsOf, const V3& local) {
-    const I x = weightOf(local.x), y = weightOf(local.y), z = weightOf(local.z);
-    Channels edges[4];
-    for (int n = 0; n < 4; ++n) {
-        const IPair ends = endsOf(n);
-        edges[n] = mix(openChannels(ends.first), openChannels(ends.second), x);
-    }
-    return mix(mix(edges[0], edges[1], y), mix(edges[2], edges[3], y), z);
-}
-STEREONAV_INLINE Channels mixCorners(const std::uint32_t* first, I word, const V3& local, M m) {
-    return mixCorners([&](int n) { return gatherPair(first + 2 * n, word, m); }, local);
-}
-
-// The normal at a place in the cell, mixed of its corners'.
-STEREONAV_INLINE Channels normalIn(const CellData& cells, I word, const V3& local, M m) {
-    const M dense = cells.normals ? m & isDense(word) : maskFromBits(0);
-    if (!any(dense)) return mixCorners(cells.records + 4, word, local, m);
-    const M sparse = andNot(m, dense);
-    const I first = word & I(kNotDense);
-    return mixCorners(
-        [&](int n) {
-            const IPair kept = gatherPair(cells.records + 4 + 2 * n, word, sparse);
-            const IPair corner =
-                gatherPair(cells.normals + (n & 1 ? kSide : 0) + (n & 2 ? kSide * kSide : 0), first, dense);
-            return IPair{select(dense, corner.first, kept.first), select(dense, corner.second, kept.second)};
-        },
-        local);
-}
-
-STEREONAV_INLINE F signedChannel(I fourteenBits) {
-    return mulAdd(toFloat(fourteenBits & I(0x3FFF)), F(1.0f / (511.5f * 16)), F(-1.0f));
-}
-STEREONAV_INLINE V3 directionOf(Channels c) {
-    return {signedChannel(c.xz), signedChannel(c.y), signedChannel(shiftRight<16>(c.xz))};
-}
 
 // 2^x for |x| < 120: the fraction by a polynomial of the fifth degree, relative error below 3e-7 and 1.
 STEREONAV_INLINE F exp2(F x) {

@@ -157,26 +157,57 @@ Exit exitOf(const VoxelRay& ray, const glm::ivec3& cell) {
 
 PlainHit hitInCell(const GreyVolume& volume, double isovalue, const VoxelRay& ray, const glm::ivec3& cell,
                    double begin, double end) {
-    const Corners corners = cornersOf(volume, cell);
-    // What is interpolated between the corners nowhere exceeds the largest of them.
-    if (*std::max_element(corners.begin(), corners.end()) < isovalue) return {};
     const auto local = [&](double t) {
         return glm::clamp(ray.at(t) - glm::dvec3(cell), glm::dvec3(0.0), glm::dvec3(1.0));
     };
     const glm::dvec3 from = local(begin), step = local(end) - from;
-    const double s = firstReached(alongRay(corners, isovalue, from, step));
+    const double s = firstInCell(volume, isovalue, cell, from, step);
     if (s == kInfinity) return {};
     return {begin + s * (end - begin), cell, from + s * step};
 }
 
-// The corners' normals are those of records, which are kept to 10 bits a channel; here they are exact.
+// How much values change from voxel to voxel around one, stored numbers a metre, weighted as the tricubic
+// B-spline's gradient is.
+double changeAround(const GreyVolume& volume, const glm::ivec3& at) {
+    const auto value = [&](const glm::ivec3& v) {
+        return static_cast<double>(volume.at(glm::clamp(v, glm::ivec3(0), volume.frame.size - 1)));
+    };
+    glm::dvec3 change(0.0);
+    for (int axis = 0; axis < 3; ++axis)
+        for (int b = -1; b <= 1; ++b)
+            for (int c = -1; c <= 1; ++c) {
+                glm::ivec3 here = at, step(0);
+                here[(axis + 1) % 3] += b, here[(axis + 2) % 3] += c, step[axis] = 1;
+                const double weight = (b ? 1 : 4) * (c ? 1 : 4) / 36.0;
+                change[axis] +=
+                    0.5 * weight *
+                    (std::abs(value(here + step) - value(here)) + std::abs(value(here) - value(here - step)));
+            }
+    return glm::length(change / volume.frame.spacing);
+}
+
+// The corners' normals are those of records, which are kept to 10 bits a channel; here they are exact. 0
+// where there is none.
 glm::dvec3 cornerNormal(const GreyVolume& volume, const glm::ivec3& corner) {
     const glm::dvec3 down = -smoothGradient(volume, glm::dvec3(corner));
     const double length = glm::length(down);
     const glm::dvec3 spacing = volume.frame.spacing;
     // Stored numbers are whole: what is not 0 is a 72nd of a step a voxel at least, what is less is rounding.
     const double least = 1e-6 / std::max({spacing.x, spacing.y, spacing.z});
-    return length > least ? down / length : glm::dvec3(0, 0, 1);
+    return length > least && length >= kOneSided * changeAround(volume, corner) ? down / length
+                                                                                : glm::dvec3(0.0);
+}
+
+// Towards smaller trilinear values, unit world; 0 where they are all the same.
+glm::dvec3 downOf(const VolumeFrame& frame, const Corners& corners, const glm::dvec3& p) {
+    glm::dvec3 slope(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 low = p, high = p;
+        low[axis] = 0, high[axis] = 1;
+        slope[axis] = trilinear(corners, high) - trilinear(corners, low);
+    }
+    const glm::dvec3 down = -(frame.axes * (slope / frame.spacing));
+    return glm::length(slope) > 1e-6 ? glm::normalize(down) : glm::dvec3(0.0);
 }
 
 }  // namespace
@@ -184,6 +215,14 @@ glm::dvec3 cornerNormal(const GreyVolume& volume, const glm::ivec3& corner) {
 double plainValue(const GreyVolume& volume, const glm::dvec3& voxel) {
     const glm::ivec3 cell = cellOf(volume.frame, voxel);
     return trilinear(cornersOf(volume, cell), voxel - glm::dvec3(cell));
+}
+
+double firstInCell(const GreyVolume& volume, double isovalue, const glm::ivec3& cell, const glm::dvec3& from,
+                   const glm::dvec3& step) {
+    const Corners corners = cornersOf(volume, cell);
+    // What is interpolated between the corners nowhere exceeds the largest of them.
+    if (*std::max_element(corners.begin(), corners.end()) < isovalue) return kInfinity;
+    return firstReached(alongRay(corners, isovalue, from, step));
 }
 
 PlainHit castPlainVolume(const GreyVolume& volume, double isovalue, const PlainRay& worldRay) {
@@ -208,14 +247,25 @@ PlainHit castPlainVolume(const GreyVolume& volume, double isovalue, const PlainR
 glm::dvec3 plainNormal(const GreyVolume& volume, const glm::dvec3& voxel) {
     const glm::ivec3 cell = cellOf(volume.frame, voxel);
     const glm::dvec3 p = voxel - glm::dvec3(cell);
-    glm::dvec3 sum(0.0);
+    const glm::dvec3 down = downOf(volume.frame, cornersOf(volume, cell), p);
+    glm::dvec3 mean(0.0), even(0.0), sum = static_cast<double>(kLeastOfSlope) * down;
     for (int n = 0; n < 8; ++n) {
         const glm::ivec3 o = cornerOffset(n);
         const double weight = (o.x ? p.x : 1 - p.x) * (o.y ? p.y : 1 - p.y) * (o.z ? p.z : 1 - p.z);
-        sum += weight * cornerNormal(volume, cell + o);
+        const glm::dvec3 normal = cornerNormal(volume, cell + o);
+        mean += weight * normal;
+        even += normal / 8.0;
+        sum += weight * glm::dot(normal, down) * normal;
     }
-    const double length = glm::length(sum);
-    return length > 0 ? sum / length : glm::dvec3(0, 0, 1);
+    const double agree = std::min(glm::dot(even, even), glm::dot(mean, mean)),
+                 apart = static_cast<double>(kApart);
+    const double length = glm::length(mean);
+    double share = std::clamp((agree - apart) / (static_cast<double>(kAgree) - apart), 0.0, 1.0);
+    if (share < 1) share *= std::clamp(static_cast<double>(kOtherSide) * glm::dot(mean, down), 0.0, 1.0);
+    if (agree >= static_cast<double>(kAgree)) return length > 0 ? mean / length : glm::dvec3(0, 0, 1);
+    if (!(glm::length(sum) > 0)) return glm::dvec3(0, 0, 1);
+    const glm::dvec3 bySlope = glm::normalize(sum);
+    return share > 0 ? glm::normalize((1 - share) * bySlope + share * mean / length) : bySlope;
 }
 
 namespace {

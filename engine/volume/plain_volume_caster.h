@@ -29,13 +29,21 @@ struct PlainHit {
 // The trilinear value in stored numbers at a point of voxel space within [0, size - 1].
 double plainValue(const GreyVolume& volume, const glm::dvec3& voxel);
 
+// The first s in [0, 1] where the trilinear value is >= isovalue at from + s * step, both ends in the cell:
+// places in it, each in [0, 1]. Infinity where it nowhere is.
+double firstInCell(const GreyVolume& volume, double isovalue, const glm::ivec3& cell, const glm::dvec3& from,
+                   const glm::dvec3& step);
+
 // The first t >= nearDepth within the volume where the trilinear value is >= isovalue (stored numbers):
 // where the ray enters a cell if it is so there already, else the first root of the cell's cubic (Parker et
 // al. 1998), isolated by the roots of its derivative and bisected, so that tangent rays are decided too.
 PlainHit castPlainVolume(const GreyVolume& volume, double isovalue, const PlainRay& ray);
 
-// The normal that shading uses at a point of voxel space: corner normals (minus the smoothed gradient, unit
-// length, +z where it is zero), trilinear between the cell's corners, unit length. World.
+// The normal that shading uses at a point of voxel space, unit, world: corner normals (minus the smoothed
+// gradient, unit length, 0 where it tells no side: kOneSided), trilinear between the cell's corners. Where
+// the corners do not agree, as in flesh thinner than a voxel, each counts by how far it follows the slope of
+// the trilinear values, turned around where it is against it: the normal is that of the side where the values
+// fall. +z where there is no slope.
 glm::dvec3 plainNormal(const GreyVolume& volume, const glm::dvec3& voxel);
 
 // Light from `position` to the eye, linear RGB. Blinn-Phong with the lamp at the head: l leads from the

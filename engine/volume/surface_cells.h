@@ -37,12 +37,17 @@ struct BrickLayout {
 struct alignas(64) CellRecord {
     std::int16_t values[8];  // at corner x + 2 y + 4 z, stored numbers
     std::uint32_t
-        normals[8];  // there: unit world normal towards smaller values, packed as packCornerNormal does
+        normals[8];  // there: unit world normal towards smaller values, or 0, packed as packCornerNormal does
     std::uint32_t spare[4];
 };
 static_assert(sizeof(CellRecord) == 64);
 
-// A unit vector in three channels of 10 bits, x lowest: 0..1023 for -1..1, as EyeImage::normal wants it.
+// Where the smoothed gradient is less than this of what the values around a voxel change by from one to the
+// next, it tells no side, and a corner has no normal.
+constexpr double kOneSided = 0.1371;
+
+// A unit vector, or 0, in three channels of 10 bits, x lowest: 0..1023 for -1..1, as EyeImage::normal wants
+// it.
 std::uint32_t packCornerNormal(const glm::dvec3& unit);
 glm::dvec3 unpackCornerNormal(std::uint32_t packed);  // length near 1
 

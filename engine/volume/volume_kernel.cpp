@@ -133,11 +133,21 @@ struct Packet {
         }
         return select(shade.t < end, F(0.0f), F(1.0f));
     }
+    // Of the hits: the cells that they are in.
+    STEREONAV_INLINE Cells cellsOf(const Rays& r, const Hits& hits) const {
+        const F t = select(hits.hit, hits.t, F(0.0f));
+        const auto cell = [&](F eye, F direction, F local) {
+            return floorToInt(mulAdd(t, direction, eye) - local + F(0.5f));
+        };
+        return {cell(grid.eyeX, r.direction.x, hits.local.x), cell(grid.eyeY, r.direction.y, hits.local.y),
+                cell(grid.eyeZ, r.direction.z, hits.local.z)};
+    }
     // Normals that nothing asked for are left at none: whoever shades again will not ask either.
     STEREONAV_INLINE Result shaded(const Rays& r, const Hits& hits, bool wantNormal) const {
         Channels n = openChannels(I(kNoNormal));
         const I color = surfaceColor(data, view, r, hits.t, hits.hit, behind, [&](F t) {
-            n = normalIn(grid.data, hits.word, hits.local, hits.hit);
+            const auto values = [&] { return cornersOf(grid, hits.word, cellsOf(r, hits), hits.hit); };
+            n = normalIn(grid.data, hits.word, values, hits.local, hits.hit);
             return litBy(data, view, r, t, directionOf(n), litShare(r, hits));
         });
         return {hits.t, color, wantNormal ? closeChannels(n) : I(0), F(0.0f)};

@@ -29,7 +29,17 @@ struct CellData {
     float leapUnit = 0;         // metres
     float isovalue = 0;
     bool leaping = true;
+    // World directions of slopes of 1 a voxel along each axis, turned to smaller values: at most 1 long.
+    float downX[3] = {}, downY[3] = {}, downZ[3] = {};
 };
+
+// The square of the length of a cell's corners' mean normal, or of their mix at a place where that is
+// shorter: from kAgree on, which one corner against seven others does not reach, the mix is the normal; at
+// kApart and less each counts by how far it follows the slope of the values; in between some of both.
+constexpr float kAgree = 0.65f, kApart = 0.35f;
+constexpr float kOtherSide =
+    4;  // times what the mix has along the slope: less than 1 is taken from its share
+constexpr float kLeastOfSlope = 0.01f;  // the slope itself counts as much beside them
 
 // Where less than this of what a lookup weighs is known, nothing counts as known: places in single precision
 // are no nearer.

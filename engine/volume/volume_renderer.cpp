@@ -34,6 +34,10 @@ void addDenseBricks(const SurfaceCells& cells, CellData& d) {
     d.slice = static_cast<std::int32_t>(size.x * size.y);
 }
 
+double smallestSpacing(const VolumeFrame& frame) {
+    return std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z});
+}
+
 CellData cellDataOf(const SurfaceCells& cells, bool leaping) {
     CellData d;
     const std::size_t count = cells.layout.count(), before = count > (1ull << 31) - 64 ? 1ull << 31 : 0;
@@ -51,6 +55,12 @@ CellData cellDataOf(const SurfaceCells& cells, bool leaping) {
     d.leapUnit = static_cast<float>(cells.leapUnit * (1 - 1e-5));
     d.isovalue = cells.isovalue;
     d.leaping = leaping;
+    const glm::dvec3 per = smallestSpacing(cells.frame) / cells.frame.spacing;
+    for (int k = 0; k < 3; ++k) {
+        d.downX[k] = static_cast<float>(-cells.frame.axes[0][k] * per.x);
+        d.downY[k] = static_cast<float>(-cells.frame.axes[1][k] * per.y);
+        d.downZ[k] = static_cast<float>(-cells.frame.axes[2][k] * per.z);
+    }
     return d;
 }
 
@@ -186,10 +196,6 @@ struct TransferTable {
         data.color = color.data();
     }
 };
-
-double smallestSpacing(const VolumeFrame& frame) {
-    return std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z});
-}
 
 }  // namespace
 

@@ -101,6 +101,9 @@ STEREONAV_INLINE Seen groundAt(const ContourRow& row, F pixel, F depth, M lanes)
     const auto eyeLow = static_cast<float>(row.eyeHeight - eyeHigh);
     Seen seen{depth, F(0.0f), F(0.0f), F(0.0f), lanes};
     M active = lanes;
+    const F cellsAcross =
+        sqrt(mulAdd(rx, rx, ry * ry)) *
+        F(row.inverseSpacing[0] > row.inverseSpacing[1] ? row.inverseSpacing[0] : row.inverseSpacing[1]);
     for (int step = 0; step < kMostNewtonSteps && any(active); ++step) {
         const F t = seen.depth;
         const Cell cell = cellAt(row, t * rx, t * ry, active);
@@ -118,6 +121,7 @@ STEREONAV_INLINE Seen groundAt(const ContourRow& row, F pixel, F depth, M lanes)
         const M near =
             met & (moved > F(0.0f)) & (abs(moved - depth) <= mulAdd(F(2.0f), pixels, F(1e-3f) * depth));
         seen.found = seen.found & (near | ~active);
+        if (step == 0) seen.found = seen.found & (abs(move) * cellsAcross <= F(row.sameCell));
         active = active & near;
         // Along the tangent plane, as the height is.
         const F acrossX = mulAdd(perX, rx, moved * F(row.right[0])),
@@ -204,7 +208,7 @@ void shareOfLines(const ContourRow& row, int pixels) {
         const F ink =
             max(wide * fadeOfLines(shape, F(shape.index) * between), thin * fadeOfLines(shape, between));
         store(row.share + k, keep(sloped, ink));
-        store(row.seen + k, seen.depth);
+        store(row.seen + k, select(seen.found, seen.depth, F(-1.0f)));
     }
 }
 

@@ -83,7 +83,10 @@ private:
 class LinesOfRow {
 public:
     LinesOfRow(const HeightRows& heights, const ContourSetting& setting)
-        : mHeights(heights), mInterval(setting.interval), mPerMetre(1 / setting.verticalScale) {}
+        : mHeights(heights),
+          mSetting(setting),
+          mInterval(setting.interval),
+          mPerMetre(1 / setting.verticalScale) {}
 
     // Whether there can be a line in a pixel: most are told by the depths alone. A line's reach, and a pixel
     // more, as a warped eye's depths may be those of the next one.
@@ -98,19 +101,7 @@ public:
 
     // The ink's share; 0 where there is no line.
     double at(int x, const GroundSeen& seen) const {
-        const double height = seen.place.z * mPerMetre, index = kIndexContour * mInterval;
-        // A pixel's; of level ground none but rounding.
-        const double i = glm::dot(seen.gradient, glm::dvec2(seen.perX)),
-                     j = glm::dot(seen.gradient, glm::dvec2(seen.perY));
-        double change = mPerMetre * std::sqrt(i * i + j * j);
-        if (!(change > kContourLevel * mInterval) || !(std::abs(height) < kMostLevels * mInterval)) return 0;
-        const double wide = kIndexContourShare *
-                            coverOfLine(kIndexContourWidth, distanceFrom(height, index) / change),
-                     thin =
-                         kContourShare * coverOfLine(kContourWidth, distanceFrom(height, mInterval) / change);
-        if (wide <= 0 && thin <= 0) return 0;
-        change = std::max(change, leastChange(mHeights.across(x), mHeights.down(x)));
-        return std::max(wide * fadeOfLines(index / change), thin * fadeOfLines(mInterval / change));
+        return contourShareAt(seen, leastChange(mHeights.across(x), mHeights.down(x)), mSetting);
     }
 
 private:
@@ -124,10 +115,27 @@ private:
     }
 
     const HeightRows& mHeights;
+    const ContourSetting& mSetting;
     double mInterval, mPerMetre;
 };
 
 }  // namespace
+
+double contourShareAt(const GroundSeen& seen, double least, const ContourSetting& setting) {
+    const double interval = setting.interval, perMetre = 1 / setting.verticalScale;
+    const double height = seen.place.z * perMetre, index = kIndexContour * interval;
+    // A pixel's; of level ground none but rounding.
+    const double i = glm::dot(seen.gradient, glm::dvec2(seen.perX)),
+                 j = glm::dot(seen.gradient, glm::dvec2(seen.perY));
+    double change = perMetre * std::sqrt(i * i + j * j);
+    if (!(change > kContourLevel * interval) || !(std::abs(height) < kMostLevels * interval)) return 0;
+    const double wide = kIndexContourShare *
+                        coverOfLine(kIndexContourWidth, distanceFrom(height, index) / change),
+                 thin = kContourShare * coverOfLine(kContourWidth, distanceFrom(height, interval) / change);
+    if (wide <= 0 && thin <= 0) return 0;
+    change = std::max(change, least);
+    return std::max(wide * fadeOfLines(index / change), thin * fadeOfLines(interval / change));
+}
 
 double contourIntervalFor(double relief) {
     return relief > 0 && std::isfinite(relief) ? niceStep(relief / kReliefParts) : 0;

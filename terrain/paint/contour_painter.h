@@ -36,6 +36,12 @@ constexpr double kContourLevel = 1e-7;
 // A nice interval for heights over so many metres: some 25 lines; 0 of level ground.
 double contourIntervalFor(double relief);
 
+struct GroundSeen;
+// The ink's share where a pixel shows the ground so; 0 where there is no line. least: half of how much
+// heights, in metres of the file, differ from pixel to pixel, by the lesser of both sides; 0 where that is
+// not known.
+double contourShareAt(const GroundSeen& seen, double least, const ContourSetting& setting);
+
 class ContourPainter final : public EyePainter {
 public:
     // ground, fog: outlive it; the lines are seen through the fog as the ground is.

@@ -34,14 +34,16 @@ struct ContourRow {
     int groundWidth = 0, groundHeight = 0, cell[2] = {};
     float place[2] = {}, low[2] = {}, high[2] = {};
     float inverseSpacing[2] = {};
+    float sameCell = 0;    // spacings: a ray that has to be followed farther at once is not
     double eyeHeight = 0;  // metres
     // Metres of the file, and how many of them are a metre of the ground; a wide line to the next in metres
     // of the ground, and the eye's height over one, in metres of the file.
     float interval = 0, perMetre = 0;
     double indexStep = 0;
     float eyeOver = 0;
-    // Pixels that may have a line, and of each: half of the least change of heights beside it; the ink's
-    // share, and the depth of the ground.
+    // Pixels that may have a line, and of each: half of the least change of heights beside it (by pixel of
+    // the row); the ink's share, and the depth of the ground, below 0 where the ray has to be followed to
+    // other cells (GroundView).
     std::int32_t* pixels = nullptr;
     float *least = nullptr, *share = nullptr, *seen = nullptr;
 };

@@ -38,7 +38,7 @@ const ContourRows::Kernels& ContourRows::kernelsFor(SimdTarget target) {
 
 ContourRows::ContourRows(const Heightfield& ground, const Fog& fog, const ContourSetting& setting,
                          const EyeView& view, SimdTarget target)
-    : mFog(fog), mView(view), mKernels(kernelsFor(target)) {
+    : mFog(fog), mView(view), mSetting(setting), mGround(ground, view), mKernels(kernelsFor(target)) {
     const double interval = setting.interval, scale = setting.verticalScale;
     const double indexInterval = kIndexContour * interval;
     const glm::dvec2 eye = ground.gridFromWorld(glm::dvec2(view.eye)), cell = glm::floor(eye);
@@ -61,6 +61,7 @@ ContourRows::ContourRows(const Heightfield& ground, const Fog& fog, const Contou
         mRow.high[k] = static_cast<float>(size[k] - 1 + kEdgeRoom - cell[k]);
         mRow.inverseSpacing[k] = static_cast<float>(1 / ground.spacing()[k]);
     }
+    mRow.sameCell = static_cast<float>(GroundView::kSameCell);
     mRow.eyeHeight = view.eye.z;
     mRow.interval = static_cast<float>(interval), mRow.perMetre = static_cast<float>(1 / scale);
     mRow.indexStep = indexInterval * scale;
@@ -88,6 +89,19 @@ void ContourRows::paint(EyeImage& image, int y) const {
         inkThroughFog(row, count, y);
     else
         mKernels.ink(row, count);
+    for (int k = 0; k < count; ++k)
+        if (row.seen[k] < 0) inkPlainly(row, row.pixels[k], y);
+}
+
+// Where a warped eye's ray has to be followed to another cell of the ground.
+void ContourRows::inkPlainly(const ContourRow& row, int x, int y) const {
+    GroundSeen seen;
+    if (!mGround.at(x, y, row.depth[x], seen)) return;
+    const double share = contourShareAt(seen, static_cast<double>(row.least[x]), mSetting);
+    if (!(share > 0)) return;
+    const glm::vec3 ink = mFog.seen(glm::vec3(kContourInk[0], kContourInk[1], kContourInk[2]), mView.eye,
+                                    seen.direction, seen.depth);
+    row.color[x] = packColor(glm::mix(unpackColor(row.color[x]), ink, static_cast<float>(share)));
 }
 
 void ContourRows::inkThroughFog(const ContourRow& row, int pixels, int y) const {

@@ -4,6 +4,7 @@
 #include "engine/simd/simd_target.h"
 #include "terrain/paint/contour_painter.h"
 #include "terrain/paint/contour_row.h"
+#include "terrain/paint/ground_view.h"
 
 namespace stereonav {
 
@@ -27,9 +28,12 @@ private:
     static const Kernels& kernelsFor(SimdTarget target);
 
     void inkThroughFog(const ContourRow& row, int pixels, int y) const;
+    void inkPlainly(const ContourRow& row, int x, int y) const;
 
     const Fog& mFog;
     const EyeView& mView;
+    const ContourSetting& mSetting;
+    GroundView mGround;
     const Kernels& mKernels;
     ContourRow mRow;  // what all rows share
     bool mFits = false;

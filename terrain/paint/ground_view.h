@@ -25,10 +25,13 @@ class GroundView {
 public:
     GroundView(const Heightfield& ground, const EyeView& view);
 
+    static constexpr double kSameCell = 0.25;  // spacings: a first step so short misses no other cell
+
     // depth: what the eye has in its picture for pixel x, y. A warped eye's is that of a pixel beside, and
-    // any eye's is rounded, so the ray is followed on to the surface itself (Newton's steps on the cell's
-    // tangent planes). False where nothing was hit, beside the ground, in its holes, where the ray runs along
-    // the surface, and where what was hit is not the ground but stands on it: farther from it than two pixels
+    // any eye's is rounded, so the ray is followed on to the surface itself: by Newton's steps on the cell's
+    // tangent plane, and where these lead to other cells by steps along the ray, to where it first meets the
+    // ground within two pixels, or else comes next to it. False where nothing was hit, beside the ground, in
+    // its holes, and where what was hit is not the ground but stands on it: farther from it than two pixels
     // and a thousandth of the way.
     bool at(int x, int y, float depth, GroundSeen& seen) const;
 
@@ -40,11 +43,27 @@ private:
         glm::dvec2 seenGradient;
     };
     bool cellAt(const glm::dvec3& place, Cell& cell) const;
+    // How far a ray's place is over the ground below it; NaN where there is none.
+    double over(const glm::dvec3& ray, double t, Cell& cell) const;
+    // How much farther away the tangent plane is at the next pixel to the right and below, of view depth; the
+    // ray's share along the plane's normal, below 0 where it faces the eye.
+    struct PerPixel {
+        double into, x, y;
+    };
+    PerPixel perPixel(const glm::dvec3& ray, double t, const Cell& cell) const;
+    struct Way {
+        double t;
+        bool found;
+        bool beside = false;  // the ray passes by: the place is over or under it
+    };
+    Way followed(const glm::dvec3& ray, double depth, Cell& cell) const;
+    Way searched(const glm::dvec3& ray, double depth, Cell& cell) const;
 
     const Heightfield& mGround;
     const EyeView& mView;
     EarthBend mBend;
     glm::dvec3 mRight, mUp;  // a pixel's width and height at view depth 1
+    double mSpacing;         // metres between samples, the lesser of both
 };
 
 }  // namespace stereonav

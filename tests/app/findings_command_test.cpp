@@ -53,6 +53,37 @@ TEST_F(ColonInstruments, FindingsMeasureAndAreKept) {
     EXPECT_EQ(Json::parse(contentOf(place() / "f.json")).at("findings").size(), 2u);
 }
 
+// Candidates class nothing and stay what they are in the file, until a person points at one; the same ones
+// again are no further entries.
+TEST_F(ColonInstruments, CandidatesAreKeptOnceAndClassNothing) {
+    const std::string mask = withPolyp();
+    const auto candidates = [&] {
+        return documentOf({"findings", mask, "--candidates", "--file", "c.json"});
+    };
+    const Json first = candidates();
+    ASSERT_EQ(first.at("findings").size(), 1u) << first;
+    EXPECT_TRUE(first["findings"][0].at("candidate").get<bool>());
+    EXPECT_FALSE(first.contains("crads"));
+    const std::string said = run({"findings", mask, "--no-cache", "--file", "c.json"}).out;
+    EXPECT_NE(said.find("no C-RADS class, as nobody has kept one of the candidates"), std::string::npos)
+        << said;
+    const Json again = candidates();
+    EXPECT_EQ(again.at("findings"), first.at("findings"));
+    const Outcome refused = run({"findings", mask, "--no-cache", "--file", "c.json", "--sr", "c.dcm"});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_EQ(refused.out, "");
+    EXPECT_EQ(linesIn(refused.err), 1) << refused.err;
+    EXPECT_NE(refused.err.find("candidates alone"), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(place() / "c.dcm"));
+    const Json kept =
+        documentOf({"findings", mask, "--file", "c.json", "--at", kPolyp, "--comment", "it is one"});
+    ASSERT_EQ(kept.at("findings").size(), 1u) << kept;
+    EXPECT_FALSE(kept["findings"][0].contains("candidate"));
+    EXPECT_EQ(kept["findings"][0].at("comment"), "it is one");
+    EXPECT_EQ(kept.at("crads"), kept["findings"][0].at("diameter_mm") >= 10 ? "C3" : "C2");
+    EXPECT_EQ(candidates().at("findings"), kept.at("findings"));
+}
+
 TEST_F(ColonInstruments, FindingsBecomeAStructuredReport) {
     const Json json =
         documentOf({"findings", withPolyp(), "--at", kPolyp, "--comment", "seen twice", "--sr", "f.dcm"});
@@ -113,7 +144,9 @@ TEST_F(ColonInstruments, FindingsRefuseBadInput) {
     for (const char* text :
          {"{", "{\"document\": 3}", "[]",
           "{\"document\": \"stereonav findings\", \"findings\": [{\"place_mm\": [1, 2]}]}",
-          "{\"document\": \"stereonav findings\", \"findings\": [{\"place_mm\": [1, 2, \"a\"]}]}"}) {
+          "{\"document\": \"stereonav findings\", \"findings\": [{\"place_mm\": [1, 2, \"a\"]}]}",
+          "{\"document\": \"stereonav findings\", \"findings\": [{\"place_mm\": [1, 2, 3], \"candidate\": "
+          "1}]}"}) {
         const std::string file = input("bad.json", text);
         expectRefused({"findings", mask, "--no-cache", "--file", file}, {"bad.json", "expected"});
         EXPECT_EQ(contentOf(file), text) << "it is as it was";
@@ -136,6 +169,20 @@ TEST_F(ColonInstruments, StudiesAreRegistered) {
                 json["places"][0].at("along_mm").get<double>(), 6);
     EXPECT_GT(linesIn(contentOf(place() / "table.csv")), 4);
     std::filesystem::remove(place() / "table.csv");
+    EXPECT_TRUE(json.at("matches").get<bool>());
+    // A tube that bends to the side and back is another one.
+    const std::string other = nrrd("c.nrrd", {90, 48, 120, 1, "uchar", ""}, [](int i, int j, int k) {
+        const double x = i - 45 - 30 * std::sin(k / 9.0), y = j - 23.5;
+        return std::hypot(x, y) < 6 && k > 2 && k < 117 ? 1 : 0;
+    });
+    const Outcome two = run({"register", a, "--with", other, "--no-cache"});
+    EXPECT_EQ(two.status, 1);
+    EXPECT_EQ(two.out, "");
+    for (const char* words : {"c.nrrd", "is not of the same colon", "--force"})
+        EXPECT_NE(two.err.find(words), std::string::npos) << words << two.err;
+    const Json forced = documentOf({"register", a, "--with", other, "--force"});
+    EXPECT_FALSE(forced.at("matches").get<bool>());
+    EXPECT_GT(forced.at("cost").get<double>(), 1);
     expectRefused({"register", a, "--with", hills()}, {"hills.asc", "CT study"});
     expectRefused({"register", a}, {"--with"});
     expectRefused({"register", a, "--with", b, "--bend", "4"}, {"--bend", "--with colon"});

@@ -84,6 +84,31 @@ TEST_F(MediumCommands, EachModelIsAKnownPartOfTheOthers) {
     expectAlike(shown(ball(), {"--medium", milk}), indirect, 0, "the default");
 }
 
+// An even slope that a low sun grazes is even: no stripes of the light's texels. By second differences of
+// grey levels, of which rounding alone leaves 0.3.
+TEST_F(MediumCommands, AnEvenSlopeUnderALowSunHasNoRipples) {
+    const std::string slope =
+        grid("slope.asc", 200, 200, 30.0, [](int i, int j) { return 300 + 4.5 * i + 1.5 * (199 - j); });
+    for (const char* sun : {"270,12", "240,8"}) {
+        runWell({"render", slope, "--medium", "snow", "--size", "320x200", "--sun", sun, "--pose",
+                 "3000,-1500,2300,0,-35,0", "--out", "slope.png"});
+        const Plane<PackedColor> picture = readColorImage(place() / "slope.png");
+        const auto grey = [&](int x, int y) {
+            return std::round(255 * srgbFromLinear(unpackColor(picture.at(x, y)).y));
+        };
+        double across = 0, down = 0;
+        int pixels = 0;
+        for (int y = 70; y < 170; ++y)
+            for (int x = 60; x < 260; ++x) {
+                across += std::abs(grey(x - 2, y) - 2 * grey(x, y) + grey(x + 2, y));
+                down += std::abs(grey(x, y - 2) - 2 * grey(x, y) + grey(x, y + 2));
+                ++pixels;
+            }
+        EXPECT_LT(across / pixels, 0.4) << sun;
+        EXPECT_LT(down / pixels, 0.4) << sun;
+    }
+}
+
 TEST_F(MediumCommands, LightAddsUpAndIsAsItsColourSays) {
     const std::string milk = input("milk.txt", kMilk);
     const auto lit = [&](const char* color) {

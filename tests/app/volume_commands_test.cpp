@@ -36,6 +36,22 @@ protected:
     }
 };
 
+// In a lumen that is narrow almost everywhere the eyes come together: the plan is of such frames.
+TEST_F(VolumeCommands, TheFramePlanMeasuresWhatFramesDo) {
+    const std::string narrow = nrrd("narrow.nrrd", {40, 40, 160, 1, "uchar", ""}, [](int i, int j, int k) {
+        const double radius = k % 40 < 4 ? 7.2 : 2.2;
+        return k >= 3 && k < 157 && std::hypot(i - 19.5, j - 19.5) < radius ? 1 : 0;
+    });
+    const Json plan = Json::parse(runWell({"info", narrow, "--size", "160x120", "--json"}).out).at("plan");
+    const double planned = plan.at("hole_percent").get<double>();
+    runWell({"compare", narrow, "--frames", "5", "--methods", "linear", "--size", "160x120", "--json",
+             "compared.json"});
+    const Json compared = Json::parse(contentOf(place() / "compared.json"));
+    const double holes = compared.at("methods")[0].at("hole_percent").get<double>();
+    EXPECT_LT(holes, 15);
+    EXPECT_NEAR(planned, holes, 0.5 * holes);
+}
+
 TEST_F(VolumeCommands, InfoOfAMask) {
     const Json volume = info({maskedTube()}).at("volume");
     EXPECT_EQ(volume.at("kind"), "colon");

@@ -1,13 +1,14 @@
 // How well lines of generated colons are registered that were bent and inflated differently, over many seeds:
 //   bench_colon_register [SEEDS [LARGEST_SIDE]]
 // The error is that of each polyp's place, along the second line. Beside it that of the share of the length
-// alone.
+// alone. Last the costs of one colon and of two: what tells them apart (kMostCostOfOneColon).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <vector>
 
 #include "colon/instruments/finding.h"
 #include "colon/instruments/registration.h"
@@ -42,12 +43,27 @@ std::optional<Pair> pairOf(std::uint64_t seed, int side, double bend, double inf
     }
 }
 
+// Sorts them.
+void printCosts(const char* what, std::vector<double>& costs) {
+    if (costs.empty()) return;
+    std::sort(costs.begin(), costs.end());
+    const std::size_t last = costs.size() - 1;
+    fmt::print(
+        "{}: {} pairs, cost {:.3f} at least, 5 of 100 {:.3f}, median {:.3f}, 95 of 100 {:.3f}, {:.3f} at "
+        "most\n",
+        what, costs.size(), costs.front(), costs[last * 5 / 100], costs[last / 2], costs[last * 95 / 100],
+        costs.back());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     const int seeds = argc > 1 ? std::atoi(argv[1]) : 5, side = argc > 2 ? std::atoi(argv[2]) : 256;
+    std::vector<Centreline> lines;
+    std::vector<int> owners;  // seeds
+    std::vector<double> same, other;
     for (const auto& [bend, inflation] :
-         {std::pair(0.0, 1.15), std::pair(0.006, 0.9), std::pair(0.012, 1.0)}) {
+         {std::pair(0.0, 1.15), std::pair(0.006, 0.9), std::pair(0.012, 1.0), std::pair(0.02, 1.3)}) {
         std::vector<double> errors, shares;
         for (int seed = 1; seed <= seeds; ++seed) {
             const auto n = static_cast<std::uint64_t>(seed);
@@ -55,6 +71,9 @@ int main(int argc, char** argv) {
             if (!pair) continue;
             const auto& [a, b] = *pair;
             const LineRegistration registration(a.centreline, b.centreline);
+            same.push_back(registration.cost());
+            lines.push_back(b.centreline);
+            owners.push_back(seed);
             for (std::size_t k = 0; k < std::min(a.polyps.size(), b.polyps.size()); ++k) {
                 const double first = alongLine(a.centreline, a.polyps[k].position);
                 const double truth = alongLine(b.centreline, b.polyps[k].position);
@@ -82,5 +101,12 @@ int main(int argc, char** argv) {
             errors.back(), mean(shares), shares[shares.size() / 2], shares[shares.size() * 95 / 100],
             shares.back());
     }
+    for (std::size_t a = 0; a < lines.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+            const double cost = LineRegistration(lines[a], lines[b]).cost();
+            (owners[a] == owners[b] ? same : other).push_back(cost);
+        }
+    printCosts("one colon", same);
+    printCosts("two colons", other);
     return 0;
 }

@@ -89,6 +89,28 @@ TEST(Polyp, IsNotFoundWhereThereIsNone) {
     EXPECT_EQ(why, "what bulges there is wider than 3 mm");
 }
 
+// A bump of less than six voxels, or lower than half of one, is what noise makes of any wall.
+TEST(Polyp, IsNotWhatNoiseMakes) {
+    struct Bump {
+        double radius, out;  // metres: a ball, and how far it stands out
+        bool polyp;
+    };
+    for (const Bump& bump : {Bump{0.002, 0.002, true},
+                             {0.003, 0.0015, true},
+                             {0.0012, 0.0006, false},
+                             {0.0008, 0.0009, false},
+                             {0.01, 0.0003, false}}) {
+        const LumenWall wall = tubeWith([&](const glm::dvec3& p) {
+            return toBall(p, {0.014 - bump.out + bump.radius, 0, 0}, bump.radius);
+        });
+        std::string why;
+        const PolypSetting setting = polypSettingOf(wall.lumen.field.frame);
+        EXPECT_NEAR(setting.leastVolume, 6 * 0.0007 * 0.0007 * 0.0007, 1e-15);
+        const auto polyp = polypAt(wall.mesh, wall.neighbours, {0.014 - bump.out, 0, 0}, setting, why);
+        EXPECT_EQ(polyp.has_value(), bump.polyp) << bump.radius << " " << bump.out << " " << why;
+    }
+}
+
 Finding ofSize(double mm) {
     Finding finding;
     finding.polyp.emplace();
@@ -111,6 +133,67 @@ TEST(Findings, AreClassedBySizeAndCount) {
     EXPECT_EQ(doubled[1].problem, "the same polyp as finding 1");
     EXPECT_EQ(doubled[2].problem, "");
     EXPECT_EQ(cradsClassOf(doubled), "C2") << "one polyp counts once";
+}
+
+// What nobody has looked at classes nothing.
+TEST(Findings, AreClassedByWhatAPersonKept) {
+    Finding large = ofSize(12), small = ofSize(7);
+    large.candidate = true;
+    EXPECT_EQ(cradsClassOf({large}), "") << "there are candidates alone";
+    EXPECT_EQ(cradsClassOf({large, large, large}), "");
+    EXPECT_EQ(cradsClassOf({large, small}), "C2");
+    EXPECT_EQ(cradsClassOf({small, large}), "C2");
+    EXPECT_EQ(cradsClassOf({Finding{}, large}), "C1") << "a place without a polyp was looked at";
+    large.candidate = false;
+    EXPECT_EQ(cradsClassOf({large, small}), "C3");
+}
+
+TEST(Findings, OfTheSamePlaceAreOne) {
+    const auto at = [](double x, std::uint32_t tip, bool candidate, const char* comment) {
+        Finding finding = ofSize(8);
+        finding.asked = {x, 0, 0};
+        finding.polyp->tip = tip;
+        finding.polyp->vertices = {tip, tip + 1};
+        finding.candidate = candidate;
+        finding.comment = comment;
+        return finding;
+    };
+    std::vector<Finding> list;
+    const auto add = [&](const Finding& finding) { addFinding(list, finding); };
+    add(at(0.01, 10, true, "candidate 1"));
+    add(at(0.02, 20, true, "candidate 2"));
+    add(at(0.01, 10, true, "candidate 1"));
+    add(at(0.02, 20, true, "candidate 2"));
+    ASSERT_EQ(list.size(), 2u) << "the same candidates again";
+    // A person points at another place of the first one's head.
+    Finding pointed = at(0.013, 15, false, "looked at");
+    add(pointed);
+    ASSERT_EQ(list.size(), 3u) << "its tip is not of the candidate's";
+    list.pop_back();
+    pointed.polyp->tip = 11;
+    add(pointed);
+    ASSERT_EQ(list.size(), 2u);
+    EXPECT_FALSE(list[0].candidate);
+    EXPECT_EQ(list[0].comment, "looked at");
+    add(at(0.01, 10, true, "candidate 1"));
+    ASSERT_EQ(list.size(), 2u);
+    EXPECT_FALSE(list[0].candidate) << "a candidate again does not undo what a person said";
+    EXPECT_EQ(list[0].comment, "looked at");
+    // Places of a person are told apart by half a millimetre.
+    add(at(0.0101, 10, false, "again"));
+    ASSERT_EQ(list.size(), 2u);
+    EXPECT_EQ(list[0].comment, "again");
+    add(at(0.0101, 10, false, ""));
+    EXPECT_EQ(list[0].comment, "again");
+    add(at(0.012, 10, false, "another place of it"));
+    ASSERT_EQ(list.size(), 3u);
+    // Two places without a polyp.
+    Finding none;
+    none.asked = {0.5, 0, 0};
+    add(none), add(none);
+    none.asked.x = 0.502;
+    add(none);
+    EXPECT_EQ(list.size(), 5u);
 }
 
 TEST(Findings, AreRightWithinAMillimetreOrATenth) {

@@ -58,6 +58,27 @@ TEST(Registration, FindsPlacesOfABentAndInflatedLine) {
     EXPECT_LT(worst, byShare) << "better than the share of the length alone";
 }
 
+// A patient who has turned round, with more gas, is still the same; another one is not, whatever the way up.
+TEST(Registration, KnowsTwoColonsApart) {
+    const Centreline a = winding(0, 1, even);
+    EXPECT_TRUE(LineRegistration(a, a).matches());
+    EXPECT_TRUE(LineRegistration(a, winding(0.006, 1.2, even)).matches());
+    EXPECT_TRUE(LineRegistration(winding(0.006, 0.8, even), a).matches());
+    Centreline other = a, longer = a, back = a;
+    for (std::size_t n = 0; n < other.points.size(); ++n) {
+        const double u = static_cast<double>(n) / static_cast<double>(other.points.size() - 1);
+        other.points[n].position = {0.12 * std::cos(4 * u), 0.05 * std::sin(7 * u + 1),
+                                    0.1 * std::sin(6 * u)};
+        longer.points[n].position =
+            a.points[n].position + glm::dvec3(0, 0.05 * std::sin(40 * u), 0.2 * u * u);
+        back.points[n] = a.points[a.points.size() - 1 - n];
+    }
+    for (const Centreline& line : {other, longer, back}) {
+        EXPECT_FALSE(LineRegistration(a, line).matches()) << LineRegistration(a, line).cost();
+        EXPECT_FALSE(LineRegistration(line, a).matches());
+    }
+}
+
 TEST(Registration, NeverGoesBack) {
     const LineRegistration registration(winding(0, 1, even), winding(0.01, 0.8, even));
     double before = -1;

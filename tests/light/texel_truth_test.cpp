@@ -196,14 +196,18 @@ TEST(TexelTruth, EnergyNeverExceedsTheSky) {
     setup.sky = glm::vec3(1.0f);
     const TexelLighter lighter(volume, volume.frame, setup, {});
     double most = 0;
+    int lit = 0;
     for (int n = 0; n < 60; ++n) {
         const glm::ivec3 texel(random.below(14), random.below(14), random.below(14));
         const TexelSum sum = irradianceAt(lighter, texel, 32);
+        if (sum.samples < 0) continue;  // in the middle of what is thinner than a voxel
+        ++lit;
         ASSERT_EQ(sum.samples, 32);
         EXPECT_LE(sum.mean.x, 1.00001f);
         most = std::max(most, double(sum.mean.x));
     }
     EXPECT_GT(most, 0.2);
+    EXPECT_GT(lit, 30);
 }
 
 TEST(TexelTruth, WhereValuesDoNotDifferThereIsNoSurface) {

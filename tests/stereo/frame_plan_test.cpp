@@ -88,6 +88,23 @@ TEST(FramePlan, MeasuresThatASlowSceneIsWarpedAndAnInstantOneCast) {
     EXPECT_THROW(planFrame(InstantScene(), {}), Error);
 }
 
+// One frame that is unlike all others, the first, does not stand for them, however slow the scene is.
+TEST(FramePlan, MeasuresMoreThanOneFrame) {
+    std::vector<test::Shape> shapes{test::plane({0, 30, 0}, {0, -1, 0})};
+    const SlowScene scene(shapes);
+    const StereoViews usual = viewsOf(160, 120);
+    // Eyes so far apart that nothing of what one sees is seen by the other.
+    const StereoViews apart =
+        makeStereoViews(poseFromAngles({0, 0, 0}, 0, 0, 0), {160, 120, 0.8, 1.0, 0.1}, {60, 10.0});
+    const std::vector<StereoViews> alone{apart}, among{apart, usual, usual, usual, usual};
+    const double share = planFrame(scene, alone, std::nullopt, 0).costs.holeShare;
+    ASSERT_GT(share, 0.9);
+    // Of three frames at least, whatever they take.
+    const double mean = planFrame(scene, among, std::nullopt, 0).costs.holeShare;
+    EXPECT_NEAR(mean, share / 3 + planFrame(scene, {&usual, 1}, std::nullopt, 0).costs.holeShare * 2 / 3,
+                1e-9);
+}
+
 TEST(FramePlan, ATranslucentSceneIsWeighedByItsOwnMethod) {
     const std::vector<StereoViews> views(2, viewsOf(160, 120));
     const test::GlassScene scene({test::sphere({0, 6, 0}, 1.0)}, test::plane({0, 20, 0}, {0, -1, 0}));

@@ -63,6 +63,7 @@ public:
             double toOther(double along) const override { return factor * along; }
             double fromOther(double along) const override { return along / factor; }
             double cost() const override { return 0.5; }
+            bool matches() const override { return true; }
         };
         auto match = std::make_shared<Match>();
         match->factor = other.offered<const LineThrough>()->placeOnLine({1e9, 0, 0}).along / mLength;

@@ -176,7 +176,7 @@ TEST(SheetOfTwoSides, IsAsOpaqueFromEitherSide) {
                         EXPECT_NEAR(one.color.z, two.color.z, 1e-6);
                     }
                     ASSERT_LE(test::channelDifference(images[1].color.at(x, y), images[0].color.at(other, y)),
-                              8)
+                              20)  // a sample in the very middle has the normal of one side
                         << x << " " << y;
                 }
         }

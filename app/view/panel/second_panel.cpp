@@ -62,6 +62,7 @@ void SecondPanel::drawPicture(PanelHost& host, SecondStudy& second) {
     quietText(host, fmt::format("{}: {:.0f} of {:.0f} mm along, looking {}",
                                 name.filename().empty() ? name.string() : name.filename().string(),
                                 1e3 * place->along, 1e3 * place->length, place->back ? "back" : "ahead"));
+    if (!second.matches()) quietText(host, "Not of the same colon: its places do not match.");
     tooltip(
         fmt::format("Matched along both lines; how unlike they are: {:.2f}, 0 of a line with itself. Whose "
                     "studies they are is not known.",

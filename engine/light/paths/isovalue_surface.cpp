@@ -27,6 +27,19 @@ double rangeAround(const GreyVolume& volume, const glm::dvec3& voxel) {
     return double(most) - double(least);
 }
 
+// Of the trilinear values, stored numbers a metre, world; 0 on the faces of cells, where they have two.
+glm::dvec3 slopeAt(const GreyVolume& volume, const glm::dvec3& voxel) {
+    const glm::dvec3 low = glm::floor(voxel), last(volume.frame.size - 1);
+    glm::dvec3 slope(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(low[axis] >= 0 && low[axis] < voxel[axis] && voxel[axis] < last[axis])) return glm::dvec3(0.0);
+        glm::dvec3 from = voxel, to = voxel;
+        from[axis] = low[axis], to[axis] = low[axis] + 1;
+        slope[axis] = plainValue(volume, to) - plainValue(volume, from);
+    }
+    return volume.frame.axes * (slope / volume.frame.spacing);
+}
+
 constexpr double kVanishing = 1e-6;  // rounding of the sum of 64 weighted voxels stays far below
 
 }  // namespace
@@ -34,7 +47,10 @@ constexpr double kVanishing = 1e-6;  // rounding of the sum of 64 weighted voxel
 glm::dvec3 surfaceNormal(const GreyVolume& volume, const glm::dvec3& voxel) {
     const double range = rangeAround(volume, voxel);
     if (range == 0) return glm::dvec3(0.0);
-    const glm::dvec3 gradient = smoothGradient(volume, voxel);
+    glm::dvec3 gradient = smoothGradient(volume, voxel);
+    if (const glm::dvec3 slope = slopeAt(volume, voxel);
+        glm::dot(gradient, slope) < static_cast<double>(kOwnSlope) * glm::dot(slope, slope))
+        gradient = slope;
     const glm::dvec3 perVoxel = glm::transpose(volume.frame.axes) * gradient * volume.frame.spacing;
     if (!(glm::length(perVoxel) > kVanishing * range)) return glm::dvec3(0.0);
     return -glm::normalize(gradient);
@@ -64,6 +80,39 @@ std::optional<double> crossingAlong(const GreyVolume& volume, const glm::dvec3& 
 }
 
 }  // namespace
+
+bool thinnerThanVoxel(const GreyVolume& volume, const glm::dvec3& voxel, double value) {
+    if (!(plainValue(volume, voxel) >= value)) return false;
+    const glm::dvec3 last(volume.frame.size - 1);
+    const auto within = [&](const glm::dvec3& place) { return glm::clamp(place, glm::dvec3(0.0), last); };
+    const auto below = [&](const glm::dvec3& place) {
+        return within(place) == place && plainValue(volume, place) < value;
+    };
+    // How values rise just before the surface.
+    const auto risesBefore = [&](const glm::dvec3& place, const glm::dvec3& outwards) {
+        glm::dvec3 rises(0.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 step(0.0);
+            step[axis] = 0.25;
+            const glm::dvec3 before = place + 0.3 * outwards;
+            rises[axis] =
+                plainValue(volume, within(before + step)) - plainValue(volume, within(before - step));
+        }
+        return rises;
+    };
+    for (int n = 0; n < 13; ++n) {
+        const glm::dvec3 way = glm::normalize(glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
+        if (!below(voxel + way) || !below(voxel - way)) continue;
+        const auto ahead = crossingAlong(volume, voxel, way, value),
+                   behind = crossingAlong(volume, voxel, -way, value);
+        if (!ahead || !behind || !(*ahead + *behind < 1)) continue;
+        // On a body that bulges lines along its surface leave it on both sides as well.
+        const glm::dvec3 one = risesBefore(voxel + *ahead * way, way),
+                         other = risesBefore(voxel - *behind * way, -way);
+        if (glm::dot(one, other) < -0.5 * glm::length(one) * glm::length(other)) return true;
+    }
+    return false;
+}
 
 std::optional<glm::dvec3> nearestOfValue(const GreyVolume& volume, const glm::dvec3& voxel, double value,
                                          const glm::dvec3& normal) {

@@ -21,8 +21,13 @@ inline double tracedIsovalue(double value, double leastOfVolume) {
     return value < least ? least : value;
 }
 
-// Unit, world, towards smaller values; 0 where the smoothed gradient vanishes: it is less than a millionth
-// of what the values within 4x4x4 voxels could give, or these do not differ.
+// Where the smoothed gradient has less than this of the trilinear values' own slope, it is not of this
+// surface: what is solid is thinner than a voxel there, and the smoothed gradient that of one side or the
+// other. The slope knows the side.
+constexpr float kOwnSlope = 0.25f;
+
+// Unit, world, towards smaller values on this side of what is solid; 0 where the smoothed gradient vanishes:
+// it is less than a millionth of what the values within 4x4x4 voxels could give, or these do not differ.
 glm::dvec3 surfaceNormal(const GreyVolume& volume, const glm::dvec3& voxel);
 
 // Voxels along the normal by which rays start above the surface (Y3: the trilinear surface is bumpier than
@@ -36,6 +41,11 @@ constexpr std::array<double, 3> kLifts{0.25, 0.5, 1.0};
 // Start of rays from a point of voxel space with a unit world normal, kept within the volume's box.
 glm::dvec3 liftedStart(const GreyVolume& volume, double isovalue, const glm::dvec3& voxel,
                        const glm::dvec3& normal);
+
+// Whether what is solid, at or above `value`, is less than a voxel thick at a place in it: the surface lies
+// on both sides of it along one of the 13 ways to opposite voxels, and faces away from it there. The light
+// there would be that of either side.
+bool thinnerThanVoxel(const GreyVolume& volume, const glm::dvec3& voxel, double value);
 
 // The nearest place where the trilinear value is `value`, along the normal or, where it is not there, along
 // the 26 directions to voxels around, within kNearSurface voxels; none where there is none. voxel: inside the

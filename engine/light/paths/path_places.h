@@ -30,10 +30,18 @@ struct Spline {
 // The slope is nothing but rounding where it is less than this share of the values it was taken from.
 constexpr float kRounding = 1e-5f;
 
+constexpr float kOwnSlopeOnly = 0.25f;  // kOwnSlope of isovalue_surface.h
+
 class NormalFinder {
 public:
     STEREONAV_INLINE NormalFinder(const PathVolume& volume, const Place& at, F isovalue, M m)
-        : mVolume(volume), mIsovalue(isovalue), mLanes(m), mX(at.local.x), mY(at.local.y), mZ(at.local.z) {
+        : mVolume(volume),
+          mIsovalue(isovalue),
+          mLanes(m),
+          mX(at.local.x),
+          mY(at.local.y),
+          mZ(at.local.z),
+          mLocal(at.local) {
         const I zero(0), last(volume.size[0] - 2);
         mFirst = at.cell.x == zero;
         mLast = at.cell.x == last;
@@ -46,11 +54,16 @@ public:
     // Unit, along the axes, towards smaller values; 0 where the gradient vanishes.
     STEREONAV_INLINE V3 find() const {
         F gx(0.0f), gy(0.0f), gz(0.0f), mean(0.0f);
+        Corners cell;
         for (int c = 0; c < 4; ++c) {
             F slope(0.0f), value(0.0f), across(0.0f);
             const I slice = clamped(mCellZ, c, mVolume.size[2]) * I(mVolume.size[1]);
             for (int b = 0; b < 4; ++b) {
                 const Row row = rowAt((slice + clamped(mCellY, b, mVolume.size[1])) * I(mVolume.size[0]));
+                if ((b == 1 || b == 2) && (c == 1 || c == 2)) {
+                    cell.v[4 * (c - 1) + 2 * (b - 1)] = row.second;
+                    cell.v[4 * (c - 1) + 2 * (b - 1) + 1] = row.third;
+                }
                 slope = mulAdd(row.slope, mY.value[b], slope);
                 value = mulAdd(row.value, mY.value[b], value);
                 across = mulAdd(row.value, mY.slope[b], across);
@@ -60,12 +73,12 @@ public:
             gz = mulAdd(value, mZ.slope[c], gz);
             mean = mulAdd(value, mZ.value[c], mean);
         }
-        return unitOf(gx, gy, gz, mean);
+        return unitOf({gx, gy, gz}, slopeIn(cell), mean);
     }
 
 private:
     struct Row {
-        F value, slope;
+        F value, slope, second, third;
     };
     STEREONAV_INLINE static I clamped(I cell, int n, int size) {
         return clamp(cell + I(n - 1), I(0), I(size - 1));
@@ -80,13 +93,37 @@ private:
         const auto sum = [&](const F* w) {
             return mulAdd(v0, w[0], mulAdd(v1, w[1], mulAdd(v2, w[2], v3 * w[3])));
         };
-        return {sum(mX.value), sum(mX.slope)};
+        return {sum(mX.value), sum(mX.slope), v1, v2};
     }
-    STEREONAV_INLINE V3 unitOf(F gx, F gy, F gz, F mean) const {
-        const F scale = max(max(abs(gx), abs(gy)), abs(gz));
+    // Not on its faces, where the trilinear values have two slopes.
+    STEREONAV_INLINE M withinCell() const {
+        const F zero(0.0f), one(1.0f);
+        return (mLocal.x > zero) & (mLocal.x < one) & (mLocal.y > zero) & (mLocal.y < one) &
+               (mLocal.z > zero) & (mLocal.z < one);
+    }
+    // Of the trilinear values, by voxels.
+    STEREONAV_INLINE V3 slopeIn(const Corners& c) const {
+        const auto along = [&](int k, F s, F t, int a, int b) {
+            const F low = lerp(c.v[k] - c.v[0], c.v[a + k] - c.v[a], s);
+            return lerp(low, lerp(c.v[b + k] - c.v[b], c.v[a + b + k] - c.v[a + b], s), t);
+        };
+        return {along(1, mLocal.y, mLocal.z, 2, 4), along(2, mLocal.x, mLocal.z, 1, 4),
+                along(4, mLocal.x, mLocal.y, 1, 2)};
+    }
+    // Towards smaller values, by length along the axes.
+    STEREONAV_INLINE V3 downOf(const V3& slope) const {
+        return {F(0.0f) - slope.x * F(mVolume.step[0]), F(0.0f) - slope.y * F(mVolume.step[1]),
+                F(0.0f) - slope.z * F(mVolume.step[2])};
+    }
+    STEREONAV_INLINE V3 unitOf(const V3& smooth, const V3& slope, F mean) const {
+        const V3 own = downOf(slope);
+        V3 down = downOf(smooth);
+        const M other = withinCell() & (dot(down, own) < dot(own, own) * F(kOwnSlopeOnly));
+        down = {select(other, own.x, down.x), select(other, own.y, down.y), select(other, own.z, down.z)};
+        const V3 g{select(other, slope.x, smooth.x), select(other, slope.y, smooth.y),
+                   select(other, slope.z, smooth.z)};
+        const F scale = max(max(abs(g.x), abs(g.y)), abs(g.z));
         const M flat = scale <= max(abs(mean) * F(kRounding), F(1e-12f));
-        const V3 down{F(0.0f) - gx * F(mVolume.step[0]), F(0.0f) - gy * F(mVolume.step[1]),
-                      F(0.0f) - gz * F(mVolume.step[2])};
         const F inverse = select(flat, F(0.0f), F(1.0f) / sqrt(max(dot(down, down), F(1e-30f))));
         return {down.x * inverse, down.y * inverse, down.z * inverse};
     }
@@ -96,6 +133,7 @@ private:
     M mLanes, mFirst, mLast;
     I mLeft, mRight, mCellY, mCellZ;
     Spline mX, mY, mZ;
+    V3 mLocal;
 };
 
 STEREONAV_INLINE F trilinear(const Corners& c, const V3& p) {

@@ -128,12 +128,14 @@ struct TexelLighter::State {
         return start;
     }
 
-    // False where the texel lies on no surface.
+    // False where the texel lies on no surface, or on two.
     bool startOf(const glm::ivec3& texel, PathStart& start) const {
         glm::dvec3 voxel = voxelOf(texel), normal = surfaceNormal(volume, voxel);
         if (normal == glm::dvec3(0.0)) return false;
         double value = plainValue(volume, voxel);
         const double shown = std::clamp(value, sampling.lowest, sampling.highest);
+        // Lookups on either side then find the texels of that side alone.
+        if (thinnerThanVoxel(volume, voxel, shown)) return false;
         if (shown != value)
             if (const auto place = nearestOfValue(volume, voxel, shown, normal)) {
                 const glm::dvec3 there = surfaceNormal(volume, *place);

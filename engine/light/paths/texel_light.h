@@ -36,7 +36,8 @@ struct TexelSampling {
 // Running mean of a texel's samples.
 struct TexelSum {
     // Irradiance / pi: what a white diffuse surface would send out. 0 where the texel lies on no surface (the
-    // gradient is zero): samples is then negative and nothing more is to be done.
+    // gradient is zero), or on both sides of what is thinner than a voxel: samples is then negative and
+    // nothing more is to be done.
     glm::vec3 mean{0.0f};
     float samples = 0;
     float squares = 0;  // sum of squared distances of the samples' luminance from its mean (Welford)
@@ -73,7 +74,7 @@ public:
     // to sums of harmonicsCount(order) * channels floats a texel (coefficient first, then channel), already
     // divided by pi: dotted with the light's coefficients it is what addIrradiance gives. channels: 1 (grey
     // albedo: the mean of the three) or 3. Sums of samples, not means. alive[n]: false where the texel lies
-    // on no surface.
+    // on no surface, or on two.
     void addTransfer(std::span<const glm::ivec3> texels, int firstSample, int count, int order, int channels,
                      std::span<float> sums, std::span<std::uint8_t> alive) const;
 
