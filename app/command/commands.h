@@ -19,6 +19,7 @@
 #include "engine/math/earth_bend.h"
 #include "engine/medium/model/medium_look.h"
 #include "engine/simd/simd_target.h"
+#include "engine/volume/piece_choices.h"
 #include "engine/volume/volume_up.h"
 
 namespace stereonav {
@@ -28,6 +29,7 @@ struct VolumeOptions {
     std::string series;                // of a folder with several: its number or UID
     std::optional<std::string> label;  // of a mask with several: its number or name
     std::vector<glm::dvec3> seeds;     // LPS, metres
+    PieceChoices choices;              // of pieces of the colon, LPS
     FluidChoice fluid = FluidChoice::Out;
     bool resample = false;    // mend uneven or tilted slices
     bool isosurface = false;  // seen from outside, without looking for a colon

@@ -50,6 +50,7 @@ ColonOptions secondOptions(const RegisterOptions& options) {
     second.volume.series.clear();
     second.volume.label.reset();
     second.volume.seeds.clear();
+    second.volume.choices = {};
     ColonOptions reading = colonOptionsOf(second);
     reading.builtIn.bend = 1e-3 * options.bend_mm;
     reading.builtIn.inflation = options.inflate;

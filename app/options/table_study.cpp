@@ -7,9 +7,29 @@
 namespace stereonav {
 namespace {
 
+constexpr CommandSet kReading =
+    command::kShowing | command::kCentreline | command::kColonInstruments | command::kBake;
+
 OptionRule unlessColonIsLookedFor() {
     return {[](const Asked& asked) { return asked.has("isosurface"); },
             "does not go with --isosurface, which looks for no colon", kLeaveOneOut};
+}
+
+// One of the options that change pieces of the colon that were found.
+template <std::vector<glm::dvec3> PieceChoices::*places>
+Option pieceChoice(const char* key, const char* help) {
+    return {.key = key,
+            .value = numbersValue(seedNumbers()),
+            .help = help,
+            .group = kStudyGroup,
+            .commands = kReading,
+            .scenes = scene_type::kVolumes,
+            .rules = {unlessColonIsLookedFor()},
+            .repeated = true,
+            .panel = OptionPanel::Study,
+            .take = [](OptionTargets& to, const OptionValue& value) {
+                (to.scene->volume.choices.*places).push_back(placeOf(value) / 1000.0);
+            }};
 }
 
 std::vector<OptionRule> fluidRules() {
@@ -32,7 +52,6 @@ std::vector<OptionRule> fluidRules() {
 std::vector<Option> studyOptions() {
     using namespace command;
     using namespace scene_type;
-    constexpr CommandSet kReading = kShowing | kCentreline | kColonInstruments | kBake;
     return {
         {.key = "series",
          .value = textValue(),
@@ -63,6 +82,10 @@ std::vector<Option> studyOptions() {
          .panel = OptionPanel::Study,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.seeds.push_back(placeOf(value) / 1000.0); }},
+        pieceChoice<&PieceChoices::include>(
+            "include", "a place in gas or tagged fluid that is the colon's although it was left out"),
+        pieceChoice<&PieceChoices::exclude>(
+            "exclude", "a place in gas or tagged fluid that is not the colon's although it was taken"),
         {.key = "fluid",
          .value = wordValue(fluidNames()),
          .help = "tagged fluid in a colon: taken out, left with its surface as wall, or the wall that was "

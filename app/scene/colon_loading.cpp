@@ -43,6 +43,7 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
     colon.reading.label = volume.label;
     colon.reading.resample = volume.resample;
     colon.segmentation.seeds = volume.seeds;
+    colon.segmentation.choices = volume.choices;
     colon.segmentation.leavesFluid = volume.fluid == FluidChoice::Left;
     colon.centreline.reversed = volume.backwards;
     colon.isosurface = volume.isosurface;

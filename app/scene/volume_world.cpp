@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "app/scene/colon_loading.h"
+#include "app/scene/slice_pieces.h"
 #include "colon/flight/colon_flight.h"
 #include "engine/base/error.h"
 #include "engine/volume/value_range.h"
@@ -111,20 +112,23 @@ double VolumeWorld::clearanceAt(const Pose& head) const {
 
 std::shared_ptr<const SliceStudy> VolumeWorld::readSlices(Progress& progress) const {
     auto slices = std::make_shared<SliceStudy>();
+    Progress reading(progress, 0, 0.7), judging(progress, 0.7, 1);
     if (mOptions.study.empty()) {
-        slices->grey = builtInColon(mOptions.builtIn, progress).grey;
+        slices->grey = builtInColon(mOptions.builtIn, reading).grey;
     } else {
-        StudyOptions reading = mOptions.reading;
-        reading.key = 0;  // not asked for
-        Study study = readStudy(mOptions.study, reading, progress);
+        StudyOptions asked = mOptions.reading;
+        asked.key = 0;  // not asked for
+        Study study = readStudy(mOptions.study, asked, reading);
         slices->ofMask = study.isMask;
         slices->grey = study.isMask ? greyOf(study.mask) : std::move(study.grey);
     }
+    if (mSide->interior()) slices->pieces = slicePieces(*slices, mOptions.segmentation, judging);
     if (mOptions.up) turnUp(slices->grey.frame, *mOptions.up);
     const ValueSpan range = rangeOf(slices->grey);
     const bool ct = range.lowest <= kAirSeen;
     slices->windowWidth = ct ? kCtWidth : std::max(range.highest - range.lowest, 1e-9);
     slices->windowLevel = ct ? kCtLevel : 0.5 * (range.highest + range.lowest);
+    progress.report(1, "read the slices");
     return slices;
 }
 

@@ -68,6 +68,7 @@ public:
     std::shared_ptr<const SliceStudy> readSlices(Progress& progress) const override;
     const MaskVolume* lumen() const override { return mSide->region(); }
     const std::vector<glm::dvec3>& seeds() const override { return mOptions.segmentation.seeds; }
+    const PieceChoices& pieceChoices() const override { return mOptions.segmentation.choices; }
     Facts readPlace(const glm::dvec3& world) const override;
 
 private:

@@ -47,7 +47,7 @@ std::optional<ViewAction> actionOfKey(int key) {
         case GLFW_KEY_3:
             return ViewAction{ViewCommand::ToggleStereo};
         case GLFW_KEY_BACKSPACE:
-            return ViewAction{ViewCommand::TurnRound};  // of seeds in slices: the last one goes
+            return ViewAction{ViewCommand::TurnRound};  // in slices: the last choice goes
         case GLFW_KEY_DELETE:
             return ViewAction{ViewCommand::RemoveSeed};
         case GLFW_KEY_ENTER:
@@ -272,7 +272,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"- =", "what it looks at around: nearer, farther"},
         {"B", "opacity by variance, by gradient, as it is", does(NextModulation)},
         {"G Shift+G", "sigma of that: larger, smaller"},
-        {"V", "slices (volumes): clicks set seeds, Enter looks again", does(Slices)},
+        {"V", "slices (volumes): clicks take or leave pieces, Enter looks again", does(Slices)},
         {"P F12", "save a picture", does(Screenshot)},
         {"Tab", "the picture alone, or with the interface", does(HideInterface)},
         {"F2", "panels", does(Panels)},

@@ -56,8 +56,7 @@ OpenScene changedScene(const OpenScene& now, const SurfaceChange& change, const 
 
 void applyChange(const SceneChange& change, const SceneOptions& first, SceneOptions& options) {
     applyChange(change.surface, first, options);
-    if (!change.seeds) return;
-    options.volume.seeds = *change.seeds;
+    if (change.pieces) options.volume.choices = *change.pieces;
 }
 
 void SliceReading::abandon() {

@@ -102,11 +102,11 @@ struct ViewAction {
     int number = 0;                      // of SetFlightMode
 };
 
-// Another scene that the user asks for: the same study, seen differently, or with its lumen found again from
-// other seeds.
+// Another scene that the user asks for: the same study, seen differently, or with its lumen found again of
+// other pieces.
 struct SceneChange {
     SurfaceChange surface;
-    std::optional<std::vector<glm::dvec3>> seeds;  // world
+    std::optional<PieceChoices> pieces;
 };
 
 class ViewSession {

@@ -1,5 +1,5 @@
 // The session's part that changes what is shown: another scene in its place, a volume's surface and wall,
-// light that turns, and the slices that seeds are set in.
+// light that turns, and the slices that pieces are chosen in.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -310,14 +310,14 @@ bool ViewSession::actOnSlices(ViewCommand command) {
             return true;
         case ViewCommand::RemoveSeed:
         case ViewCommand::TurnRound:
-            mSlices->removeSeed();
+            mSlices->removeChoice();
             return true;
         case ViewCommand::FindAgain:
             askForChange();
             mChange->surface.isovalue.reset();
-            mChange->seeds = mSlices->seeds();
-            notify(mSlices->seeds().empty() ? "looking for the colon again, without seeds"
-                                            : "looking for the colon again, from the seeds");
+            mChange->pieces = mSlices->choices();
+            notify(mSlices->choices().empty() ? "looking for the colon again, without changes"
+                                              : "looking for the colon again, with the changes");
             return true;
         default:
             return false;
@@ -343,7 +343,7 @@ void ViewSession::showSlices(std::shared_ptr<const SliceStudy> study) {
     mStudy = std::move(study);
     mSliceViewWished = false;
     const auto* const source = offered<SliceSource>();
-    mSlices.emplace(mStudy, pose().position, source ? source->seeds() : std::vector<glm::dvec3>{});
+    mSlices.emplace(mStudy, pose().position, source ? source->pieceChoices() : PieceChoices{});
 }
 
 const Plane<PackedColor>& ViewSession::slicePicture(int width, int height) {
@@ -354,7 +354,7 @@ const Plane<PackedColor>& ViewSession::slicePicture(int width, int height) {
 
 std::string ViewSession::click(double x, double y) {
     if (!mSlices) return "";
-    const std::string text = mSlices->click(x, y, mSliceWidth, mSliceHeight);
+    const std::string text = mSlices->click(x, y, mSliceWidth, mSliceHeight, *mScene);
     if (!text.empty()) notify(text);
     return text;
 }

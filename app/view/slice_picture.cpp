@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <glm/common.hpp>
 #include <glm/ext/vector_int3_sized.hpp>
 
 namespace stereonav {
@@ -13,6 +14,7 @@ namespace {
 constexpr int kMarkRadius = 7;      // pixels
 constexpr double kMarkSlices = 12;  // marks further away are not shown
 constexpr double kDim = 0.35;       // of a mark in another slice
+constexpr float kTint = 0.5f;       // share of a piece's colour
 constexpr PackedColor kOutline = 1023u | 560u << 10 | 200u << 20;
 
 PackedColor greyOf(double share) {
@@ -72,6 +74,22 @@ void outline(const SliceContent& content, const SliceLayout& layout, int slice, 
         for (int x = 0; x < picture.width(); ++x)
             if (inside.at(x, y) != inside.at(x + 1, y) || inside.at(x, y) != inside.at(x, y + 1))
                 picture.at(x, y) = kOutline;
+}
+
+// Blends the colours of pieces over their voxels.
+void tint(const SliceContent& content, const SliceLayout& layout, int slice, Plane<PackedColor>& picture) {
+    const glm::dvec3 first = layout.voxelAt(0.5, 0.5, slice), right = layout.voxelAt(1.5, 0.5, slice) - first,
+                     down = layout.voxelAt(0.5, 1.5, slice) - first;
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) {
+            const int piece = content.pieces->at(glm::ivec3(
+                glm::round(first + static_cast<double>(x) * right + static_cast<double>(y) * down)));
+            if (piece < 0) continue;
+            const PackedColor color = content.tints[static_cast<std::size_t>(piece)];
+            if (color == 0) continue;
+            const glm::vec3 from = unpackColor(picture.at(x, y));
+            picture.at(x, y) = packColor(glm::mix(from, unpackColor(color), kTint));
+        }
 }
 
 void plot(Plane<PackedColor>& picture, int x, int y, PackedColor color) {
@@ -214,6 +232,7 @@ Plane<PackedColor> drawSlice(const SliceContent& content, const SliceLayout& lay
             picture.at(x, y) = greyOf((value - lowest) / content.windowWidth);
         }
     }
+    if (content.pieces && !content.tints.empty()) tint(content, layout, slice, picture);
     if (content.lumen && !content.lumen->empty()) outline(content, layout, slice, picture);
     for (const SliceMark& mark : content.marks) {
         const glm::dvec3 voxel = grey.frame.voxelFromWorld(mark.world);

@@ -5,31 +5,48 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/capabilities.h"
+
 namespace stereonav {
 namespace {
 
-constexpr PackedColor kSeedColor = 300u | 1000u << 10 | 300u << 20,
-                      kEyeColor = 300u | 800u << 10 | 1023u << 20;
-constexpr double kEyeMoved = 2e-4;  // metres: less than a voxel is not worth a new picture
+constexpr PackedColor packed(unsigned red, unsigned green, unsigned blue) {  // linear, 0 to 1023
+    return red | green << 10 | blue << 20;
+}
+// Of pieces: taken, left out, left out without being sure; of marks: a choice to take, one to leave, the eye.
+constexpr PackedColor kTaken = packed(40, 500, 60), kLeft = packed(120, 180, 700),
+                      kUnsure = packed(900, 620, 30), kTake = packed(300, 1000, 300),
+                      kLeave = packed(1000, 300, 300), kEye = packed(300, 800, 1023);
+constexpr double kTaggedFluid = 200;  // HU, as of SegmentationSetting
+constexpr double kEyeMoved = 2e-4;    // metres: less than a voxel is not worth a new picture
 
 struct AxisText {
     const char *name, *letter;
 };
 constexpr AxisText kAxisTexts[3] = {{"axial", "z"}, {"coronal", "y"}, {"sagittal", "x"}};
 
-}  // namespace
-
-std::string seedText(const glm::dvec3& world) {
+// As the command line takes it: LPS millimetres.
+std::string clickedPlace(const glm::dvec3& world) {
     return fmt::format("{:.1f},{:.1f},{:.1f}", 1000 * world.x, 1000 * world.y, 1000 * world.z);
 }
 
+bool holds(const MaskVolume& mask, const glm::dvec3& world) {
+    const glm::ivec3 voxel(glm::round(mask.frame.voxelFromWorld(world)));
+    return mask.frame.contains(voxel) && mask.at(voxel) != 0;
+}
+
+}  // namespace
+
 SliceView::SliceView(std::shared_ptr<const SliceStudy> study, const glm::dvec3& eye,
-                     std::vector<glm::dvec3> seeds)
-    : mStudy(std::move(study)), mSlice(layout(1, 1).sliceAt(eye)), mSeeds(std::move(seeds)) {}
+                     const PieceChoices& choices)
+    : mStudy(std::move(study)), mSlice(layout(1, 1).sliceAt(eye)) {
+    for (const glm::dvec3& place : choices.include) mChoices.push_back({place, true});
+    for (const glm::dvec3& place : choices.exclude) mChoices.push_back({place, false});
+}
 
 void SliceView::nextAxis(const glm::dvec3& eye) {
     mAxis = static_cast<SliceAxis>((static_cast<int>(mAxis) + 1) % 3);
-    mSlice = layout(1, 1).sliceAt(mSeeds.empty() ? eye : mSeeds.back());
+    mSlice = layout(1, 1).sliceAt(mChoices.empty() ? eye : mChoices.back().place);
     mChanged = true;
 }
 
@@ -40,34 +57,71 @@ void SliceView::turnPages(int by) {
     mSlice = slice;
 }
 
-std::string SliceView::click(double x, double y, int width, int height) {
-    const SliceLayout slices = layout(width, height);
-    const auto world = slices.worldAt(x, y, mSlice);
-    if (!world) return "";
-    mSeeds.push_back(*world);
-    mChanged = true;
-    const GreyVolume& grey = mStudy->grey;
-    const glm::ivec3 voxel(glm::clamp(glm::round(grey.frame.voxelFromWorld(*world)), glm::dvec3(0),
-                                      glm::dvec3(grey.frame.size - 1)));
-    return fmt::format("--seed {} (value {:.0f})", seedText(*world),
-                       grey.at(voxel) * grey.scale + grey.offset);
+glm::ivec3 SliceView::voxelAt(const glm::dvec3& world) const {
+    const VolumeFrame& frame = mStudy->grey.frame;
+    return glm::ivec3(
+        glm::clamp(glm::round(frame.voxelFromWorld(world)), glm::dvec3(0), glm::dvec3(frame.size - 1)));
 }
 
-void SliceView::removeSeed() {
-    if (mSeeds.empty()) return;
-    mSeeds.pop_back();
+std::string SliceView::click(double x, double y, int width, int height, const OpenScene& scene) {
+    const auto world = layout(width, height).worldAt(x, y, mSlice);
+    if (!world) return "";
+    const GreyVolume& grey = mStudy->grey;
+    const double value = grey.at(voxelAt(*world)) * grey.scale + grey.offset;
+    const int piece = pieceAt(*world);
+    if (piece < 0 && !(value > kTaggedFluid && !mStudy->ofMask))
+        return fmt::format("value {:.0f} at {}: click in gas or tagged fluid to take or leave it", value,
+                           clickedPlace(*world));
+    const std::string& text = piece < 0 ? "" : mStudy->pieces.list[static_cast<std::size_t>(piece)].text;
+    const std::string what = piece < 0      ? fmt::format("tagged fluid (value {:.0f})", value)
+                             : text.empty() ? "this gas"
+                                            : text;
     mChanged = true;
+    if (piece >= 0 &&
+        std::erase_if(mChoices, [&](const Choice& choice) { return pieceAt(choice.place) == piece; }) > 0)
+        return "as it was found: " + what;
+    const SliceSource* const source = scene.scene->offered<SliceSource>();
+    const bool taken = source && source->lumen() && holds(*source->lumen(), *world);
+    mChoices.push_back({*world, !taken});
+    return fmt::format("{} {} {} {}; Enter finds the colon again", taken ? "--exclude" : "--include",
+                       clickedPlace(*world), taken ? "leaves out" : "takes", what);
+}
+
+void SliceView::removeChoice() {
+    if (mChoices.empty()) return;
+    mChoices.pop_back();
+    mChanged = true;
+}
+
+PieceChoices SliceView::choices() const {
+    PieceChoices choices;
+    for (const Choice& choice : mChoices)
+        (choice.taken ? choices.include : choices.exclude).push_back(choice.place);
+    return choices;
+}
+
+std::vector<PackedColor> SliceView::tints(const MaskVolume* lumen) const {
+    const auto& list = mStudy->pieces.list;
+    std::vector<PackedColor> tints(list.size(), 0);
+    for (std::size_t n = 0; n < list.size(); ++n) {
+        if (list[n].text.empty()) continue;
+        const bool taken = lumen && holds(*lumen, list[n].place);
+        tints[n] = taken ? kTaken : list[n].sure ? kLeft : kUnsure;
+    }
+    for (const Choice& choice : mChoices)
+        if (const int piece = pieceAt(choice.place); piece >= 0)
+            tints[static_cast<std::size_t>(piece)] = choice.taken ? kTaken : kLeft;
+    return tints;
 }
 
 std::string SliceView::status() const {
     const SliceLayout slices = layout(1, 1);
     const AxisText& axis = kAxisTexts[static_cast<int>(mAxis)];
     return fmt::format(
-        "{} slice {} of {}, {} = {:.1f} mm  {} seed{}  click: seed  Backspace: one less  Enter: find the "
-        "colon "
-        "again  V: next axis  Page Up/Down: slices  Esc: back",
-        axis.name, mSlice + 1, slices.sliceCount(), axis.letter, slices.placeOf(mSlice), mSeeds.size(),
-        mSeeds.size() == 1 ? "" : "s");
+        "{} slice {} of {}, {} = {:.1f} mm  {} change{}  click: take or leave a piece  Backspace: one less  "
+        "Enter: find the colon again  V: next axis  Page Up/Down: slices  Esc: back",
+        axis.name, mSlice + 1, slices.sliceCount(), axis.letter, slices.placeOf(mSlice), mChoices.size(),
+        mChoices.size() == 1 ? "" : "s");
 }
 
 const Plane<PackedColor>& SliceView::picture(int width, int height, const glm::dvec3& eye,
@@ -77,10 +131,18 @@ const Plane<PackedColor>& SliceView::picture(int width, int height, const glm::d
         mDrawnScene == scene)
         return mPicture;
     const SliceSource* const source = scene ? scene->scene->offered<SliceSource>() : nullptr;
-    SliceContent content{
-        &mStudy->grey, mStudy->windowWidth, mStudy->windowLevel, source ? source->lumen() : nullptr, {}};
-    content.marks.push_back({eye, kEyeColor, true});
-    for (const glm::dvec3& seed : mSeeds) content.marks.push_back({seed, kSeedColor, false});
+    SliceContent content;
+    content.grey = &mStudy->grey;
+    content.windowWidth = mStudy->windowWidth;
+    content.windowLevel = mStudy->windowLevel;
+    content.lumen = source ? source->lumen() : nullptr;
+    content.pieces = &mStudy->pieces;
+    content.tints = tints(content.lumen);
+    content.marks.push_back({eye, kEye, true});
+    if (source)
+        for (const glm::dvec3& seed : source->seeds()) content.marks.push_back({seed, kTake, false});
+    for (const Choice& choice : mChoices)
+        content.marks.push_back({choice.place, choice.taken ? kTake : kLeave, false});
     mPicture = drawSlice(content, layout(width, height), mSlice, width, height);
     mDrawnEye = eye;
     mDrawnScene = scene;

@@ -1,5 +1,5 @@
-// The slice view: leafs through a study's slices and takes seeds by clicks. Lives while it is shown; the
-// session owns it.
+// The slice view: leafs through a study's slices and takes or leaves pieces by clicks. Lives while it is
+// shown; the session owns it.
 #pragma once
 
 #include <memory>
@@ -14,41 +14,46 @@ namespace stereonav {
 
 class SliceView {
 public:
-    // Opens at the slice through `eye` (world). seeds: to start with, world.
-    SliceView(std::shared_ptr<const SliceStudy> study, const glm::dvec3& eye, std::vector<glm::dvec3> seeds);
+    // Opens at the slice through `eye` (world). choices: to start with.
+    SliceView(std::shared_ptr<const SliceStudy> study, const glm::dvec3& eye, const PieceChoices& choices);
 
-    void nextAxis(const glm::dvec3& eye);  // goes to the slice through the eye, or the newest seed's
+    void nextAxis(const glm::dvec3& eye);  // goes to the slice through the eye, or the newest choice's
     void turnPages(int by);
-    // x, y: continuous pixels of a picture of this size. "" beside the study, else what to tell.
-    std::string click(double x, double y, int width, int height);
-    void removeSeed();
+    // Leaves out the piece that was taken, and the other way round. x, y: continuous pixels of a picture of
+    // this size. "" beside the study, else what to tell.
+    std::string click(double x, double y, int width, int height, const OpenScene& scene);
+    void removeChoice();  // the newest
 
-    const std::vector<glm::dvec3>& seeds() const { return mSeeds; }
+    PieceChoices choices() const;
     const std::shared_ptr<const SliceStudy>& study() const { return mStudy; }
     SliceAxis axis() const { return mAxis; }
     int slice() const { return mSlice; }
     std::string status() const;
-    // lumen may be null. Asked for again with the same arguments and nothing changed, nothing is drawn:
-    // version() tells.
+    // Asked for again with the same arguments and nothing changed, nothing is drawn: version() tells.
     const Plane<PackedColor>& picture(int width, int height, const glm::dvec3& eye,
                                       const std::shared_ptr<const OpenScene>& scene);
     long long version() const { return mVersion; }
 
 private:
+    struct Choice {
+        glm::dvec3 place{0.0};  // world
+        bool taken = false;
+    };
+
     SliceLayout layout(int width, int height) const { return {mStudy->grey.frame, mAxis, width, height}; }
+    glm::ivec3 voxelAt(const glm::dvec3& world) const;
+    int pieceAt(const glm::dvec3& world) const { return mStudy->pieces.at(voxelAt(world)); }
+    std::vector<PackedColor> tints(const MaskVolume* lumen) const;
 
     std::shared_ptr<const SliceStudy> mStudy;
     SliceAxis mAxis = SliceAxis::Axial;
     int mSlice = 0;
-    std::vector<glm::dvec3> mSeeds;
+    std::vector<Choice> mChoices;  // at most one a piece
     Plane<PackedColor> mPicture;
     std::shared_ptr<const OpenScene> mDrawnScene;
     glm::dvec3 mDrawnEye{0.0};
     bool mChanged = true;
     long long mVersion = 0;
 };
-
-// A seed as the command line takes it: LPS millimetres.
-std::string seedText(const glm::dvec3& world);
 
 }  // namespace stereonav

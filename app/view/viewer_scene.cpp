@@ -330,7 +330,7 @@ void Viewer::followWishes() {
     if (const auto change = mSession->takeSceneChange()) {
         applyChange(*change, mOptions.scene, mChanged.scene);
         mApplies.clear();
-        if (mScene->scene->offered<SurfaceChoices>() && !change->seeds)
+        if (mScene->scene->offered<SurfaceChoices>() && !change->pieces)
             mWorker->change(
                 [options = mChanged, surface = change->surface](const OpenScene& now, Progress& progress) {
                     return changedScene(now, surface, options, progress);

@@ -17,7 +17,8 @@ void Viewer::openOther(const std::string& study) {
             throw Error(study, "", "what is open has no line to match it with", "open a colon first");
         SettingTexts settings = this->settings();
         const std::string name = mOptions.scene.scene;
-        for (const char* key : {"series", "label", "seed", "path", "pose", "paint"}) settings.erase(key);
+        for (const char* key : {"series", "label", "seed", "include", "exclude", "path", "pose", "paint"})
+            settings.erase(key);
         settings["SCENE"] = {study};
         settings["with"] = {name};
         ViewOptions options = viewOptionsOf(settings);

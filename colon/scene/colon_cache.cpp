@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <span>
 
+#include "colon/scene/saved_lumen.h"
 #include "engine/base/cache.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the file's form, or what is found in the same study, changes.
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 constexpr int kBrick = 8;
 
 struct Header {
@@ -274,6 +275,7 @@ std::uint64_t colonCacheKey(std::uint64_t study, const ColonOptions& options) {
     const SegmentationSetting& s = options.segmentation;
     hash.add(s.air).add(s.tagged).add(s.wall).add(static_cast<std::int64_t>(s.seeds.size()));
     for (const glm::dvec3& seed : s.seeds) hash.add(seed.x).add(seed.y).add(seed.z);
+    addChoices(s.choices, hash);
     if (s.leavesFluid) hash.add("fluid is left");
     const CentrelineSetting& line = options.centreline;
     hash.add(line.spacing).add(static_cast<std::int64_t>(line.reversed));

@@ -15,6 +15,7 @@
 #include "colon/scene/isosurface_scene.h"
 #include "colon/scene/saved_lumen.h"
 #include "colon/scene/transfer_presets.h"
+#include "colon/segmentation/lumen_pieces.h"
 #include "engine/base/error.h"
 #include "engine/volume/distance_transform.h"
 
@@ -54,7 +55,7 @@ LumenField lumenOfGrey(Study& study, const ColonOptions& options, std::vector<st
         options.keepsStudy
             ? segmentColon(study.grey, options.segmentation, finding, std::move(study.air))
             : segmentColon(std::move(study.grey), options.segmentation, finding, std::move(study.air));
-    if (keeps) notes.push_back(saveLumen(lumen.lumen, key));
+    if (keeps) notes.push_back(saveLumen(lumen, key));
     return lumen;
 }
 
@@ -225,7 +226,9 @@ void refuseOfColons(const ColonOptions& options) {
                 "outside",
                 "leave it out");
     };
-    refuse(!options.segmentation.seeds.empty(), "--seed");
+    refuse(!options.segmentation.seeds.empty(), kSeedOption);
+    refuse(!options.segmentation.choices.include.empty(), kIncludeOption);
+    refuse(!options.segmentation.choices.exclude.empty(), kExcludeOption);
     refuse(options.centreline.reversed, "--backwards");
 }
 

@@ -11,15 +11,15 @@
 #include "colon/study/study_parts.h"
 #include "engine/base/cache.h"
 #include "engine/base/error.h"
-#include "engine/base/hash.h"
 
 namespace stereonav {
 namespace {
 namespace fs = std::filesystem;
 
 // Counts up when the same study and settings give another lumen.
-constexpr std::int64_t kSavedVersion = 1;
-constexpr const char *kKeyField = "stereonav lumen key", *kHashField = "stereonav lumen hash";
+constexpr std::int64_t kSavedVersion = 2;
+constexpr const char *kKeyField = "stereonav lumen key", *kHashField = "stereonav lumen hash",
+                     *kNoteField = "stereonav lumen note ";  // and its number
 constexpr std::size_t kLongestHeader = 64 << 10;
 constexpr const char* kReading = "reading the lumen that was kept";
 
@@ -54,6 +54,13 @@ std::string fieldOf(const std::string& header, const std::string& name) {
     return header.substr(from, header.find('\n', from) - from);
 }
 
+std::vector<std::string> notesOf(const std::string& header) {
+    std::vector<std::string> notes;
+    for (std::string note; !(note = fieldOf(header, kNoteField + std::to_string(notes.size() + 1))).empty();)
+        notes.push_back(std::move(note));
+    return notes;
+}
+
 fs::path fileInCache(std::uint64_t key) {
     return keptFile(fmt::format("lumen-{}.nrrd", hexOf(key)));
 }
@@ -76,8 +83,18 @@ std::uint64_t savedLumenKey(std::uint64_t study, const SegmentationSetting& sett
     hash.add("lumen").add(kSavedVersion).add(static_cast<std::int64_t>(study));
     hash.add(setting.air).add(setting.tagged).add(setting.wall);
     for (const glm::dvec3& seed : setting.seeds) hash.add(seed.x).add(seed.y).add(seed.z);
+    addChoices(setting.choices, hash);
     if (setting.leavesFluid) hash.add("fluid is left");
     return hash.value();
+}
+
+void addChoices(const PieceChoices& choices, Hash& hash) {
+    const auto add = [&](const char* name, const std::vector<glm::dvec3>& places) {
+        if (!places.empty()) hash.add(name).add(static_cast<std::int64_t>(places.size()));
+        for (const glm::dvec3& place : places) hash.add(place.x).add(place.y).add(place.z);
+    };
+    add("included", choices.include);
+    add("excluded", choices.exclude);
 }
 
 fs::path lumenBeside(const fs::path& study) {
@@ -93,10 +110,12 @@ fs::path lumenBeside(const fs::path& study) {
     return whole.parent_path() / (name.string() + "_lumen.nrrd");
 }
 
-std::string saveLumen(const MaskVolume& lumen, std::uint64_t key) {
+std::string saveLumen(const LumenField& found, std::uint64_t key) {
     const fs::path file = fileInCache(key);
-    const HeaderFields fields = {{kKeyField, hexOf(key)},
-                                 {kHashField, hashOf(lumen.frame, lumen.values.data())}};
+    const MaskVolume& lumen = found.lumen;
+    HeaderFields fields = {{kKeyField, hexOf(key)}, {kHashField, hashOf(lumen.frame, lumen.values.data())}};
+    for (std::size_t n = 0; n < found.notes.size(); ++n)
+        fields.emplace_back(kNoteField + std::to_string(n + 1), found.notes[n]);
     const bool kept = keep(file, [&](const fs::path& place) {
         writeMask(place, lumen, "the lumen of a colon, segments numbered from the rectum", fields);
     });
@@ -121,6 +140,7 @@ SavedLumen readSavedLumen(const fs::path& study, const GreyVolume& grey, const S
         try {
             saved.lumen = restoreLumen(grey, readMask(file, header, reading), setting);
             if (saved.lumen) {
+                saved.lumen->notes = notesOf(header);
                 saved.notes.push_back("lumen read back from " + file.string());
                 noteUse(fileInCache(key));
                 break;

@@ -9,19 +9,23 @@
 #include <vector>
 
 #include "colon/segmentation/segmentation.h"
+#include "engine/base/hash.h"
 
 namespace stereonav {
 
 // Of everything that the lumen depends on: the study (its content's key) and the settings.
 std::uint64_t savedLumenKey(std::uint64_t study, const SegmentationSetting& setting);
 
+// Adds nothing where nothing was chosen: keys of before stay.
+void addChoices(const PieceChoices& choices, Hash& hash);
+
 // NAME_lumen.nrrd beside the study, a folder's beside the folder: where such a file is read from as well, but
 // never written to.
 std::filesystem::path lumenBeside(const std::filesystem::path& study);
 
-// Keeps the segments' numbers (compressed NRRD, with the key and a hash of the voxels in its header) in the
-// cache. Says in one line where, or that it could not be kept.
-std::string saveLumen(const MaskVolume& lumen, std::uint64_t key);
+// Keeps the segments' numbers (compressed NRRD, with the key, a hash of the voxels and the lumen's notes in
+// its header) in the cache. Says in one line where, or that it could not be kept.
+std::string saveLumen(const LumenField& found, std::uint64_t key);
 
 struct SavedLumen {
     std::optional<LumenField> lumen;

@@ -30,17 +30,29 @@ Pieces piecesOf(const MaskVolume& mask) {
     return pieces;
 }
 
-std::vector<int> piecesOfSeeds(const Pieces& pieces, const VolumeFrame& frame,
-                               const std::vector<glm::dvec3>& seeds) {
-    std::vector<int> kept;
-    for (const glm::dvec3& seed : seeds) {
-        const int piece = pieces.parts.at(pieces.runs, seedVoxel(frame, seed));
-        if (piece < 0)
-            throw Error(seedName(seed), "", "lies outside the mask", "give a place inside the lumen");
+int givenPiece(const Pieces& pieces, const VolumeFrame& frame, const char* option, const glm::dvec3& place) {
+    const int piece = pieces.parts.at(pieces.runs, givenVoxel(frame, option, place));
+    if (piece < 0)
+        throw Error(givenName(option, place), "", "lies outside the mask", "give a place inside the lumen");
+    return piece;
+}
+
+void keepGiven(const Pieces& pieces, const VolumeFrame& frame, const char* option,
+               const std::vector<glm::dvec3>& places, std::vector<int>& kept) {
+    for (const glm::dvec3& place : places) {
+        const int piece = givenPiece(pieces, frame, option, place);
         if (std::find(kept.begin(), kept.end(), piece) == kept.end()) kept.push_back(piece);
     }
+}
+
+void changeKept(const Pieces& pieces, const VolumeFrame& frame, const PieceChoices& choices,
+                std::vector<int>& kept) {
+    keepGiven(pieces, frame, kIncludeOption, choices.include, kept);
+    for (const glm::dvec3& place : choices.exclude)
+        std::erase(kept, givenPiece(pieces, frame, kExcludeOption, place));
+    if (kept.empty())
+        throw Error("", "", fmt::format("{} leaves nothing of the mask", kExcludeOption), "leave one out");
     std::sort(kept.begin(), kept.end());
-    return kept;
 }
 
 // The largest piece, and all that are no specks.
@@ -94,8 +106,10 @@ LumenField lumenFromMask(const MaskVolume& mask, const SegmentationSetting& sett
     progress.report(0, "finding the lumen's pieces");
     const Pieces pieces = piecesOf(mask);
     LumenField lumen;
-    const std::vector<int> kept = setting.seeds.empty() ? largePieces(pieces, mask.frame, lumen.notes)
-                                                        : piecesOfSeeds(pieces, mask.frame, setting.seeds);
+    std::vector<int> kept;
+    if (setting.seeds.empty()) kept = largePieces(pieces, mask.frame, lumen.notes);
+    keepGiven(pieces, mask.frame, kSeedOption, setting.seeds, kept);
+    changeKept(pieces, mask.frame, setting.choices, kept);
     const LumenCrop crop = cropAround(pieces, kept, mask.frame);
     const Pieces cut = cutOut(pieces, kept, crop);
     std::vector<int> all(cut.parts.list.size());

@@ -111,18 +111,19 @@ double height(const glm::dvec3& world) {
 
 }  // namespace
 
-std::string seedName(const glm::dvec3& s) {
-    return fmt::format("--seed {:.7g},{:.7g},{:.7g}", 1000 * s.x, 1000 * s.y, 1000 * s.z);
+std::string givenName(const char* option, const glm::dvec3& place) {
+    return fmt::format("{} {:.7g},{:.7g},{:.7g}", option, 1000 * place.x, 1000 * place.y, 1000 * place.z);
 }
 
-glm::ivec3 seedVoxel(const VolumeFrame& frame, const glm::dvec3& seed) {
-    if (!std::isfinite(seed.x) || !std::isfinite(seed.y) || !std::isfinite(seed.z))
-        throw Error(seedName(seed), "", "expected three finite numbers", "give a place in millimetres");
-    const glm::dvec3 voxel = glm::floor(frame.voxelFromWorld(seed) + 0.5);
+glm::ivec3 givenVoxel(const VolumeFrame& frame, const char* option, const glm::dvec3& place) {
+    if (!std::isfinite(place.x) || !std::isfinite(place.y) || !std::isfinite(place.z))
+        throw Error(givenName(option, place), "", "expected three finite numbers",
+                    "give a place in millimetres");
+    const glm::dvec3 voxel = glm::floor(frame.voxelFromWorld(place) + 0.5);
     const glm::dvec3 size(frame.size);
     if (voxel.x < 0 || voxel.y < 0 || voxel.z < 0 || voxel.x >= size.x || voxel.y >= size.y ||
         voxel.z >= size.z)
-        throw Error(seedName(seed), "",
+        throw Error(givenName(option, place), "",
                     fmt::format("lies outside the volume: voxel {:.0f} {:.0f} {:.0f} of {} x {} x {}",
                                 voxel.x, voxel.y, voxel.z, frame.size.x, frame.size.y, frame.size.z),
                     "give a place inside it, in millimetres (x left, y back, z up)");

@@ -15,10 +15,13 @@ struct Pieces {
     Components parts;
 };
 
-// The voxel nearest to a seed. Throws Error when it is not finite or lies outside the volume.
-glm::ivec3 seedVoxel(const VolumeFrame& frame, const glm::dvec3& seed);
+// Options that give places.
+constexpr const char *kSeedOption = "--seed", *kIncludeOption = "--include", *kExcludeOption = "--exclude";
+
+// The voxel nearest to a place that was given. Throws Error when it is not finite or lies outside the volume.
+glm::ivec3 givenVoxel(const VolumeFrame& frame, const char* option, const glm::dvec3& place);
 // "--seed x,y,z" in millimetres, as it is given and as errors name it.
-std::string seedName(const glm::dvec3& seed);
+std::string givenName(const char* option, const glm::dvec3& place);
 
 // A piece on a grid of blocks of at most 8^3 voxels: enough to walk from end to end.
 struct PieceWay {

@@ -38,27 +38,6 @@ void checkSetting(const SegmentationSetting& s) {
                     "give them in Hounsfield units");
 }
 
-void takeSeeds(const GreyVolume& study, const SegmentationSetting& setting, AirPieces& air) {
-    if (setting.seeds.empty()) return;
-    for (AirKind& kind : air.kinds)
-        if (kind == AirKind::Colon) kind = AirKind::Other;
-    for (const glm::dvec3& seed : setting.seeds) {
-        const glm::ivec3 voxel = seedVoxel(study.frame, seed);
-        const int piece = air.pieces.parts.at(air.pieces.runs, voxel);
-        const double hu = huAt(study, voxel);
-        if (piece >= 0) {
-            air.kinds[static_cast<std::size_t>(piece)] = AirKind::Colon;
-        } else if (hu <= setting.tagged) {
-            throw Error(
-                seedName(seed), "",
-                fmt::format(
-                    "lies in tissue: {:.0f} HU, neither air (below {:g}) nor tagged fluid (above {:g})", hu,
-                    setting.air, setting.tagged),
-                "give a place inside the lumen");
-        }
-    }
-}
-
 LumenCrop cropOf(const GreyVolume& study, const AirPieces& air, const FluidPools& fluid) {
     glm::ivec3 first = study.frame.size, last(-1);
     const auto add = [&](const Component& part) {
@@ -321,13 +300,13 @@ LumenField segmentStudy(const GreyVolume& study, const SegmentationSetting& sett
     checkSetting(setting);
     Progress findingAir(progress, 0, 0.4);
     AirPieces air = findAir(study, setting, std::move(known), findingAir);
-    takeSeeds(study, setting, air);
+    takeGiven(study, setting, air);
     progress.report(0.4, "looking for tagged fluid");
     FluidPools fluid = findFluid(study, setting, air);
     const std::size_t pools = fluid.pools.size();
     if (setting.leavesFluid) fluid.pools.clear();
     LumenField lumen;
-    lumen.notes = air.notes;
+    lumen.notes = pieceNotes(study, air);
     const LumenCrop crop = cropOf(study, air, fluid);
     for (int k = 0; k < study.frame.size.z; ++k)
         if (k < crop.first.z || k >= crop.first.z + crop.frame.size.z) done(k);

@@ -1,5 +1,5 @@
 // Finds the colon's lumen in a CT: air, and fluid made bright by a contrast agent, told from lungs, other
-// bowel gas and the air around the patient by place, size and shape.
+// bowel gas and the air around the patient by density, place, size and shape.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 
 #include "engine/base/progress.h"
 #include "engine/volume/components.h"
+#include "engine/volume/piece_choices.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav {
@@ -17,6 +18,7 @@ struct SegmentationSetting {
     double tagged = 200;            // HU: above, with a level surface under air, is tagged fluid
     double wall = -450;             // HU: the wall is this isosurface (half way between air and tissue)
     std::vector<glm::dvec3> seeds;  // world, metres: pieces that hold one are the colon; empty: chosen
+    PieceChoices choices;           // pieces of air and pools that are, or are not, the colon's all the same
     bool leavesFluid = false;       // tagged fluid stays: its surface is wall, the lumen is air alone
 };
 

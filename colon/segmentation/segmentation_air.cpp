@@ -1,166 +1,123 @@
 // Air is taken in components; each is judged by what it touches, how far it lies under tissue, how dense it
-// is and how long it is for its width.
+// is, how wide it is and how long for its width, and where in the body it lies.
 #include "colon/segmentation/segmentation_air.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
-#include <numbers>
 
+#include "colon/segmentation/air_measures.h"
 #include "engine/base/error.h"
 
 namespace stereonav {
 namespace {
 
+constexpr double kSpeck = 0.02e-6;       // cubic metres: not worth a look
 constexpr double kSmallPiece = 2e-6;     // cubic metres: less is bowel gas, unless fluid ties it to the colon
-constexpr double kLargePiece = 100e-6;   // lungs are larger
-constexpr double kLungDensity = -930;    // HU: the median of lungs lies above, that of gas below
 constexpr double kTissueAround = 0.006;  // metres of tissue on all sides of what lies in a body
-constexpr double kTubeLength = 2.5;      // diameters
-constexpr double kUpper = 0.6;           // share of the height: round pieces above are a stomach's
-constexpr std::size_t kSamples = 64;
-
-// Runs of one piece, at most `most`, evenly picked.
-struct PlacedRun {
-    VoxelRun run;
-    int j = 0, k = 0;
-};
-std::vector<PlacedRun> sampledRuns(const Pieces& pieces, int piece, std::size_t most) {
-    std::vector<PlacedRun> all;
-    const Component& part = pieces.parts.list[static_cast<std::size_t>(piece)];
-    for (int k = part.first.z; k <= part.last.z; ++k)
-        for (int j = part.first.y; j <= part.last.y; ++j) {
-            const std::size_t row = pieces.runs.rowNumber(j, k);
-            for (std::uint32_t n = pieces.runs.rowStart[row]; n < pieces.runs.rowStart[row + 1]; ++n)
-                if (pieces.parts.ofRun[n] == static_cast<std::uint32_t>(piece))
-                    all.push_back({pieces.runs.runs[n], j, k});
-        }
-    if (all.size() <= most) return all;
-    std::vector<PlacedRun> some;
-    for (std::size_t n = 0; n < most; ++n) some.push_back(all[n * all.size() / most]);
-    return some;
-}
-
-glm::ivec3 middleOf(const PlacedRun& r) {
-    return {(r.run.first + r.run.end) / 2, r.j, r.k};
-}
-
-// Metres of tissue from a voxel to the volume's face.
-double tissueAlong(const GreyVolume& study, glm::ivec3 voxel, int axis, int step) {
-    int count = 0;
-    for (; study.frame.contains(voxel); voxel[axis] += step) {
-        const double hu = huAt(study, voxel);
-        count += hu > -300 && hu < 2000;
-    }
-    return count * study.frame.spacing[axis];
-}
+// HU. The medians of lungs lie above kLungMedian, those of gas below; emphysema may lie below too, but then
+// its vessels and what is left of its walls lift a tenth of its voxels above kLungVessels.
+constexpr double kLungMedian = -930, kLungVessels = -860;
+// Round pieces in the upper part of the gas, away from the flanks where the colon's flexures lie, are a
+// stomach's.
+constexpr double kTubeLength = 2.5, kUpper = 0.6, kFlank = 0.2;
+// Pieces that may as well be a stomach's, a duodenum's or small bowel's.
+constexpr double kAlone = 5e-6, kAloneShare = 0.1;                       // cubic metres; share of the largest
+constexpr double kNarrow = 0.022, kMiddle = 0.3, kNarrowVolume = 30e-6;  // metres, share, cubic metres
+constexpr double kPelvis = 0.3;  // share of the gas's height: below, what is narrow may be a sigmoid
 
 class AirJudge {
 public:
-    AirJudge(const GreyVolume& study, AirPieces& air) : mStudy(study), mAir(air) {}
+    AirJudge(const GreyVolume& study, AirPieces& air)
+        : mStudy(study), mAir(air), mMeasures(study, air.pieces) {}
 
-    AirKind kindOf(int piece) const {
-        const Component& part = mAir.pieces.parts.list[static_cast<std::size_t>(piece)];
-        const double volume = volumeOf(part);
-        if (touchesSides(part)) return AirKind::Outside;
-        if (volume < 0.02e-6) return AirKind::Small;
-        const auto runs = sampledRuns(mAir.pieces, piece, kSamples);
-        if (tissueAround(runs) < kTissueAround) return AirKind::Outside;
-        if (volume > kLargePiece && medianOf(piece) > kLungDensity) return AirKind::Lung;
-        return volume < kSmallPiece ? AirKind::Small : AirKind::Colon;
+    // By what each is by itself.
+    void judgeEach() {
+        const std::size_t count = mAir.pieces.parts.list.size();
+        mAir.kinds.resize(count);
+        mAir.reasons.resize(count);
+        for (std::size_t n = 0; n < count; ++n) mAir.kinds[n] = kindOf(static_cast<int>(n));
     }
 
-    double volumeOf(const Component& part) const {
-        const glm::dvec3& s = mStudy.frame.spacing;
-        return static_cast<double>(part.voxels) * s.x * s.y * s.z;
-    }
-
-    // Length over diameter.
-    double slenderness(int piece) const {
-        const PieceWay way = wayThrough(mAir.pieces, piece, mStudy.frame);
-        const double volume = volumeOf(mAir.pieces.parts.list[static_cast<std::size_t>(piece)]);
-        if (!(way.length > 0)) return 0;
-        return way.length / (2 * std::sqrt(volume / (std::numbers::pi * way.length)));
+    // By what else there is.
+    void compare() {
+        measureColon();
+        for (std::size_t n = 0; n < mAir.kinds.size(); ++n)
+            if (mAir.kinds[n] == AirKind::Colon) compareOne(static_cast<int>(n));
     }
 
 private:
-    bool touchesSides(const Component& part) const {
-        const int upright = voxelAxisOf(mStudy.frame, 2);
-        for (int a = 0; a < 3; ++a)
-            if (a != upright && (part.first[a] == 0 || part.last[a] == mStudy.frame.size[a] - 1)) return true;
-        return false;
+    AirKind kindOf(int piece) {
+        if (mMeasures.touchesSides(piece)) return AirKind::Outside;
+        const double volume = mMeasures.volume(piece);
+        if (volume < kSpeck) return AirKind::Small;
+        if (mMeasures.tissueAround(piece).least() < kTissueAround) return AirKind::Outside;
+        if (volume < kSmallPiece) return AirKind::Small;
+        const auto density = mMeasures.density(piece);
+        if (density && (density->median > kLungMedian || density->high > kLungVessels)) {
+            reason(piece) = {fmt::format("denser than gas, like a lung (median {:.0f} HU)", density->median)};
+            return AirKind::Lung;
+        }
+        return AirKind::Colon;
     }
 
-    // The least over four directions, of the samples' medians.
-    double tissueAround(const std::vector<PlacedRun>& runs) const {
-        const int upright = voxelAxisOf(mStudy.frame, 2);
-        double least = 1e9;
-        for (int axis = 0; axis < 3; ++axis)
-            for (int step = -1; axis != upright && step <= 1; step += 2) {
-                std::vector<double> lengths;
-                for (const PlacedRun& r : runs)
-                    lengths.push_back(tissueAlong(mStudy, middleOf(r), axis, step));
-                std::nth_element(lengths.begin(), lengths.begin() + lengths.size() / 2, lengths.end());
-                least = std::min(least, lengths[lengths.size() / 2]);
+    void measureColon() {
+        for (std::size_t n = 0; n < mAir.kinds.size(); ++n) {
+            if (mAir.kinds[n] != AirKind::Colon) continue;
+            const Component& part = mAir.pieces.parts.list[n];
+            mLargest = std::max(mLargest, mMeasures.volume(static_cast<int>(n)));
+            for (const glm::ivec3& corner : {part.first, part.last}) {
+                const double z = mStudy.frame.worldFromVoxel(glm::dvec3(corner)).z;
+                mLow = std::min(mLow, z);
+                mHigh = std::max(mHigh, z);
             }
-        return least;
+        }
     }
 
-    // Of voxels away from the border, which is partly tissue.
-    double medianOf(int piece) const {
-        std::vector<double> values;
-        for (const PlacedRun& r : sampledRuns(mAir.pieces, piece, 4096))
-            if (r.run.end - r.run.first > 8) values.push_back(huAt(mStudy, middleOf(r)));
-        if (values.empty()) return -1000;
-        std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-        return values[values.size() / 2];
+    void compareOne(int piece) {
+        const double volume = mMeasures.volume(piece), fromSide = mMeasures.tissueAround(piece).fromSide();
+        const double height = (mMeasures.middle(piece).z - mLow) / std::max(mHigh - mLow, 1e-9);
+        const AirMeasures::Tube tube = mMeasures.tube(piece);
+        if (height >= kUpper && tube.slenderness < kTubeLength && fromSide > kFlank)
+            return leave(piece, "round and high up, like a stomach");
+        if (volume < kAlone && volume < kAloneShare * mLargest) return leave(piece, "small and by itself");
+        if (volume < kNarrowVolume && volume < mLargest && tube.diameter < kNarrow && fromSide > kMiddle) {
+            if (height >= kPelvis) return leave(piece, "narrow and in the middle, like small bowel");
+            reason(piece) = {"narrow, like small bowel, but low, like a sigmoid", false};
+        }
     }
+
+    void leave(int piece, const char* why) {
+        mAir.kinds[static_cast<std::size_t>(piece)] = AirKind::Other;
+        reason(piece) = {why, false};
+    }
+
+    AirReason& reason(int piece) { return mAir.reasons[static_cast<std::size_t>(piece)]; }
 
     const GreyVolume& mStudy;
     AirPieces& mAir;
+    AirMeasures mMeasures;
+    double mLargest = 0, mLow = 1e9, mHigh = -1e9;  // of what may be the colon
 };
-
-double worldHeight(const Component& part, const VolumeFrame& frame) {
-    return frame.worldFromVoxel(glm::dvec3(part.first + part.last) * 0.5).z;
-}
-
-// Round pieces high up are the stomach's.
-void dropRoundPieces(const GreyVolume& study, const AirJudge& judge, AirPieces& air) {
-    double low = 1e9, high = -1e9;
-    const auto& list = air.pieces.parts.list;
-    for (std::size_t n = 0; n < list.size(); ++n)
-        if (air.kinds[n] == AirKind::Colon)
-            for (const glm::ivec3& corner : {list[n].first, list[n].last}) {
-                const double z = study.frame.worldFromVoxel(glm::dvec3(corner)).z;
-                low = std::min(low, z);
-                high = std::max(high, z);
-            }
-    for (std::size_t n = 0; n < list.size(); ++n) {
-        if (air.kinds[n] != AirKind::Colon) continue;
-        if (worldHeight(list[n], study.frame) < low + kUpper * (high - low)) continue;
-        if (judge.slenderness(static_cast<int>(n)) >= kTubeLength) continue;
-        air.kinds[n] = AirKind::Other;
-        const glm::dvec3 at = study.frame.worldFromVoxel(glm::dvec3(list[n].first + list[n].last) * 0.5);
-        air.notes.push_back(fmt::format(
-            "left out {:.1f} ml of gas around {:.0f},{:.0f},{:.0f} mm: round and high up, like a stomach",
-            judge.volumeOf(list[n]) * 1e6, 1e3 * at.x, 1e3 * at.y, 1e3 * at.z));
-    }
-}
-
-void noteCutPieces(const GreyVolume& study, AirPieces& air) {
-    const int upright = voxelAxisOf(study.frame, 2);
-    for (std::size_t n = 0; n < air.kinds.size(); ++n) {
-        const Component& part = air.pieces.parts.list[n];
-        if (air.kinds[n] != AirKind::Colon) continue;
-        if (part.first[upright] == 0 || part.last[upright] == study.frame.size[upright] - 1)
-            air.notes.push_back("a piece of the colon is cut off at the scan's first or last slice");
-    }
-}
 
 std::string counted(std::ptrdiff_t count, const char* one, const char* many) {
     return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+// The piece at a place that was given, -1 where tagged fluid lies there.
+int pieceAt(const GreyVolume& study, const SegmentationSetting& setting, const AirPieces& air,
+            const char* option, const glm::dvec3& place) {
+    const glm::ivec3 voxel = givenVoxel(study.frame, option, place);
+    const int piece = air.pieces.parts.at(air.pieces.runs, voxel);
+    const double hu = huAt(study, voxel);
+    if (piece < 0 && hu <= setting.tagged)
+        throw Error(
+            givenName(option, place), "",
+            fmt::format("lies in tissue: {:.0f} HU, neither air (below {:g}) nor tagged fluid (above {:g})",
+                        hu, setting.air, setting.tagged),
+            "give a place inside the lumen");
+    return piece;
 }
 
 }  // namespace
@@ -171,7 +128,7 @@ std::string leftOut(const AirPieces& air) {
         const char *one, *many;
     } kNames[] = {{AirKind::Outside, "piece outside a body", "pieces outside a body"},
                   {AirKind::Lung, "piece of lung", "pieces of lung"},
-                  {AirKind::Other, "round piece high up", "round pieces high up"},
+                  {AirKind::Other, "piece of other gas", "pieces of other gas"},
                   {AirKind::Small, "small piece", "small pieces"}};
     std::string text;
     for (const auto& name : kNames)
@@ -209,15 +166,28 @@ AirPieces findAir(const GreyVolume& study, const SegmentationSetting& setting, s
                     "give a CT in Hounsfield units");
     progress.report(0.5, "telling pieces of air apart");
     air.pieces.parts = connectedComponents(air.pieces.runs);
-    const AirJudge judge(study, air);
-    for (std::size_t n = 0; n < air.pieces.parts.list.size(); ++n)
-        air.kinds.push_back(judge.kindOf(static_cast<int>(n)));
-    if (setting.seeds.empty()) {
-        dropRoundPieces(study, judge, air);
-        noteCutPieces(study, air);
-    }
+    AirJudge judge(study, air);
+    judge.judgeEach();
+    if (setting.seeds.empty()) judge.compare();
     progress.report(1, "telling pieces of air apart");
     return air;
+}
+
+void takeGiven(const GreyVolume& study, const SegmentationSetting& setting, AirPieces& air) {
+    const auto set = [&](const std::vector<glm::dvec3>& places, const char* option, AirKind kind) {
+        for (const glm::dvec3& place : places) {
+            const int piece = pieceAt(study, setting, air, option, place);
+            if (piece < 0) continue;
+            air.kinds[static_cast<std::size_t>(piece)] = kind;
+            air.reasons[static_cast<std::size_t>(piece)] = {fmt::format("by {}", option)};
+        }
+    };
+    if (!setting.seeds.empty())
+        for (AirKind& kind : air.kinds)
+            if (kind == AirKind::Colon) kind = AirKind::Other;
+    set(setting.seeds, kSeedOption, AirKind::Colon);
+    set(setting.choices.include, kIncludeOption, AirKind::Colon);
+    set(setting.choices.exclude, kExcludeOption, AirKind::Other);
 }
 
 }  // namespace stereonav

@@ -1,5 +1,5 @@
 // Which pieces of air in a CT are the colon: told from the air around the patient, lungs and other bowel gas
-// by place, size and shape.
+// by density, place, size and shape.
 #pragma once
 
 #include <string>
@@ -10,12 +10,20 @@
 
 namespace stereonav {
 
+// Other: gas that is not the colon's, or not surely.
 enum class AirKind : std::uint8_t { Outside, Lung, Small, Other, Colon };
+
+// Why a piece is of its kind, in words that follow "3.6 ml of gas around 1,2,3 mm: "; "" where its size or
+// place says enough.
+struct AirReason {
+    std::string text;
+    bool sure = true;
+};
 
 struct AirPieces {
     Pieces pieces;
     std::vector<AirKind> kinds;  // of each piece
-    std::vector<std::string> notes;
+    std::vector<AirReason> reasons;
 };
 
 // What is not the colon's, by kind: "2 pieces of lung, 1 small piece".
@@ -32,5 +40,12 @@ int voxelAxisOf(const VolumeFrame& frame, int worldAxis);
 // known: voxels below setting.air; nothing: they are looked for.
 AirPieces findAir(const GreyVolume& study, const SegmentationSetting& setting, std::optional<VoxelRuns> known,
                   Progress& progress);
+
+// Changes kinds by the setting's seeds and choices. Throws Error where one lies in tissue.
+void takeGiven(const GreyVolume& study, const SegmentationSetting& setting, AirPieces& air);
+
+// Says of each piece that is worth a word whether it was taken, where it lies and why: what is not sure
+// first.
+std::vector<std::string> pieceNotes(const GreyVolume& study, const AirPieces& air);
 
 }  // namespace stereonav

@@ -107,31 +107,61 @@ bool touchesColon(const Surface& surface, const AirPieces& air) {
     });
 }
 
-std::vector<std::size_t> seededCores(const FluidPools& fluid, const GreyVolume& study,
-                                     const SegmentationSetting& setting) {
+// Cores of tagged fluid at places that were given; what is air there is none of them.
+std::vector<std::size_t> coresAt(const FluidPools& fluid, const GreyVolume& study,
+                                 const SegmentationSetting& setting, const char* option,
+                                 const std::vector<glm::dvec3>& places) {
     std::vector<std::size_t> cores;
-    for (const glm::dvec3& seed : setting.seeds) {
-        const int core = fluid.cores.parts.at(fluid.cores.runs, seedVoxel(study.frame, seed));
+    for (const glm::dvec3& place : places) {
+        const glm::ivec3 voxel = givenVoxel(study.frame, option, place);
+        const int core = fluid.cores.parts.at(fluid.cores.runs, voxel);
         if (core >= 0) {
             cores.push_back(static_cast<std::size_t>(core));
-        } else if (huAt(study, seedVoxel(study.frame, seed)) > setting.tagged) {
-            throw Error(seedName(seed), "", "lies in something bright that is under three voxels thick",
+        } else if (huAt(study, voxel) > setting.tagged) {
+            throw Error(givenName(option, place), "",
+                        "lies in something bright that is under three voxels thick",
                         "give a place in the middle of the lumen");
         }
     }
     return cores;
 }
 
-void acceptPools(const std::vector<Surface>& surfaces, const std::vector<std::size_t>& seeded,
-                 const GreyVolume& study, AirPieces& air, FluidPools& fluid) {
+// What was given of pools and of the air that they touch.
+struct GivenCores {
+    std::vector<std::size_t> taken, left;
+    std::vector<char> airLeft;  // of each piece of air
+};
+
+GivenCores givenCores(const FluidPools& fluid, const GreyVolume& study, const SegmentationSetting& setting,
+                      const AirPieces& air) {
+    GivenCores given;
+    given.taken = coresAt(fluid, study, setting, kSeedOption, setting.seeds);
+    const auto included = coresAt(fluid, study, setting, kIncludeOption, setting.choices.include);
+    given.taken.insert(given.taken.end(), included.begin(), included.end());
+    given.left = coresAt(fluid, study, setting, kExcludeOption, setting.choices.exclude);
+    given.airLeft.assign(air.kinds.size(), 0);
+    for (const glm::dvec3& place : setting.choices.exclude) {
+        const int piece =
+            air.pieces.parts.at(air.pieces.runs, givenVoxel(study.frame, kExcludeOption, place));
+        if (piece >= 0) given.airLeft[static_cast<std::size_t>(piece)] = 1;
+    }
+    return given;
+}
+
+bool isIn(const std::vector<std::size_t>& list, std::size_t n) {
+    return std::find(list.begin(), list.end(), n) != list.end();
+}
+
+void acceptPools(const std::vector<Surface>& surfaces, const GivenCores& given, const GreyVolume& study,
+                 AirPieces& air, FluidPools& fluid) {
     const std::vector<double> medians = mediansOf(fluid, study);
     const glm::dvec3& s = study.frame.spacing;
     std::vector<char> taken(surfaces.size(), 0);
     for (bool again = true; again;) {  // a pool may tie further air to the colon, and that further pools
         again = false;
         for (std::size_t n = 0; n < surfaces.size(); ++n) {
-            if (taken[n]) continue;
-            const bool byHand = std::find(seeded.begin(), seeded.end(), n) != seeded.end();
+            if (taken[n] || isIn(given.left, n)) continue;
+            const bool byHand = isIn(given.taken, n);
             const double volume = static_cast<double>(fluid.cores.parts.list[n].voxels) * s.x * s.y * s.z;
             if (!byHand && (volume < kSmallestPool || !touchesColon(surfaces[n], air) ||
                             !isLevel(surfaces[n], study.frame, fluid.axis)))
@@ -139,8 +169,12 @@ void acceptPools(const std::vector<Surface>& surfaces, const std::vector<std::si
             taken[n] = 1;
             again = true;
             fluid.pools.push_back({n, medians[n], surfaces[n].film});
-            for (const int piece : surfaces[n].pieces)
-                air.kinds[static_cast<std::size_t>(piece)] = AirKind::Colon;
+            for (const int piece : surfaces[n].pieces) {
+                const auto touched = static_cast<std::size_t>(piece);
+                if (given.airLeft[touched] || air.kinds[touched] == AirKind::Colon) continue;
+                air.kinds[touched] = AirKind::Colon;
+                air.reasons[touched] = {"tagged fluid under it is the colon's"};
+            }
         }
     }
 }
@@ -256,7 +290,7 @@ std::vector<Surface> chooseUp(const GreyVolume& study, const AirPieces& air, Flu
 FluidPools findFluid(const GreyVolume& study, const SegmentationSetting& setting, AirPieces& air) {
     FluidPools fluid = coresOf(study, setting);
     const std::vector<Surface> surfaces = chooseUp(study, air, fluid);
-    acceptPools(surfaces, seededCores(fluid, study, setting), study, air, fluid);
+    acceptPools(surfaces, givenCores(fluid, study, setting, air), study, air, fluid);
     return fluid;
 }
 

@@ -27,8 +27,8 @@ struct FluidPools {
     std::vector<Pool> pools;
 };
 
-// Pools that belong to the colon; pieces of air that they touch become Colon in `air`. Of seeds, pools that
-// hold one are taken whatever their surface.
+// Pools that belong to the colon; pieces of air that they touch become Colon in `air`. Pools that hold a
+// place that was given are taken, or left out, whatever their surface.
 FluidPools findFluid(const GreyVolume& study, const SegmentationSetting& setting, AirPieces& air);
 
 // The pools that lie in a lumen known from before (a voxel of the study: true inside). The kinds of `air` are

@@ -2,15 +2,34 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/base/progress.h"
+#include "engine/volume/components.h"
+#include "engine/volume/piece_choices.h"
 #include "engine/volume/volume.h"
 
 namespace stereonav {
 
+// Pieces that the lumen may be made of, whether they were taken or not.
+struct SlicePieces {
+    struct Piece {
+        glm::dvec3 place{0.0};  // world: a voxel of it
+        std::string text;       // what it is and why it was taken or left; "": nothing is worth a word
+        bool sure = true;
+    };
+    VoxelRuns runs;  // of the study's grid
+    Components parts;
+    std::vector<Piece> list;  // of each component
+
+    int at(const glm::ivec3& voxel) const { return parts.at(runs, voxel); }  // -1: none
+};
+
 struct SliceStudy {
     GreyVolume grey;
+    SlicePieces pieces;                             // none where no lumen was looked for
     bool ofMask = false;                            // it says what is lumen, and nothing of values
     double windowWidth = 1500, windowLevel = -200;  // values shown from black to white, and their middle
 };
@@ -25,6 +44,8 @@ public:
     virtual const MaskVolume* lumen() const = 0;
     // World places that it was found from.
     virtual const std::vector<glm::dvec3>& seeds() const = 0;
+    // What somebody changed in the pieces that were taken.
+    virtual const PieceChoices& pieceChoices() const = 0;
 };
 
 }  // namespace stereonav

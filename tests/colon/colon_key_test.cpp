@@ -24,8 +24,12 @@ struct Members<StudyOptions> {
     static constexpr std::array names{"series", "resample", "label", "key", "airBelow", "working"};
 };
 template <>
+struct Members<PieceChoices> {
+    static constexpr std::array names{"include", "exclude"};
+};
+template <>
 struct Members<SegmentationSetting> {
-    static constexpr std::array names{"air", "tagged", "wall", "seeds", "leavesFluid"};
+    static constexpr std::array names{"air", "tagged", "wall", "seeds", "choices", "leavesFluid"};
 };
 template <>
 struct Members<CentrelineSetting> {

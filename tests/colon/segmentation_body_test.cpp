@@ -143,7 +143,7 @@ TEST_P(SegmentBody, EachPieceOfAirIsToldByItsPlace) {
     EXPECT_EQ(kind(kStomach), AirKind::Other) << "round and high up";
     EXPECT_EQ(kind(kGas), AirKind::Small) << "small bowel";
     EXPECT_EQ(kind(kWay[2]), AirKind::Colon);
-    EXPECT_THAT(air.notes, Contains(HasSubstr("like a stomach")));
+    EXPECT_THAT(pieceNotes(scan, air), Contains(HasSubstr("like a stomach")));
     EXPECT_EQ(std::count(air.kinds.begin(), air.kinds.end(), AirKind::Colon), 1);
 }
 

@@ -59,11 +59,13 @@ public:
     std::shared_ptr<const SliceStudy> readSlices(Progress&) const override { return nullptr; }
     const MaskVolume* lumen() const override { return &mLumen; }
     const std::vector<glm::dvec3>& seeds() const override { return mSeeds; }
+    const PieceChoices& pieceChoices() const override { return mChoices; }
 
 private:
     mutable FakeFrames mFrames;
     MaskVolume mLumen;
     std::vector<glm::dvec3> mSeeds;
+    PieceChoices mChoices;
 };
 
 std::shared_ptr<const OpenScene> openSliced(double radius) {

@@ -45,6 +45,7 @@ struct FakeParts {
     std::function<std::uint64_t()> lightChanges;
     std::function<PlaceOnLine(const glm::dvec3&)> placeOnLine;
     std::function<std::shared_ptr<const SliceStudy>(Progress&)> readSlices;
+    const MaskVolume* lumen = nullptr;  // found in them
     std::vector<std::shared_ptr<const EyePainter>> painters;
 };
 
@@ -112,14 +113,16 @@ private:
     std::shared_ptr<const SliceStudy> readSlices(Progress& progress) const override {
         return mParts.readSlices(progress);
     }
-    const MaskVolume* lumen() const override { return nullptr; }
+    const MaskVolume* lumen() const override { return mParts.lumen; }
     const std::vector<glm::dvec3>& seeds() const override { return mSeeds; }
+    const PieceChoices& pieceChoices() const override { return mChoices; }
 
     FakeParts mParts;
     RayCast mRays;
     Animation mAnimation;
     SurfacePaint mPaint;
     std::vector<glm::dvec3> mSeeds;
+    PieceChoices mChoices;
 };
 
 inline OpenScene openOf(const FakeParts& parts) {

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Drives the viewer's window through a study: flight, slices, a seed, another search; run it inside own_display.sh.
+# Drives the viewer's window through a study: flight, slices, a piece that is taken, another search; run it inside own_display.sh.
 #   drive_volume.sh PROGRAM FOLDER STUDY [OPTION ...]
 # Leaves pictures (one for each step, named in steps.txt), the log and the exit status in FOLDER;
 # view_volume_window_test.cpp judges them.
@@ -24,10 +24,10 @@ keys t
 settled opaque translucent
 keys v
 settled axial opaque
-press 160 120
-settled seeded axial
+press 245 120
+settled chosen axial
 keys Next Next Next Next
-settled paged seeded
+settled paged chosen
 keys v
 settled coronal paged
 keys Return

@@ -101,7 +101,11 @@ void SlicesPanel::drawView(PanelHost& host, ViewSession& session, const SliceStu
                        glm::length(view.cross - mCross) > kEyeMoves;
     if (stale) {
         const SliceSource* const source = session.open().scene->offered<SliceSource>();
-        SliceContent content{&study.grey, mWindow, mLevel, source ? source->lumen() : nullptr, {}};
+        SliceContent content;
+        content.grey = &study.grey;
+        content.windowWidth = mWindow;
+        content.windowLevel = mLevel;
+        content.lumen = source ? source->lumen() : nullptr;
         content.marks.push_back({eye, eyeColor(), true});
         if (!mFollows) content.marks.push_back({mCross, packed(110, 170, 225), false});
         view.texture.set(drawSlice(content, layout, slice, width, height), false);

@@ -1,0 +1,56 @@
+// What a piece of air is judged by: its volume, its density, the tissue around it, its width, a place in it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "colon/segmentation/lumen_pieces.h"
+#include "engine/volume/volume.h"
+
+namespace stereonav {
+
+class AirMeasures {
+public:
+    // Both live longer than this.
+    AirMeasures(const GreyVolume& study, const Pieces& air) : mStudy(study), mAir(air) {}
+
+    double volume(int piece) const;  // cubic metres
+    // Whether it reaches the scan's sides, or its first or last slice.
+    bool touchesSides(int piece) const;
+    bool touchesEnds(int piece) const;
+
+    // Metres of tissue to the scan's sides: medians over the piece, without air and metal on the way.
+    struct Tissue {
+        double right = 0, left = 0, front = 0, back = 0;  // of the patient
+        double least() const;
+        // 0 where it lies at a side of the body, 0.5 in the middle.
+        double fromSide() const;
+    };
+    Tissue tissueAround(int piece) const;
+
+    // HU of voxels away from the piece's border, which is partly tissue; nothing where it is too thin to
+    // have any.
+    struct Density {
+        double median = 0, high = 0;  // high: a tenth of the voxels is denser
+    };
+    std::optional<Density> density(int piece) const;
+
+    struct Tube {
+        double diameter = 0;     // metres, mean
+        double slenderness = 0;  // length over diameter
+    };
+    Tube tube(int piece) const;
+
+    glm::dvec3 middle(int piece) const;   // world, of its box
+    glm::dvec3 placeIn(int piece) const;  // world: a voxel of it, near its middle
+
+private:
+    const Component& part(int piece) const { return mAir.parts.list[static_cast<std::size_t>(piece)]; }
+    bool holds(int piece, const glm::ivec3& voxel) const;
+    bool within(int piece, const glm::ivec3& voxel, int depth) const;
+
+    const GreyVolume& mStudy;
+    const Pieces& mAir;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,79 @@
+// What is said of pieces of air.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "colon/segmentation/air_measures.h"
+#include "colon/segmentation/segmentation_air.h"
+
+namespace stereonav {
+namespace {
+
+constexpr std::size_t kMostNotes = 12;  // of one kind
+
+std::string placeText(const glm::dvec3& world) {
+    return fmt::format("{:.1f},{:.1f},{:.1f}", 1000 * world.x, 1000 * world.y, 1000 * world.z);
+}
+
+class Notes {
+public:
+    Notes(const GreyVolume& study, const AirPieces& air) : mAir(air), mMeasures(study, air.pieces) {
+        for (std::size_t n = 0; n < air.kinds.size(); ++n) {
+            const AirReason& reason = air.reasons[n];
+            if (air.kinds[n] == AirKind::Colon || !reason.text.empty()) mNamed.push_back(static_cast<int>(n));
+        }
+        std::stable_sort(mNamed.begin(), mNamed.end(),
+                         [&](int a, int b) { return mMeasures.volume(a) > mMeasures.volume(b); });
+    }
+
+    std::vector<std::string> all() {
+        add([&](int n) { return !reason(n).sure; }, [&](int n) { return unsure(n); });
+        add([&](int n) { return taken(n) && mMeasures.touchesEnds(n); },
+            [&](int n) { return "the scan's first or last slice cuts off the colon's " + gas(n); });
+        // One piece without a reason is what everybody expects.
+        const bool several = std::count_if(mNamed.begin(), mNamed.end(), [&](int n) { return taken(n); }) > 1;
+        add([&](int n) { return taken(n) && reason(n).sure && (several || !reason(n).text.empty()); },
+            [&](int n) { return sure("took ", n); });
+        add([&](int n) { return !taken(n) && reason(n).sure; }, [&](int n) { return sure("left out ", n); });
+        return std::move(mNotes);
+    }
+
+private:
+    template <typename Wanted, typename Words>
+    void add(const Wanted& wanted, const Words& words) {
+        std::size_t count = 0;
+        for (const int n : mNamed)
+            if (wanted(n) && ++count <= kMostNotes) mNotes.push_back(words(n));
+        if (count > kMostNotes)
+            mNotes.push_back(fmt::format("and {} smaller pieces more", count - kMostNotes));
+    }
+
+    bool taken(int n) const { return mAir.kinds[static_cast<std::size_t>(n)] == AirKind::Colon; }
+    const AirReason& reason(int n) const { return mAir.reasons[static_cast<std::size_t>(n)]; }
+    std::string gas(int n) const {
+        return fmt::format("{:.1f} ml of gas around {} mm", mMeasures.volume(n) * 1e6,
+                           placeText(mMeasures.placeIn(n)));
+    }
+    std::string sure(const char* verb, int n) const {
+        return verb + gas(n) + (reason(n).text.empty() ? "" : ": " + reason(n).text);
+    }
+    std::string unsure(int n) const {
+        const char* const done = taken(n) ? "took" : "left out";
+        const char* const option = taken(n) ? kExcludeOption : kIncludeOption;
+        return fmt::format("not sure, {} {}: {}; {} {} changes that", done, gas(n), reason(n).text, option,
+                           placeText(mMeasures.placeIn(n)));
+    }
+
+    const AirPieces& mAir;
+    AirMeasures mMeasures;
+    std::vector<int> mNamed;  // pieces that are worth a word, the largest first
+    std::vector<std::string> mNotes;
+};
+
+}  // namespace
+
+std::vector<std::string> pieceNotes(const GreyVolume& study, const AirPieces& air) {
+    return Notes(study, air).all();
+}
+
+}  // namespace stereonav
