@@ -13,12 +13,24 @@ namespace {
 
 constexpr double kBeyond = 1e-7;  // of the smallest spacing: on into the next cell
 
-// How far a line gets within a cell, from a place in it.
+// The cell that a line goes on into: on a face that of the side which it goes to. A line that hardly leaves a
+// face would else stay beside it for steps without number.
+glm::ivec3 cellAhead(const glm::dvec3& voxel, const glm::dvec3& perMetre, const glm::ivec3& size) {
+    glm::ivec3 cell;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double first = perMetre[axis] < 0 ? std::ceil(voxel[axis]) - 1 : std::floor(voxel[axis]);
+        cell[axis] = std::clamp(static_cast<int>(first), 0, size[axis] - 2);
+    }
+    return cell;
+}
+
+// How far a line gets within its cell, from a place in it. Infinite where it only follows the volume's faces.
 double leaving(const glm::dvec3& local, const glm::dvec3& perMetre) {
     double ahead = std::numeric_limits<double>::infinity();
-    for (int axis = 0; axis < 3; ++axis)
-        if (perMetre[axis] != 0)
-            ahead = std::min(ahead, ((perMetre[axis] > 0 ? 1 : 0) - local[axis]) / perMetre[axis]);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double left = perMetre[axis] > 0 ? 1 - local[axis] : local[axis];
+        if (perMetre[axis] != 0 && left > 0) ahead = std::min(ahead, left / std::abs(perMetre[axis]));
+    }
     return ahead;
 }
 
@@ -59,7 +71,7 @@ double LineOfSight::reach(const glm::dvec3& from, const glm::dvec3& direction, d
         const glm::dvec3 voxel = start + way * perMetre;
         if (!contains(voxel)) return way;
         if (way >= upTo) return upTo;
-        const glm::ivec3 cell = glm::min(glm::ivec3(voxel), frame.size - 2);
+        const glm::ivec3 cell = cellAhead(voxel, perMetre, frame.size);
         const std::uint8_t code = mCells.code(cell);
         if (code > kCellNear) {
             way = std::min(way + (code - 1) * mCells.leapUnit, upTo);

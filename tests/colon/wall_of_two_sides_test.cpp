@@ -310,5 +310,26 @@ TEST(ThinWall, IsPaintedOnTheSideThatIsMarkedAlone) {
     }
 }
 
+// Lines that hardly leave a face of voxels: as far as others, in as many steps. With a step of 1e-7 of a
+// voxel each these would take minutes.
+TEST(ThinWall, LinesAlongFacesOfVoxelsGetOn) {
+    const VolumeFrame& frame = plate().lumen.field.frame;
+    const LineOfSight sight = plate().sight();
+    const glm::dvec3 voxel = glm::round(frame.voxelFromWorld({0.001, 0.001, 0.004}));
+    const glm::dvec3 from = frame.worldFromVoxel(voxel);
+    const double straight = sight.reach(from, {0, 0, -1}, 0.02);
+    EXPECT_LT(straight, 0.02) << "the plate is on the way";
+    for (const double aside : {-1e-17, 1e-17, -1e-12, 1e-12, -1e-9, 1e-9})
+        for (const glm::dvec3& along :
+             {glm::dvec3(aside, 0, -1), glm::dvec3(0, aside, -1), glm::dvec3(aside, -aside, -1)})
+            ASSERT_NEAR(sight.reach(from, along, 0.02), straight, 1e-9) << aside;
+    // Along the volume's own face, out of it at the end.
+    const glm::dvec3 last(frame.size - 1);
+    for (const double aside : {-1e-17, 1e-17}) {
+        const glm::dvec3 edge = frame.worldFromVoxel({last.x, 0.5 * last.y, last.z});
+        ASSERT_LE(sight.reach(edge, {aside, -1, -aside}, 1), frame.spacing.y * last.y);
+    }
+}
+
 }  // namespace
 }  // namespace stereonav::test

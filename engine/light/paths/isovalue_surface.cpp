@@ -88,15 +88,16 @@ bool thinnerThanVoxel(const GreyVolume& volume, const glm::dvec3& voxel, double 
     const auto below = [&](const glm::dvec3& place) {
         return within(place) == place && plainValue(volume, place) < value;
     };
-    // How values rise just before the surface.
+    // How values rise a metre just before the surface: by voxels, long ones would hide which way it faces.
     const auto risesBefore = [&](const glm::dvec3& place, const glm::dvec3& outwards) {
         glm::dvec3 rises(0.0);
         for (int axis = 0; axis < 3; ++axis) {
             glm::dvec3 step(0.0);
             step[axis] = 0.25;
             const glm::dvec3 before = place + 0.3 * outwards;
-            rises[axis] =
+            const double rise =
                 plainValue(volume, within(before + step)) - plainValue(volume, within(before - step));
+            rises[axis] = rise / volume.frame.spacing[axis];
         }
         return rises;
     };
