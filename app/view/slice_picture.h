@@ -62,10 +62,10 @@ struct SliceContent {
     const GreyVolume* grey = nullptr;
     double windowWidth = 1500, windowLevel = -200;  // values from black to white, > 0, and their middle
     const MaskVolume* lumen = nullptr;              // outlined; null: none. Of any frame
+    std::vector<SliceMark> marks{};                 // those within half a slice bright, others near by dim
     // Pieces that are tinted; null: none. Of grey's frame
     const SlicePieces* pieces = nullptr;
-    std::vector<PackedColor> tints;  // of each piece; 0: as it is
-    std::vector<SliceMark> marks;    // those within half a slice bright, others near by dim
+    std::vector<PackedColor> tints{};  // of each piece; 0: as it is
 };
 
 Plane<PackedColor> drawSlice(const SliceContent& content, const SliceLayout& layout, int slice, int width,

@@ -67,6 +67,8 @@ std::string SliceView::click(double x, double y, int width, int height, const Op
     const auto world = layout(width, height).worldAt(x, y, mSlice);
     if (!world) return "";
     const GreyVolume& grey = mStudy->grey;
+    if (mStudy->pieces.list.empty())
+        return "no colon is looked for in this volume: there are no pieces to take";
     const double value = grey.at(voxelAt(*world)) * grey.scale + grey.offset;
     const int piece = pieceAt(*world);
     if (piece < 0 && !(value > kTaggedFluid && !mStudy->ofMask))
@@ -117,11 +119,16 @@ std::vector<PackedColor> SliceView::tints(const MaskVolume* lumen) const {
 std::string SliceView::status() const {
     const SliceLayout slices = layout(1, 1);
     const AxisText& axis = kAxisTexts[static_cast<int>(mAxis)];
-    return fmt::format(
-        "{} slice {} of {}, {} = {:.1f} mm  {} change{}  click: take or leave a piece  Backspace: one less  "
-        "Enter: find the colon again  V: next axis  Page Up/Down: slices  Esc: back",
-        axis.name, mSlice + 1, slices.sliceCount(), axis.letter, slices.placeOf(mSlice), mChoices.size(),
-        mChoices.size() == 1 ? "" : "s");
+    const std::string choosing =
+        mStudy->pieces.list.empty()
+            ? ""
+            : fmt::format(
+                  "{} change{}  click: take or leave a piece  Backspace: one less  Enter: find the colon "
+                  "again  ",
+                  mChoices.size(), mChoices.size() == 1 ? "" : "s");
+    return fmt::format("{} slice {} of {}, {} = {:.1f} mm  {}V: next axis  Page Up/Down: slices  Esc: back",
+                       axis.name, mSlice + 1, slices.sliceCount(), axis.letter, slices.placeOf(mSlice),
+                       choosing);
 }
 
 const Plane<PackedColor>& SliceView::picture(int width, int height, const glm::dvec3& eye,

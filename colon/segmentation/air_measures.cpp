@@ -87,9 +87,13 @@ bool AirMeasures::touchesSides(int piece) const {
     return false;
 }
 
-bool AirMeasures::touchesEnds(int piece) const {
+bool AirMeasures::touchesFirst(int piece) const {
+    return part(piece).first[voxelAxisOf(mStudy.frame, 2)] == 0;
+}
+
+bool AirMeasures::touchesLast(int piece) const {
     const int upright = voxelAxisOf(mStudy.frame, 2);
-    return part(piece).first[upright] == 0 || part(piece).last[upright] == mStudy.frame.size[upright] - 1;
+    return part(piece).last[upright] == mStudy.frame.size[upright] - 1;
 }
 
 AirMeasures::Tissue AirMeasures::tissueAround(int piece) const {

@@ -15,9 +15,10 @@ public:
     AirMeasures(const GreyVolume& study, const Pieces& air) : mStudy(study), mAir(air) {}
 
     double volume(int piece) const;  // cubic metres
-    // Whether it reaches the scan's sides, or its first or last slice.
+    // Whether it reaches the scan's sides; its first slice; its last one.
     bool touchesSides(int piece) const;
-    bool touchesEnds(int piece) const;
+    bool touchesFirst(int piece) const;
+    bool touchesLast(int piece) const;
 
     // Metres of tissue to the scan's sides: medians over the piece, without air and metal on the way.
     struct Tissue {

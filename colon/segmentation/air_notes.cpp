@@ -28,8 +28,13 @@ public:
 
     std::vector<std::string> all() {
         add([&](int n) { return !reason(n).sure; }, [&](int n) { return unsure(n); });
-        add([&](int n) { return taken(n) && mMeasures.touchesEnds(n); },
-            [&](int n) { return "the scan's first or last slice cuts off the colon's " + gas(n); });
+        const auto cut = [&](int n, const char* slice) {
+            return fmt::format("the scan's {} slice cuts the colon off: {}", slice, gas(n));
+        };
+        add([&](int n) { return taken(n) && mMeasures.touchesFirst(n); },
+            [&](int n) { return cut(n, "first"); });
+        add([&](int n) { return taken(n) && mMeasures.touchesLast(n); },
+            [&](int n) { return cut(n, "last"); });
         // One piece without a reason is what everybody expects.
         const bool several = std::count_if(mNamed.begin(), mNamed.end(), [&](int n) { return taken(n); }) > 1;
         add([&](int n) { return taken(n) && reason(n).sure && (several || !reason(n).text.empty()); },

@@ -16,15 +16,17 @@ namespace {
 constexpr double kSpeck = 0.02e-6;       // cubic metres: not worth a look
 constexpr double kSmallPiece = 2e-6;     // cubic metres: less is bowel gas, unless fluid ties it to the colon
 constexpr double kTissueAround = 0.006;  // metres of tissue on all sides of what lies in a body
-// HU. The medians of lungs lie above kLungMedian, those of gas below; emphysema may lie below too, but then
-// its vessels and what is left of its walls lift a tenth of its voxels above kLungVessels.
-constexpr double kLungMedian = -930, kLungVessels = -860;
-// Round pieces in the upper part of the gas, away from the flanks where the colon's flexures lie, are a
-// stomach's.
-constexpr double kTubeLength = 2.5, kUpper = 0.6, kFlank = 0.2;
+// HU. The medians of lungs lie above kLungMedian, those of gas below, and vessels lift a tenth of a lung's
+// voxels above kLungVessels. Emphysema is told from the scan's cleanest gas, which it is denser than by so
+// much: by its median, and by its densest tenth, as noise alone lifts that of both.
+constexpr double kLungMedian = -930, kLungVessels = -860, kDenser = 40, kDenserHigh = 55;
+// A stomach's gas is in the upper part, left of the middle or in it, away from the flanks where the colon's
+// flexures lie, and round; where it lies in front it may be longer.
+constexpr double kUpper = 0.6, kFlank = 0.2, kFront = 0.4, kRightOfMiddle = 1.3;
+constexpr double kRound = 2.5, kLongStomach = 8, kStomachShare = 0.25;  // diameters; share of the largest
 // Pieces that may as well be a stomach's, a duodenum's or small bowel's.
-constexpr double kAlone = 5e-6, kAloneShare = 0.1;                       // cubic metres; share of the largest
-constexpr double kNarrow = 0.022, kMiddle = 0.3, kNarrowVolume = 30e-6;  // metres, share, cubic metres
+constexpr double kAlone = 5e-6, kAloneShare = 0.1;  // cubic metres; share of the largest
+constexpr double kNarrow = 0.022, kMiddle = 0.25, kNarrowVolume = 30e-6;  // metres, share, cubic metres
 constexpr double kPelvis = 0.3;  // share of the gas's height: below, what is narrow may be a sigmoid
 
 class AirJudge {
@@ -37,11 +39,13 @@ public:
         const std::size_t count = mAir.pieces.parts.list.size();
         mAir.kinds.resize(count);
         mAir.reasons.resize(count);
+        mDensities.resize(count);
         for (std::size_t n = 0; n < count; ++n) mAir.kinds[n] = kindOf(static_cast<int>(n));
     }
 
     // By what else there is.
     void compare() {
+        leaveDense();
         measureColon();
         for (std::size_t n = 0; n < mAir.kinds.size(); ++n)
             if (mAir.kinds[n] == AirKind::Colon) compareOne(static_cast<int>(n));
@@ -54,12 +58,30 @@ private:
         if (volume < kSpeck) return AirKind::Small;
         if (mMeasures.tissueAround(piece).least() < kTissueAround) return AirKind::Outside;
         if (volume < kSmallPiece) return AirKind::Small;
-        const auto density = mMeasures.density(piece);
-        if (density && (density->median > kLungMedian || density->high > kLungVessels)) {
-            reason(piece) = {fmt::format("denser than gas, like a lung (median {:.0f} HU)", density->median)};
-            return AirKind::Lung;
-        }
-        return AirKind::Colon;
+        auto& density = mDensities[static_cast<std::size_t>(piece)];
+        density = mMeasures.density(piece);
+        return density && (density->median > kLungMedian || density->high > kLungVessels) ? lung(piece)
+                                                                                          : AirKind::Colon;
+    }
+
+    AirKind lung(int piece) {
+        reason(piece) = {fmt::format("denser than gas, like a lung (median {:.0f} HU)",
+                                     mDensities[static_cast<std::size_t>(piece)]->median)};
+        return AirKind::Lung;
+    }
+
+    void leaveDense() {
+        std::optional<AirMeasures::Density> clean;
+        for (std::size_t n = 0; n < mAir.kinds.size(); ++n)
+            if (mAir.kinds[n] == AirKind::Colon && mDensities[n] &&
+                (!clean || mDensities[n]->median < clean->median))
+                clean = mDensities[n];
+        if (!clean) return;
+        for (std::size_t n = 0; n < mAir.kinds.size(); ++n)
+            if (mAir.kinds[n] == AirKind::Colon && mDensities[n] &&
+                mDensities[n]->median > clean->median + kDenser &&
+                mDensities[n]->high > clean->high + kDenserHigh)
+                mAir.kinds[n] = lung(static_cast<int>(n));
     }
 
     void measureColon() {
@@ -76,11 +98,17 @@ private:
     }
 
     void compareOne(int piece) {
-        const double volume = mMeasures.volume(piece), fromSide = mMeasures.tissueAround(piece).fromSide();
+        const double volume = mMeasures.volume(piece);
+        const AirMeasures::Tissue tissue = mMeasures.tissueAround(piece);
+        const double fromSide = tissue.fromSide();
         const double height = (mMeasures.middle(piece).z - mLow) / std::max(mHigh - mLow, 1e-9);
         const AirMeasures::Tube tube = mMeasures.tube(piece);
-        if (height >= kUpper && tube.slenderness < kTubeLength && fromSide > kFlank)
-            return leave(piece, "round and high up, like a stomach");
+        if (height >= kUpper && fromSide > kFlank && tissue.left < kRightOfMiddle * tissue.right) {
+            if (tube.slenderness < kRound) return leave(piece, "round and high up, like a stomach");
+            if (tissue.front < kFront * (tissue.front + tissue.back) && tube.slenderness < kLongStomach &&
+                volume < kStomachShare * mLargest)
+                return leave(piece, "high up in front, like a stomach");
+        }
         if (volume < kAlone && volume < kAloneShare * mLargest) return leave(piece, "small and by itself");
         if (volume < kNarrowVolume && volume < mLargest && tube.diameter < kNarrow && fromSide > kMiddle) {
             if (height >= kPelvis) return leave(piece, "narrow and in the middle, like small bowel");
@@ -98,7 +126,8 @@ private:
     const GreyVolume& mStudy;
     AirPieces& mAir;
     AirMeasures mMeasures;
-    double mLargest = 0, mLow = 1e9, mHigh = -1e9;  // of what may be the colon
+    std::vector<std::optional<AirMeasures::Density>> mDensities;  // of pieces that were asked for theirs
+    double mLargest = 0, mLow = 1e9, mHigh = -1e9;                // of what may be the colon
 };
 
 std::string counted(std::ptrdiff_t count, const char* one, const char* many) {

@@ -216,9 +216,10 @@ TEST_F(OptionTable, HasForACommandWhatItReads) {
     EXPECT_EQ(keysOf("mesh"),
               (std::set<std::string>{"SCENE", "vertical-scale", "open-holes", "tiles", "memory", "threads",
                                      "image", "shade-image", "sun", "out", "error", "set", "json", "quiet"}));
-    EXPECT_EQ(keysOf("centreline"),
-              (std::set<std::string>{"SCENE", "threads", "memory", "series", "label", "seed", "fluid",
-                                     "resample", "backwards", "no-cache", "out", "set", "json", "quiet"}));
+    EXPECT_EQ(
+        keysOf("centreline"),
+        (std::set<std::string>{"SCENE", "threads", "memory", "series", "label", "seed", "include", "exclude",
+                               "fluid", "resample", "backwards", "no-cache", "out", "set", "json", "quiet"}));
     EXPECT_FALSE(keysOf("bake").contains("simd"));
     EXPECT_FALSE(keysOf("bake").contains("fov"));
 }

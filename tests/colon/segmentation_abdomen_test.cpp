@@ -120,6 +120,12 @@ TEST(SegmentAbdomenNightly, SixtyStudies) {
         "sensitivity mean %.4f, least %.4f; precision mean %.4f, least %.4f\n",
         needing[0], needing[1], needing[2], clicks, unsure, mean(sensitivities), sensitivities.front(),
         mean(precisions), precisions.front());
+    // Seeds 101 to 160, which nothing was fitted to, gave 33, 19 and 8.
+    EXPECT_GE(needing[0], 30);
+    EXPECT_LE(needing[2], 10);
+    EXPECT_GE(unsure, clicks * 3 / 4);
+    EXPECT_GE(mean(sensitivities), 0.96);
+    EXPECT_GE(mean(precisions), 0.96);
 }
 
 // A coarse abdomen with some of what lies in it.
@@ -209,7 +215,8 @@ TEST(SegmentAbdomen, APieceIsLeftOutByAPlaceInIt) {
     ASSERT_GE(found.segments.size(), 2u);
     std::vector<glm::dvec3> taken;
     for (const std::string& note : found.notes)
-        if (note.starts_with("took ")) taken.push_back(placeBehind(note, "around"));
+        if (note.starts_with("took ") && note.find(" around ") != std::string::npos)
+            taken.push_back(placeBehind(note, "around"));
     ASSERT_GE(taken.size(), 2u);
     for (const glm::dvec3& place : taken) EXPECT_TRUE(lumenHolds(found, place));
     SegmentationSetting without;

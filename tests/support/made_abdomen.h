@@ -69,7 +69,9 @@ public:
         mMade.truth = MaskVolume(mMade.scan.frame);
         mAlong = Volume<std::uint16_t>(mMade.scan.frame);
         mAway = Volume<float>(mMade.scan.frame);
+        mGap = Volume<float>(mMade.scan.frame);
         findColon();
+        measureGap();
     }
 
     Abdomen make() {
@@ -84,8 +86,8 @@ public:
     }
 
 private:
-    static constexpr double kFarFromColon = 1;           // metres
-    static constexpr double kTissue = 40, kGas = -1000;  // HU
+    static constexpr double kFarFromColon = 1, kWidestGap = 0.009;  // metres
+    static constexpr double kTissue = 40, kGas = -1000;             // HU
 
     // For each voxel near the axis its nearest point, and how far it lies beyond the tube's radius there.
     void findColon() {
@@ -100,8 +102,35 @@ private:
             });
         for (std::size_t n = 0; n < frame.count(); ++n) {
             const int hu = mMade.scan.values[n];
-            mMade.truth.values[n] = mAway.values[n] < 0.006 && (hu < -480 || hu > 220) ? kTrueColon : 0;
+            mMade.truth.values[n] = mAway.values[n] < 0.012 && (hu < -480 || hu > 220) ? kTrueColon : 0;
         }
+    }
+
+    // Metres to the colon, of all that are near.
+    void measureGap() {
+        const VolumeFrame& frame = mMade.scan.frame;
+        std::fill_n(mGap.values.data(), frame.count(), static_cast<float>(kFarFromColon));
+        for (int k = 1; k < frame.size.z - 1; ++k)
+            for (int j = 1; j < frame.size.y - 1; ++j)
+                for (int i = 1; i < frame.size.x - 1; ++i) {
+                    if (mMade.truth.at(i, j, k) == kTrueColon) mGap.at(i, j, k) = 0;
+                    if (!onBorder({i, j, k})) continue;
+                    forBall(frame.worldFromVoxel(glm::dvec3(i, j, k)), kWidestGap,
+                            [&](const glm::ivec3& v, double distance) {
+                                mGap.at(v) = std::min(mGap.at(v), static_cast<float>(distance));
+                            });
+                }
+    }
+
+    bool onBorder(const glm::ivec3& v) const {
+        if (mMade.truth.at(v) != kTrueColon) return false;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const int step : {-1, 1}) {
+                glm::ivec3 to = v;
+                to[axis] += step;
+                if (mMade.truth.at(to) != kTrueColon) return true;
+            }
+        return false;
     }
 
     template <typename Use>
@@ -126,7 +155,7 @@ private:
     }
 
     bool inTissue(const glm::ivec3& v, double fromColon) const {
-        return mAway.at(v) > fromColon && mMade.truth.at(v) == 0 && mMade.scan.at(v) > -150;
+        return mGap.at(v) > fromColon && mMade.truth.at(v) == 0 && mMade.scan.at(v) > -150;
     }
 
     // A piece of the colon is filled up with something.
@@ -230,7 +259,8 @@ private:
     std::vector<CentrelinePoint> mAxis;
     Abdomen mMade;
     Volume<std::uint16_t> mAlong;
-    Volume<float> mAway;
+    Volume<float> mAway;  // beyond the tube's radius
+    Volume<float> mGap;   // from the lumen, metres
 };
 
 // What varies from study to study, by chance.

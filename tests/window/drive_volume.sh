@@ -6,10 +6,21 @@
 . "$(dirname "$0")/drive_window.sh"
 shift 2
 
-# A colon has one wall; that of other volumes moves.
+# A colon has one wall, and pieces that are taken by clicks; that of other volumes moves.
 case "$*" in
-    *--isosurface*) moves() { settled "$1" "$2"; } ;;
-    *) moves() { settled "$1"; } ;;
+    *--isosurface*)
+        moves() { settled "$1" "$2"; }
+        pages=axial
+        chooses() { :; }
+        ;;
+    *)
+        moves() { settled "$1"; }
+        pages=chosen
+        chooses() {
+            press 245 120
+            settled chosen axial
+        }
+        ;;
 esac
 
 open_window "$@"
@@ -24,10 +35,9 @@ keys t
 settled opaque translucent
 keys v
 settled axial opaque
-press 245 120
-settled chosen axial
+chooses
 keys Next Next Next Next
-settled paged chosen
+settled paged "$pages"
 keys v
 settled coronal paged
 keys Return
