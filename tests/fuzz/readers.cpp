@@ -20,6 +20,7 @@
 #include "engine/volume/transfer_function.h"
 #include "terrain/light/terrain_light.h"
 #include "terrain/read/dem_reader.h"
+#include "terrain/read/raster_file.h"
 #include "terrain/read/scene_file.h"
 
 namespace stereonav::fuzz {
@@ -90,9 +91,10 @@ constexpr Reader kReaders[] = {
          Progress progress;
          readDem(file, 1.0, progress);
      }},
+    {"track", "track.gpx", [](const fs::path& file) { readTrackFile(file); }},
     {"bake", "light.bake", bake, mendBake},
     {"ground-light", "light.tlight", [](const fs::path& file) { loadTerrainLight(file, nullptr); }},
-    {"colon-cache", "stereonav/colon-v6-0000000000000001.bin", colonCache, mendColonCache},
+    {"colon-cache", "stereonav/colon-v7-0000000000000001.bin", colonCache, mendColonCache},
 };
 
 }  // namespace

@@ -72,6 +72,28 @@ constexpr const char* kTriangle = R"({"asset":{"version":"2.0"},"scene":0,"scene
 "bufferViews":[{"buffer":0,"byteLength":36}],
 "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 
+// The same with positions that differ from none in one place.
+constexpr const char* kSparse =
+    R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,
+"indices":{"bufferView":0,"componentType":5121},"values":{"bufferView":1}}}],
+"bufferViews":[{"buffer":0,"byteLength":1},{"buffer":0,"byteOffset":4,"byteLength":12}],
+"buffers":[{"byteLength":16,"uri":"data:application/octet-stream;base64,AQAAAAAAgD8AAIA/AAAAAA=="}]})";
+
+constexpr const char* kTrack =
+    "<gpx version=\"1.1\" xmlns=\"http://www.topografix.com/GPX/1/1\"><trk><name>a</name>"
+    "<trkseg><trkpt lat=\"46\" lon=\"8\"><ele>500</ele></trkpt><trkpt lat=\"46.1\" lon=\"8\"/></trkseg>"
+    "<trkseg/><trkseg><trkpt lat=\"46.2\" lon=\"8\"/></trkseg></trk></gpx>";
+
+// Two segments in one layer, a third in another, as 3D Slicer writes them.
+constexpr const char* kSegments =
+    "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 2 2 2\nspace: left-posterior-superior\n"
+    "space directions: none (1,0,0) (0,1,0) (0,0,1)\nkinds: list domain domain domain\nencoding: raw\n"
+    "Segment0_Name:=colon\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
+    "Segment1_Name:=fluid\nSegment1_LabelValue:=2\nSegment1_Layer:=0\n"
+    "Segment2_Name:=polyp\nSegment2_LabelValue:=1\nSegment2_Layer:=1\n\n";
+
 constexpr const char* kGrid =
     "ncols 3\nnrows 2\nxllcorner 500000\nyllcorner 4000000\ncellsize 30\n"
     "NODATA_value -9999\n1 2 3\n4 -9999 6\n";
@@ -129,6 +151,8 @@ void writeSeeds(const fs::path& folder) {
     for (const fuzz::Reader& reader : fuzz::readers()) fs::create_directories(folder / reader.name);
     writePaths(folder);
     writeTextFile(folder / "landmark/seed", kTriangle);
+    writeTextFile(folder / "landmark/sparse", kSparse);
+    writeTextFile(folder / "track/seed", kTrack);
     writeTextFile(folder / "probe/seed",
                   std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n") + std::string(32, '\x80'));
     writeColorImage(folder / "picture/seed.png", Plane<PackedColor>(5, 3));
@@ -139,6 +163,7 @@ void writeSeeds(const fs::path& folder) {
                   "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nendian: little\n"
                   "encoding: raw\nspace: left-posterior-superior\n"
                   "space directions: (1,0,0) (0,1,0) (0,0,1)\n\n0123456789abcdef");
+    writeTextFile(folder / "nrrd/segments", kSegments + std::string("\1\0\2\1\0\0\1\1\2\0\1\0\1\1\0\0", 16));
     writeTextFile(folder / "metaimage/seed",
                   "ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\n"
                   "ElementType = MET_SHORT\nElementSpacing = 1 1 1\n"
