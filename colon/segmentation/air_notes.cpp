@@ -9,7 +9,8 @@
 namespace stereonav {
 namespace {
 
-constexpr std::size_t kMostNotes = 12;  // of one kind
+constexpr std::size_t kMostNotes = 12;          // of one kind
+constexpr double kSmallWorthCounting = 0.5e-6;  // cubic metres
 
 std::string placeText(const glm::dvec3& world) {
     return fmt::format("{:.1f},{:.1f},{:.1f}", 1000 * world.x, 1000 * world.y, 1000 * world.z);
@@ -40,6 +41,7 @@ public:
         add([&](int n) { return taken(n) && reason(n).sure && (several || !reason(n).text.empty()); },
             [&](int n) { return sure("took ", n); });
         add([&](int n) { return !taken(n) && reason(n).sure; }, [&](int n) { return sure("left out ", n); });
+        addSmall();
         return std::move(mNotes);
     }
 
@@ -51,6 +53,20 @@ private:
             if (wanted(n) && ++count <= kMostNotes) mNotes.push_back(words(n));
         if (count > kMostNotes)
             mNotes.push_back(fmt::format("and {} smaller pieces more", count - kMostNotes));
+    }
+
+    void addSmall() {
+        double volume = 0;
+        std::size_t count = 0;
+        for (std::size_t n = 0; n < mAir.kinds.size(); ++n) {
+            const double each = mMeasures.volume(static_cast<int>(n));
+            if (mAir.kinds[n] != AirKind::Small || each < kSmallWorthCounting) continue;
+            volume += each;
+            ++count;
+        }
+        if (count > 0)
+            mNotes.push_back(fmt::format("left out {} small piece{} of gas, {:.1f} ml in all", count,
+                                         count == 1 ? "" : "s", volume * 1e6));
     }
 
     bool taken(int n) const { return mAir.kinds[static_cast<std::size_t>(n)] == AirKind::Colon; }
