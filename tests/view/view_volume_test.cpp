@@ -464,6 +464,10 @@ TEST_F(ViewVolume, ClicksSetSeedsInMillimetres) {
     EXPECT_THAT(s.notice(), testing::HasSubstr("--seed 24.5,31.5,40.0"));
     s.click(2, 200);
     EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("2 seeds")) << "beside the study";
+    s.act({ViewCommand::Quit});
+    EXPECT_FALSE(s.slicesShown());
+    s.act({ViewCommand::Slices});
+    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("2 seeds")) << "Esc does not take them away";
     s.act({ViewCommand::FindAgain});
     auto change = s.takeSceneChange();
     ASSERT_TRUE(change.has_value() && change->seeds.has_value());
