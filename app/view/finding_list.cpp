@@ -10,6 +10,7 @@
 #include "app/view/kept_file.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/new_file.h"
 
 namespace stereonav {
 namespace {
@@ -34,7 +35,8 @@ std::filesystem::path findingsFile(const std::filesystem::path& places) {
 }
 
 void FindingList::open(std::shared_ptr<const Scene> scene, const std::filesystem::path& file) {
-    cancel();
+    const std::filesystem::path unwritten = mPage.empty() ? mReport : mPage;
+    if (!writes()) cancel();
     ++mOpened;
     mScene = std::move(scene);
     mFile = maker() ? file : std::filesystem::path();
@@ -44,6 +46,8 @@ void FindingList::open(std::shared_ptr<const Scene> scene, const std::filesystem
     mPage.clear(), mReport.clear();
     mUsed = mStopped = mClicks = mFindsCandidates = false;
     mSummary.clear(), mTold.clear(), mProblem.clear();
+    if (!unwritten.empty())
+        mProblem = unwritten.string() + " was not written: another scene was opened before";
     if (mFile.empty()) return;
     try {
         if (const auto document = readKept(mFile))
@@ -132,7 +136,6 @@ void FindingList::writeReport(const std::filesystem::path& file) {
         throw Error("report", "", "expected findings that are measured", "let them be measured first");
     const std::filesystem::path place = std::filesystem::absolute(file).lexically_normal();
     checkOutputFile("report", place.string());
-    checkNotRead({{"report", place.string()}});
     mReport = place;
 }
 
@@ -179,8 +182,9 @@ std::vector<std::pair<int, SurfaceFinding>> FindingList::unmeasured(bool values)
     return due;
 }
 
-void FindingList::start(const std::string& doing, bool values, Job job) {
+void FindingList::start(const std::string& doing, bool values, Job job, bool writes) {
     mDoing = doing;
+    mWrites = writes;
     mWorksFor = mOpened;
     mEnds = false;
     mFraction = std::make_shared<std::atomic<double>>(0);
@@ -226,30 +230,39 @@ bool FindingList::begin(const std::shared_ptr<const SliceStudy>& study) {
 
 bool FindingList::beginPage(const std::shared_ptr<const SliceStudy>& study) {
     if (mPage.empty()) return false;
-    start("the page", false,
-          [list = findings(), study, page = std::exchange(mPage, {})](const SurfaceFindings& maker,
-                                                                      Progress& progress, Outcome& outcome) {
-              writeTextFile(page, maker.pageOf(refsOf(list), study, progress));
-              outcome.told = "written to " + page.string();
-          });
+    start(
+        "the page", false,
+        [list = findings(), study, page = std::exchange(mPage, {})](const SurfaceFindings& maker,
+                                                                    Progress& progress, Outcome& outcome) {
+            const std::string text = maker.pageOf(refsOf(list), study, progress);
+            const std::filesystem::path place = freePlace(page);
+            writeTextFile(place, text);
+            outcome.told = "written to " + place.string();
+        },
+        true);
     return true;
 }
 
 bool FindingList::beginReport() {
     if (mReport.empty()) return false;
-    start("the DICOM report", false,
-          [list = findings(), file = std::exchange(mReport, {})](const SurfaceFindings& maker, Progress&,
-                                                                 Outcome& outcome) {
-              const std::string report = maker.reportOf(refsOf(list));
-              checkNotRead({{"report", file.string()}});  // a slice of the study
-              writeTextFile(file, report);
-              outcome.told = "written to " + file.string();
-          });
+    start(
+        "the DICOM report", false,
+        [list = findings(), file = std::exchange(mReport, {})](const SurfaceFindings& maker, Progress&,
+                                                               Outcome& outcome) {
+            const std::string report = maker.reportOf(refsOf(list));
+            const std::filesystem::path place = freePlace(file);
+            writeTextFile(place, report);
+            outcome.told = "written to " + place.string();
+        },
+        true);
     return true;
 }
 
 void FindingList::take(Outcome outcome) {
-    if (mWorksFor != mOpened) return;  // of a scene that is gone
+    if (mWorksFor != mOpened) {  // of a scene that is gone
+        if (mWrites) mProblem = outcome.problem;
+        return;
+    }
     // It may have come to its end all the same: what was written is there.
     if (mProgress->cancelled() && outcome.told.empty()) {
         outcome = {};

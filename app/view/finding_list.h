@@ -35,7 +35,7 @@ public:
     ~FindingList() { cancel(); }  // and waits for the end
 
     // Of that scene from now on, with what was kept in `file`, which nothing is measured of yet; "" keeps
-    // nothing.
+    // nothing. A file that is being written of the scene before is written to its end.
     void open(std::shared_ptr<const Scene> scene, const std::filesystem::path& file);
     // The same file, shown by another scene: what was measured stays.
     void replaceScene(std::shared_ptr<const Scene> scene);
@@ -65,7 +65,7 @@ public:
     void findCandidates() { mFindsCandidates = true; }
     void dropCandidates() { mCandidates.clear(); }
     void keep(int id);  // a candidate becomes a finding
-    // An .html file. Throws Error where it can not be.
+    // An .html file; where one is there already the new one gets a number. Throws Error where it can not be.
     void writePage(const std::filesystem::path& file);
     // A DICOM structured report, a .dcm file. Throws Error where it can not be.
     void writeReport(const std::filesystem::path& file);
@@ -75,6 +75,7 @@ public:
     bool poll(const std::shared_ptr<const SliceStudy>& study);
     bool busy() const { return mWork.valid(); }
     const std::string& doing() const { return mDoing; }  // while busy
+    bool writes() const { return busy() && mWrites; }    // a file, which is not begun again
     double fraction() const { return *mFraction; }       // of it
     void cancel();
     const std::string& told() const { return mTold; }        // of what was done last: "written to ..."
@@ -93,7 +94,7 @@ private:
     std::vector<SurfaceFinding> findings() const;
     std::vector<std::pair<int, SurfaceFinding>> unmeasured(bool values) const;
     bool begin(const std::shared_ptr<const SliceStudy>& study);
-    void start(const std::string& doing, bool values, Job job);
+    void start(const std::string& doing, bool values, Job job, bool writes = false);
     void take(Outcome outcome);
     bool beginPage(const std::shared_ptr<const SliceStudy>& study);
     bool beginReport();
@@ -107,7 +108,8 @@ private:
     std::vector<std::pair<std::size_t, Row>> mRemoved;  // with the places that they had
     int mNext = 1, mOpened = 0, mWorksFor = 0;
     bool mUsed = false, mStopped = false, mClicks = false, mFindsCandidates = false;
-    bool mEnds = false;  // what is at work was cancelled, and nothing was asked for since
+    bool mWrites = false;  // what is at work writes a file
+    bool mEnds = false;    // what is at work was cancelled, and nothing was asked for since
     std::string mSummary, mTold, mProblem, mDoing;
     std::shared_ptr<std::atomic<double>> mFraction = std::make_shared<std::atomic<double>>(0);
     std::shared_ptr<Progress> mProgress;

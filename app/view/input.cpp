@@ -296,7 +296,7 @@ const std::vector<KeyHelp>& viewKeys() {
         {"Backspace", "turn round (colon)", does(TurnRound)},
         {"3-D mouse", "fly and turn; its buttons: home, keep comfortable"},
         {"F1", "these keys"},
-        {"Esc", "back, or quit; Ctrl+Q quits"},
+        {"Esc", "back, or quit; Ctrl+Q quits; both ask first while something is made"},
     };
     return keys;
 }

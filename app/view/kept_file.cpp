@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/new_file.h"
 
 namespace stereonav {
 namespace {
@@ -83,6 +84,7 @@ void writeKept(const fs::path& file, const std::string& bytes) {
 fs::path setAside(const fs::path& file) {
     fs::path aside = file;
     aside += ".damaged";
+    aside = freePlace(aside);
     std::error_code code;
     fs::rename(file, aside, code);
     return code ? fs::path() : aside;

@@ -27,7 +27,8 @@ std::optional<std::string> readKept(const std::filesystem::path& file);
 // Makes its folder, and writes it whole. Throws Error, also where `file` is "".
 void writeKept(const std::filesystem::path& file, const std::string& bytes);
 
-// Renames a damaged file to NAME.damaged, over one of before. Its new name, or "" where that does not go.
+// Renames a damaged file to NAME.damaged, or with a number where one of before is there. Its new name, or ""
+// where that does not go.
 std::filesystem::path setAside(const std::filesystem::path& file);
 
 // The same for JSON. A file that is none, or that `isRight` refuses, is set aside: none, and `problem` is one

@@ -13,6 +13,7 @@ namespace {
 
 // How its frames are made, and how it begins.
 OpenScene opened(std::shared_ptr<Scene> shown, const ViewOptions& options, bool measure, Progress& progress) {
+    progress.report(0, "opening");
     OpenScene open;
     const Scene& scene = *shown;
     if (const auto* const light = scene.offered<TurningLight>()) open.sun = light->place();

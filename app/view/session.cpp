@@ -64,9 +64,9 @@ bool asksForMotion(const FlightInput& input) {
 
 ViewSession::ViewSession(std::shared_ptr<const OpenScene> scene, const Options& options)
     : mScene(std::move(scene)),
-      mFolder(options.folder),
       mFlight(shown().makeFlight()),
       mFirstFlightMode(mFlight->mode()),
+      mRecorder(std::make_unique<FlightRecording>(options.folder)),
       mPath(options.path ? *options.path : shown().path),
       mOwnPath(!options.path),
       mStereo(shown()),
@@ -278,13 +278,13 @@ void ViewSession::fly(const FlightInput& input, double dt) {
     if (asksForMotion(input)) mGoal.reset();
     if (mGoal) {
         stepGoal(dt);
-        mRecorder.step(dt, mFlight->pose());
+        mRecorder->step(dt, mFlight->pose());
         return;
     }
     if (!mResting || asksForMotion(input)) mFlight->step(wish, dt);
     if (dt > 0)
         mResting = !asksForMotion(input) && atRest(before, mFlight->pose(), mFlight->speed() * mSpeed, dt);
-    mRecorder.step(dt, mFlight->pose());
+    mRecorder->step(dt, mFlight->pose());
 }
 
 void ViewSession::step(const FlightInput& input, double dt) {
@@ -303,6 +303,7 @@ void ViewSession::step(const FlightInput& input, double dt) {
     else if (animated && (drifts || mFlying))
         mTime += std::max(dt, 0.0);
     if (mNoticeLeft > 0 && (mNoticeLeft -= dt) <= 0) mNotice.clear();
+    if (const std::string problem = mRecorder->takeProblem(); !problem.empty()) notify(problem);
     mFlying = mPlaying || mGoal || drifts || asksForMotion(input) || looked || !samePose(poseBefore, pose());
     mMoving = mFlying || recording() || mStereo.moving();
     mAhead.step(poseBefore, pose(), dt);
@@ -446,7 +447,7 @@ std::string ViewSession::statusLine(const ViewFrame& frame, double framesPerSeco
     }
     line += volumeText();
     if (mPlaying) line += fmt::format("  playing {:.1f} of {:.1f} s", mPlayTime, mPath.duration());
-    if (recording()) line += fmt::format("  recording {:.1f} s", mRecorder.duration());
+    if (recording()) line += fmt::format("  recording {:.1f} s", mRecorder->duration());
     return line;
 }
 

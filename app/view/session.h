@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/view/flight_recording.h"
 #include "app/view/slices.h"
 #include "app/view/stereo.h"
 #include "app/view/worker.h"
@@ -16,7 +17,6 @@
 #include "engine/nav/flight.h"
 #include "engine/nav/flight_to.h"
 #include "engine/nav/motion_ahead.h"
-#include "engine/nav/path_recorder.h"
 
 namespace stereonav {
 
@@ -164,13 +164,17 @@ public:
     const RecordedPath& path() const { return mPath; }
     // Puts another one in its place; what fails is told. The last ones can be had back.
     void editPath(const std::function<RecordedPath(const RecordedPath&)>& edit);
+    void openPath(RecordedPath path);  // the same, with one that lies in a file
     void undoPath();
     void savePath();
+    // Before the session ends: what is being recorded ends, and it or a path that was changed and not saved
+    // goes into a file. What to tell of that; "" where there is neither.
+    std::string keepWork();
     // In its place without a step back or a word: one that is being worked on.
     void setPath(RecordedPath path);
     long long pathVersion() const { return mPathVersion; }  // another one with every other path
     double playTime() const { return mPlayTime; }
-    double recorded() const { return mRecorder.duration(); }  // seconds
+    double recorded() const { return mRecorder->duration(); }  // seconds
 
     // Turns by radians: clockwise seen from above, upwards.
     void look(double yaw, double pitch);
@@ -245,7 +249,7 @@ public:
     Pose pose() const { return mPlaying ? mPlayed : mFlight->pose(); }
     const Flight& flight() const { return *mFlight; }
     bool playing() const { return mPlaying; }
-    bool recording() const { return mRecorder.recording(); }
+    bool recording() const { return mRecorder->recording(); }
 
 private:
     bool hasOtherShape(int width, int height) const;  // than the pictures that were asked for last
@@ -269,6 +273,7 @@ private:
     std::string volumeText() const;
     void askForChange();
     void openSlices();
+    void closeSlices();
     void fly(const FlightInput& input, double dt);
     void stepPace(double dt);
     void stepGoal(double dt);
@@ -282,7 +287,11 @@ private:
     void takeSurface();
     void toggleRecording();
     void saveFlight();
-    void takePath(RecordedPath path);
+    void writtenTo(const std::function<std::filesystem::path()>& write);
+    enum class PathIs { InFile, Unsaved };
+    void takePath(RecordedPath path, PathIs where);
+    void putPath(const std::function<RecordedPath(const RecordedPath&)>& edit, PathIs where);
+    void dropOldestPaths();
     void togglePlaying();
     void stepPlaying(double dt);
     void stopPlaying();
@@ -294,12 +303,12 @@ private:
     }
 
     std::shared_ptr<const OpenScene> mScene;
-    std::filesystem::path mFolder;
     std::unique_ptr<Flight> mFlight;
     int mFirstFlightMode = 0;
     std::optional<FlightTo> mGoal;
-    PathRecorder mRecorder;
-    RecordedPath mPath;  // what Play plays
+    std::unique_ptr<FlightRecording> mRecorder;
+    RecordedPath mPath;               // what Play plays
+    PathIs mPathIs = PathIs::InFile;  // the scene's own needs no file
     long long mPathVersion = 0;
     bool mPlaying = false;
     double mPlayTime = 0;  // seconds since the path's start
@@ -309,6 +318,7 @@ private:
     struct PathBefore {
         RecordedPath path;
         bool own;  // the scene's: given back, it is that of the scene that is shown then
+        PathIs where;
     };
     std::vector<PathBefore> mPathsBefore;
     ViewStereo mStereo;
@@ -323,7 +333,8 @@ private:
     std::optional<SliceView> mSlices;
     std::shared_ptr<const SliceStudy> mStudy;
     bool mStudyWished = false, mSliceViewWished = false;
-    int mSliceWidth = 1, mSliceHeight = 1;  // pixels of the last slice picture
+    std::optional<PieceChoices> mPieceChoices;  // when the slice view was left
+    int mSliceWidth = 1, mSliceHeight = 1;      // pixels of the last slice picture
     OutputMode mMode, mFirstMode;
     bool mQuadBuffer = false;  // whether the window has one
     std::string_view mMethod;

@@ -14,6 +14,14 @@
 #include "app/view/status.h"
 
 namespace stereonav {
+namespace {
+
+PieceChoices choicesOf(const Scene& scene) {
+    const auto* const source = scene.offered<SliceSource>();
+    return source ? source->pieceChoices() : PieceChoices{};
+}
+
+}  // namespace
 
 void ViewSession::takeSurface() {
     const auto* const surface = offered<SurfaceChoices>();
@@ -38,13 +46,15 @@ void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
     const auto *const before = offered<TurningLight>(), *const after = scene->scene->offered<TurningLight>();
     const bool lightStays = before && after && before->isSky() == after->isSky();
     const bool methodStays = scene->changed && scene->way.method == mScene->way.method;
+    if (choicesOf(shown()) != choicesOf(*scene->scene)) mPieceChoices.reset();
     mStereo.replaceScene(*scene->scene);
     keepPaint(shown(), *scene->scene);
     mScene = std::move(scene);
     if (mOwnPath) {
-        takePath(shown().path);
+        takePath(shown().path, PathIs::InFile);
     } else if (raised) {
-        setPath(raised->moved(mPath));
+        stopPlaying();
+        takePath(raised->moved(mPath), mPathIs);
         for (PathBefore& step : mPathsBefore) step.path = raised->moved(step.path);
     }
     if (!lightStays) mSun = mScene->sun;
@@ -297,7 +307,7 @@ bool ViewSession::actOnSlices(ViewCommand command) {
     }
     switch (command) {
         case ViewCommand::Quit:
-            mSlices.reset();
+            closeSlices();
             return true;
         case ViewCommand::Slices:
             mSlices->nextAxis(pose().position);
@@ -342,8 +352,14 @@ bool ViewSession::takeStudyWish() {
 void ViewSession::showSlices(std::shared_ptr<const SliceStudy> study) {
     mStudy = std::move(study);
     mSliceViewWished = false;
-    const auto* const source = offered<SliceSource>();
-    mSlices.emplace(mStudy, pose().position, source ? source->pieceChoices() : PieceChoices{});
+    mSlices.emplace(mStudy, pose().position, mPieceChoices ? *mPieceChoices : choicesOf(shown()));
+}
+
+// What was chosen in it and not looked for yet is there again when it is opened.
+void ViewSession::closeSlices() {
+    mPieceChoices.reset();
+    if (mSlices->choices() != choicesOf(shown())) mPieceChoices = mSlices->choices();
+    mSlices.reset();
 }
 
 const Plane<PackedColor>& ViewSession::slicePicture(int width, int height) {

@@ -87,7 +87,7 @@ void Viewer::tell(const std::string& text) {
 
 void Viewer::run() {
     if (!mOptions.shots.empty()) makeOutputFolder(mOptions.shots);
-    while (!mWindow.shouldClose() && !(mSession && mSession->quit())) {
+    while (!ends()) {
         mWindow.handleEvents(waitSeconds());
         throwIfStopped();
         const double dt = mClock.lap_ms() / 1000;
@@ -102,6 +102,7 @@ void Viewer::run() {
         stepBench();
     }
     endBench();
+    endSession();
     while (mScreenshots.waiting() && mFrame) finishScreenshots();
     keepConfig();
     mResult.add("scene", sceneName());
@@ -154,6 +155,7 @@ void Viewer::takeScene() {
 
 void Viewer::beginSession() {
     const bool first = !mSession;
+    const std::string kept = mSession ? mSession->keepWork() : "";
     mSlices.abandon();
     mSession.emplace(mScene,
                      ViewSession::Options{mMode, std::exchange(mFlight, std::nullopt), mOptions.shots,
@@ -175,6 +177,8 @@ void Viewer::beginSession() {
     reportKept();
     beginSecond();
     greet(first);
+    tell(kept);
+    if (!kept.empty()) mSession->notify(kept);
 }
 
 void Viewer::takeKeys(double dt) {
@@ -197,10 +201,10 @@ bool Viewer::actOnInterface(const ViewAction& action) {
         case ViewCommand::Quit:
             if (mPanels.closeOne()) return true;
             if (mSession && (mSession->slicesShown() || mSlices.busy())) return false;
-            mWindow.close();
+            leave();
             return true;
         case ViewCommand::QuitAtOnce:
-            mWindow.close();
+            leave();
             return true;
         case ViewCommand::FullScreen:
             mDisplay.toggleFullScreen();

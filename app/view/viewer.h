@@ -10,6 +10,7 @@
 #include "app/command/commands.h"
 #include "app/output/command_result.h"
 #include "app/output/place_labels.h"
+#include "app/view/closing_question.h"
 #include "app/view/control_window.h"
 #include "app/view/frame_governor.h"
 #include "app/view/frame_rate.h"
@@ -31,6 +32,7 @@
 #include "app/view/view_display.h"
 #include "app/view/window_config.h"
 #include "app/view/window_times.h"
+#include "engine/base/new_file.h"
 #include "engine/base/stopwatch.h"
 #include "engine/display/eye_overlay.h"
 #include "engine/display/interface.h"
@@ -74,7 +76,9 @@ public:
     void act(const ViewAction& action) override;
     void set(const std::string& key, const std::optional<std::string>& text) override;
     void open(const std::string& scene) override;
-    void quit() override { mWindow.close(); }
+    void quit() override { leave(); }
+    std::string closingQuestion() const override;
+    void answerClosing(bool close) override;
     const std::vector<RecentFile>& recentFiles() const override { return mRecent.list(); }
     void forgetRecent(const std::filesystem::path& file) override { mRecent.remove(file); }
     FileLook lookAt(const std::filesystem::path& file) override { return mLooks.look(file); }
@@ -167,9 +171,16 @@ private:
     // Of what is shown: in full, so that it is found from anywhere; built-in scenes by their names.
     std::filesystem::path fullName() const;
     void keepBefore();
+    // What would end with the window, and what becomes of it.
+    std::vector<std::string> workAtHand() const;
+    void leave();  // closes the window, unless there is something to ask first
+    bool ends();
+    void endSession();
     void checkNoJob() const;
     std::string modeOfFiles() const;
-    void startJob(const std::string& what, const std::vector<std::string>& words);
+    // place: of the file that it makes, where that is to be a new one.
+    void startJob(const std::string& what, const std::vector<std::string>& words,
+                  std::unique_ptr<HeldPlace> place = nullptr);
     void lookAtJob();
     void reportKept();
     void takeDrops();
@@ -256,8 +267,11 @@ private:
     WindowConfig mConfig;  // as it was read, and is kept at the end
     RecentFiles mRecent;
     std::optional<Bookmarks> mPlaces;
-    std::unique_ptr<JobFile> mJobPath;  // of the flight that the job plays; goes after it
+    std::unique_ptr<JobFile> mJobPath;     // of the flight that the job plays; goes after it
+    std::unique_ptr<HeldPlace> mJobPlace;  // of the file that it makes; the same
     std::unique_ptr<Job> mJob;
+    ClosingQuestion mClosing;
+    bool mEnds = false;               // the window closes, whatever is at work
     std::string mBaked, mBakedScene;  // the file of a bake at work, and what it is of
     bool mRecentDue = false;          // the file that is shown goes among them with its first picture
     std::shared_ptr<const ViewFrame> mFrame;

@@ -18,8 +18,10 @@ void Viewer::checkNoJob() const {
         throw Error("", mJob->what(), "is still being made", "wait for it, or cancel it");
 }
 
-void Viewer::startJob(const std::string& what, const std::vector<std::string>& words) {
+void Viewer::startJob(const std::string& what, const std::vector<std::string>& words,
+                      std::unique_ptr<HeldPlace> place) {
     mJob = std::make_unique<Job>(what, words);
+    mJobPlace = std::move(place);
 }
 
 void Viewer::cancelJob() {
@@ -42,7 +44,9 @@ std::string Viewer::modeOfFiles() const {
 void Viewer::savePicture(const PictureWish& picture) {
     tryTo([&] {
         checkNoJob();
-        const std::filesystem::path place = std::filesystem::absolute(picture.file).lexically_normal();
+        auto held = std::make_unique<HeldPlace>(std::filesystem::absolute(picture.file).lexically_normal(),
+                                                HeldPlace::Kind::File);
+        const std::filesystem::path place = held->path();
         SettingTexts settings = withEyes(this->settings(), mSession->stereo());
         settings["size"] = {fmt::format("{}x{}", picture.width, picture.height)};
         // Nobody waits for it in flight.
@@ -53,7 +57,7 @@ void Viewer::savePicture(const PictureWish& picture) {
         std::vector<std::string> words = commandWords(command::kRender, settings);
         words.push_back("--pose=" + poseText(mSession->pose()));
         words.push_back("--out=" + place.string());
-        startJob("the picture " + place.string(), words);
+        startJob("the picture " + place.string(), words, std::move(held));
     });
 }
 
@@ -68,15 +72,18 @@ void Viewer::makeMovie(const MovieWish& movie) {
         std::vector<std::string> words = commandWords(command::kPlay, settings);
         std::error_code code;
         // Whole, so that it is told where the movie is.
-        const std::filesystem::path place = std::filesystem::absolute(movie.file).lexically_normal();
-        const bool video = place.has_extension();
-        mJobPath = std::make_unique<JobFile>(std::filesystem::temp_directory_path(code) /
-                                             fmt::format("stereonav_{}.gltf", getpid()));
+        const std::filesystem::path wanted = std::filesystem::absolute(movie.file).lexically_normal();
+        const bool video = wanted.has_extension();
+        auto held =
+            std::make_unique<HeldPlace>(wanted, video ? HeldPlace::Kind::File : HeldPlace::Kind::Folder);
+        const std::filesystem::path place = held->path();
+        mJobPath = std::make_unique<JobFile>(freePlace(std::filesystem::temp_directory_path(code) /
+                                                       fmt::format("stereonav_{}.gltf", getpid())));
         writePath(mJobPath->path(), mSession->path());
         words.push_back("--path=" + mJobPath->path().string());
         words.push_back((video ? "--video=" : "--out=") + place.string());
         if (video) words.push_back(fmt::format("--fps={:.6g}", movie.fps));
-        startJob("the movie " + place.string(), words);
+        startJob("the movie " + place.string(), words, std::move(held));
     });
 }
 
@@ -118,6 +125,7 @@ void Viewer::lookAtJob() {
     mJob->look();
     if (mJob->running()) return;
     mJobPath.reset();
+    mJobPlace.reset();
     const std::string baked = std::exchange(mBaked, "");
     if (mJob->failed()) {
         mFailure = mJob->lastLine().empty() ? mJob->what() + " was not made" : mJob->lastLine();

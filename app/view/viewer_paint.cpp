@@ -55,8 +55,8 @@ const std::vector<LabelledPlace>& Viewer::namedPlaces() const {
 void Viewer::saveMeasured(const std::string& file) {
     tryTo([&] {
         checkNoJob();
-        const std::filesystem::path place = std::filesystem::absolute(file).lexically_normal();
-        const std::string kind = place.extension();
+        const std::filesystem::path wanted = std::filesystem::absolute(file).lexically_normal();
+        const std::string kind = wanted.extension();
         const bool profile = kind == ".svg" || kind == ".csv";
         if (!profile && kind != ".geojson")
             throw Error(file, "", "expected a name that ends in .svg, .csv or .geojson", "as in profile.svg");
@@ -69,8 +69,10 @@ void Viewer::saveMeasured(const std::string& file) {
         std::vector<std::string> words =
             commandWords(profile ? command::kProfile : command::kMeasure, settings);
         words.push_back(measuredWords(*mScene->scene, mMeasured));
+        auto held = std::make_unique<HeldPlace>(wanted, HeldPlace::Kind::File);
+        const std::filesystem::path place = held->path();
         words.push_back(fmt::format("--{}={}", kind.substr(1), place.string()));
-        startJob(place.string(), words);
+        startJob(place.string(), words, std::move(held));
     });
 }
 

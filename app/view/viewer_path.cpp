@@ -26,10 +26,7 @@ void Viewer::followKeyframes() {
 
 void Viewer::openPath(const std::filesystem::path& file) {
     if (!mSession) return;
-    tryTo([&] {
-        RecordedPath path = readPath(file);
-        mSession->editPath([&](const RecordedPath&) { return std::move(path); });
-    });
+    tryTo([&] { mSession->openPath(readPath(file)); });
 }
 
 }  // namespace stereonav

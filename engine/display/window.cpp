@@ -273,6 +273,10 @@ void Window::close() {
     glfwSetWindowShouldClose(mHandle, GLFW_TRUE);
 }
 
+void Window::keepOpen() {
+    glfwSetWindowShouldClose(mHandle, GLFW_FALSE);
+}
+
 void Window::setCaptured(bool captured) {
     if (captured == mCaptured) return;
     mCaptured = captured;

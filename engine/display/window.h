@@ -64,6 +64,7 @@ public:
     void use() const;
 
     bool shouldClose() const;
+    void keepOpen();  // the wish to close it is not followed
     // Of all windows: handles what happened; waits at most `seconds` for something to happen (0: not at all).
     void handleEvents(double seconds);
     // Ends a wait of handleEvents early; from any thread.

@@ -21,6 +21,8 @@ public:
 
     bool recording() const { return mRecording; }
     double duration() const { return mTime; }  // seconds since the start
+    // What finish() would make a path of now.
+    const std::vector<PathSample>& samples() const { return mSamples; }
 
 private:
     double mInterval;

@@ -105,7 +105,8 @@ double bytesOfPicturedGround(double samples) {
 LoadedGround loadDem(const SceneFile& file, TerrainScene& scene, Progress& progress) {
     const auto bytesOf = file.image.empty() ? bytesOfTintedGround : bytesOfPicturedGround;
     const bool tiled = goesIntoTiles(file, bytesOf);
-    Progress reading(progress, 0, tiled ? 1 : 0.7), filling(progress, 0.7, 1);
+    const bool fills = !tiled && !file.openHoles;
+    Progress reading(progress, 0, fills ? 0.7 : 1), filling(progress, 0.7, 1);
     DemGrid dem = tiled ? readTiledGround(file, scene, reading)
                         : readDem(file.dem, file.verticalScale, reading, bytesOf);
     TerrainReport& report = scene.report;

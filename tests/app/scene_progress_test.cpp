@@ -59,9 +59,11 @@ protected:
             loadScene(options.scene, {64, 48}, progress);
         });
         for (const bool measure : {false, true})
-            expectWholeProgress("opening", 0, [&](Progress& progress) {
-                openScene(options, measure, {64, 48}, nullptr, progress);
-            });
+            expectWholeProgress("opening", 0,
+                                [&](Progress& progress) {
+                                    openScene(options, measure, {64, 48}, nullptr, progress);
+                                },
+                                {0.9});
     }
 
     std::string mCacheBefore;
@@ -118,9 +120,10 @@ TEST_F(SceneProgress, IsWholeOfWhatIsDoneInAColon) {
     expectWholeProgress("slices", 2,
                         [&](Progress& progress) { scene->offered<SliceSource>()->readSlices(progress); });
     expectWholeProgress("unfolding", 3,
-                        [&](Progress& progress) { scene->offered<FlatWall>()->makeFlat(progress); });
+                        [&](Progress& progress) { scene->offered<FlatWall>()->makeFlat(progress); }, {0.3});
     expectWholeProgress("a panorama", 5,
-                        [&](Progress& progress) { scene->offered<FlatWall>()->makePanorama(progress); });
+                        [&](Progress& progress) { scene->offered<FlatWall>()->makePanorama(progress); },
+                        {0.3, 0.4});
     const auto& wall = *scene->offered<WallToSee>();
     expectWholeProgress("a wall to look at", 0, [&](Progress& progress) { wall.begin({}, progress); });
     Progress quiet;
@@ -149,7 +152,8 @@ TEST_F(SceneProgress, IsWholeOfChangedSurfaces) {
     for (const SurfaceChange& change : changes) {
         expectWholeProgress("changing", 0, [&](Progress& progress) { choices.changed(change, progress); });
         expectWholeProgress("opening it", 0,
-                            [&](Progress& progress) { changedScene(open, change, options, progress); });
+                            [&](Progress& progress) { changedScene(open, change, options, progress); },
+                            {0.9});
     }
 }
 

@@ -109,6 +109,34 @@ TEST_F(ColonProgress, IsWholeOfSlices) {
     }
 }
 
+// A colon as it is opened first, from the cache with its study and without, and as a surface: each stage
+// begins where the one before it has ended.
+TEST_F(ColonProgress, IsWholeOfColonsThatAreOpened) {
+    const GreyVolume scan = scanned(filled({100, 100, 90}, 0.0012, TubeBody::hu), 0.0008, 15);
+    ColonOptions options;
+    options.study =
+        writeNrrd(mFolder / "tube.nrrd",
+                  "type: short\ndimension: 3\nsizes: 100 100 90\nspace: left-posterior-superior\n"
+                  "space directions: (1.2,0,0) (0,1.2,0) (0,0,1.2)\nspace origin: (0,0,0)\nencoding: raw\n"
+                  "endian: little\n",
+                  std::string(reinterpret_cast<const char*>(scan.values.data()), 2 * scan.frame.count()));
+    Progress quiet;
+    ASSERT_TRUE(loadColon(options, quiet).isColon());
+    const auto load = [&](Progress& progress) { loadColon(options, progress); };
+    expectWholeProgress("a new colon", 5,
+                        [&](Progress& progress) {
+                            fs::remove_all(mFolder / "cache");
+                            loadColon(options, progress);
+                        },
+                        {0.5, 0.5 + 0.4 * 0.7, 0.9});
+    loadColon(options, quiet);
+    expectWholeProgress("from the cache", 1, load);
+    options.keepsStudy = true;
+    expectWholeProgress("from the cache, with its study", 2, load, {0.5});
+    options.isosurface = true;
+    expectWholeProgress("a surface", 2, load, {0.5});
+}
+
 TEST_F(ColonProgress, IsWholeOfCandidates) {
     const LumenWall wall(
         [](const glm::dvec3& p) {

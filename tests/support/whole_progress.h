@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -37,6 +38,18 @@ public:
         EXPECT_GE(between, steps) << of << " tells too little on the way";
     }
 
+    // joints: shares where one stage ends and the next begins: each is told by both, one after the other.
+    void expectStages(const std::string& of, const std::vector<double>& joints) const {
+        const std::vector<double> all = told();
+        for (const double joint : joints) {
+            const auto isJoint = [joint](double share) { return std::abs(share - joint) < 1e-9; };
+            bool joined = false;
+            for (std::size_t n = 1; n < all.size(); ++n)
+                joined = joined || (isJoint(all[n - 1]) && isJoint(all[n]));
+            EXPECT_TRUE(joined) << of << ": no stage ends at " << joint << " where the next begins";
+        }
+    }
+
 private:
     mutable std::mutex mMutex;
     std::vector<double> mTold;  // guarded by mMutex
@@ -46,12 +59,15 @@ private:
     }};
 };
 
-// work(progress) is done once as a whole; a second time it is stopped as soon as it tells anything.
+// work(progress) is done once as a whole; a second time it is stopped as soon as it tells anything. joints:
+// as in expectStages().
 template <typename Work>
-void expectWholeProgress(const std::string& of, std::size_t steps, const Work& work) {
+void expectWholeProgress(const std::string& of, std::size_t steps, const Work& work,
+                         const std::vector<double>& joints = {}) {
     WrittenProgress written;
     work(written.progress());
     written.expectWhole(of, steps);
+    written.expectStages(of, joints);
     Progress* itself = nullptr;
     Progress stopping([&](double, const std::string&) { itself->cancel(); });
     itself = &stopping;

@@ -11,6 +11,7 @@
 #include "terrain/light/fine_bake.h"
 #include "terrain/light/terrain_horizon.h"
 #include "terrain/light/terrain_light.h"
+#include "tests/support/failing_reads.h"
 #include "tests/support/file_bytes.h"
 #include "tests/support/test_grounds.h"
 #include "tests/support/thread_peers.h"
@@ -237,6 +238,62 @@ TEST_F(FineLightFile, ADiskThatFailsIsNoDamage) {
     EXPECT_THROW(isFineLight(place()), DiskError);
     EXPECT_THROW(LightTiles(place(), mShape), DiskError);
     EXPECT_THROW(loadTerrainLight(place(), nullptr), DiskError);
+}
+
+// Where the disk fails in the head, in the index (of each tile's check value) or in a tile, that is told, and
+// neither damage nor a reason to make anything anew. Other tiles can be read.
+TEST_F(FineLightFile, ADiskThatFailsInTheIndexOrATileIsNoDamage) {
+    writeAll();
+    const std::string whole = fileBytes(place());
+    constexpr std::uint64_t kHead = 48, kCheck = sizeof(std::uint64_t);
+    for (const std::uint64_t byte : {std::uint64_t{3}, kHead, kHead + kCheck, kHead + 3 * kCheck - 1}) {
+        SCOPED_TRACE(byte);
+        const FailingReads fails(place(), byte);
+        EXPECT_THROW(LightTiles(place(), mShape), DiskError);
+        EXPECT_THAT(problem(mShape), AllOf(HasSubstr("a.light.fine"), HasSubstr("disk reports an error")));
+    }
+    const LightTiles tiles(place(), mShape);
+    std::uint64_t at = kHead + tiles.count() * kCheck;
+    for (std::size_t n = 0; n < tiles.count(); ++n) {
+        const LightTiles::Tile bad = tiles.tile(n);
+        const std::uint64_t bytes = bytesOf(lightOf(tiles, n)).size();
+        for (const std::uint64_t byte : {at, at + bytes / 2, at + bytes - 1}) {
+            SCOPED_TRACE(byte);
+            const FailingReads fails(place(), byte);
+            EXPECT_THROW(tiles.read(bad), DiskError);
+            EXPECT_THROW(tiles.isWhole(), DiskError);
+            for (std::size_t other = 0; other < tiles.count(); ++other) {
+                if (other != n) {
+                    EXPECT_TRUE(tiles.read(tiles.tile(other)));
+                }
+            }
+        }
+        at += bytes;
+    }
+    ASSERT_EQ(at, whole.size()) << "all of the file was tried";
+    EXPECT_TRUE(tiles.isWhole());
+    EXPECT_EQ(fileBytes(place()), whole);
+}
+
+// The same of one that is gone on from: what an earlier run has baked is not baked again, nor lost.
+TEST_F(FineLightFile, ADiskThatFailsUnderWhatWasBegunKeepsIt) {
+    {
+        LightTiles tiles = LightTiles::begin(part(), mShape);
+        tiles.write(1, bytesOf(lightOf(tiles, 1)));
+    }
+    const std::string begun = fileBytes(part());
+    constexpr std::uint64_t kHead = 48, kIndex = 3 * sizeof(std::uint64_t);
+    const std::uint64_t first = bytesOf(lightOf(LightTiles::begin(part(), mShape), 0)).size();
+    for (const std::uint64_t byte : {std::uint64_t{0}, kHead, kHead + kIndex - 1, kHead + kIndex + first,
+                                     kHead + kIndex + first + 1000}) {
+        SCOPED_TRACE(byte);
+        {
+            const FailingReads fails(part(), byte);
+            EXPECT_THROW(LightTiles::begin(part(), mShape), DiskError);
+        }
+        EXPECT_EQ(fileBytes(part()), begun);
+    }
+    EXPECT_TRUE(LightTiles::begin(part(), mShape).has(1));
 }
 
 // Threads that stand for processes; and one that is stopped after its first tile.

@@ -65,7 +65,9 @@ protected:
 TEST_F(TerrainProgress, IsWholeOfElevationModelsAsTheyAreRead) {
     for (const bool degrees : {false, true}) {
         const fs::path file = ground(degrees, true);
-        expectWholeProgress("reading", 2, [&](Progress& progress) { readDem(file, 1, progress); });
+        expectWholeProgress(
+            "reading", 2, [&](Progress& progress) { readDem(file, 1, progress); },
+            degrees ? std::vector{0.5} : std::vector<double>());
     }
 }
 
@@ -97,7 +99,7 @@ TEST_F(TerrainProgress, IsWholeOfAMapOfTheGround) {
         const TerrainScene scene = makeScene(makeGround(kind, 60, 50, 2));
         for (const int most : {1, 40})
             expectWholeProgress(kind, most > 1 ? 20 : 1,
-                                [&](Progress& progress) { mapOfGround(scene, most, progress); });
+                                [&](Progress& progress) { mapOfGround(scene, most, progress); }, {0.7});
     }
 }
 
@@ -153,7 +155,8 @@ TEST_F(TerrainProgress, IsWholeOfTheBuiltInTerrain) {
     const Relief relief = makeRelief(1, 33, quiet);
     expectWholeProgress("colours", 1,
                         [&](Progress& progress) { makeBuiltInColor(relief, 1, nullptr, progress); });
-    expectWholeProgress("both", 5, [](Progress& progress) { generateBuiltInTerrain(1, 33, progress); });
+    expectWholeProgress("both", 5, [](Progress& progress) { generateBuiltInTerrain(1, 33, progress); },
+                        {0.6});
     expectWholeProgress("made and then kept", 5, [](Progress& progress) { builtInTerrain(1, 33, progress); });
     expectWholeProgress("read back", 0, [](Progress& progress) { builtInTerrain(1, 33, progress); });
 }
@@ -176,7 +179,9 @@ TEST_F(TerrainProgress, IsWholeOfScenes) {
         for (const bool open : {false, true}) {
             SceneFile file = sceneOf(ground(degrees, true));
             file.openHoles = open;
-            expectWholeProgress("a scene", 5, [&](Progress& progress) { loadTerrain(file, progress); });
+            expectWholeProgress(
+                "a scene", 5, [&](Progress& progress) { loadTerrain(file, progress); },
+                open ? std::vector{0.6} : std::vector{0.6 * 0.7, 0.6});
         }
     SceneFile builtIn;
     builtIn.builtIn = true;
@@ -185,6 +190,21 @@ TEST_F(TerrainProgress, IsWholeOfScenes) {
         dropCache();
         loadTerrain(builtIn, progress);
     });
+}
+
+// Each stage begins where the one before it has ended.
+TEST_F(TerrainProgress, IsWholeOfScenesWithBakedLight) {
+    SceneFile file = sceneOf(ground(false, false));
+    Progress quiet;
+    TerrainLightSettings settings;
+    settings.azimuths = 8;
+    settings.rays = 16;
+    settings.bounces = 0;
+    settings.kind = TerrainLightKind::Openness;
+    saveTerrainLight(mFolder / "a.light", bakeTerrainLight(loadTerrain(file, quiet).ground, settings, quiet));
+    file.light = (mFolder / "a.light").string();
+    expectWholeProgress("a lit scene", 5, [&](Progress& progress) { loadTerrain(file, progress); },
+                        {0.6 * 0.7, 0.6, 0.9});
 }
 
 // Made, read back, and shown coarsely until they are made.

@@ -349,6 +349,24 @@ TEST_F(FindingDetours, APageIsOfTheListThatItWasBegunFor) {
     EXPECT_TRUE(allMeasured());
 }
 
+// A page that is being written is written to its end though another scene is opened: it is work that was
+// asked for.
+TEST_F(FindingDetours, APageOfTheSceneBeforeIsWrittenToItsEnd) {
+    mList.open(mScene, mFile);
+    add(1);
+    settle();
+    EXPECT_FALSE(mList.writes());
+    mList.writePage(mFolder / "page.html");
+    beginAtGate();
+    EXPECT_TRUE(mList.writes()) << "which closing the window asks about";
+    mList.open(std::make_shared<GatedFindings>("other"), "");
+    mScene->gate.open();
+    settle();
+    EXPECT_FALSE(mList.writes());
+    EXPECT_EQ(readTextFile(mFolder / "page.html"), "page of 1");
+    EXPECT_EQ(mList.problem(), "");
+}
+
 // Candidates that are kept and removed again are findings that were removed, and not candidates.
 TEST_F(FindingDetours, AKeptCandidateThatIsRemovedComesBackAsAFinding) {
     mList.open(mScene, mFile);

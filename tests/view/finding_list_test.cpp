@@ -285,6 +285,25 @@ TEST_F(FindingListTest, APageIsWritten) {
     EXPECT_THAT(mList.told(), testing::HasSubstr("page.html"));
 }
 
+TEST_F(FindingListTest, FilesThatAreThereStay) {
+    mList.open(mScene, mFile);
+    mList.add({3, 0, 0});
+    settle(mList);
+    for (const char* const name : {"page.html", "report.dcm"})
+        std::ofstream(mFolder / name) << "of another scene";
+    for (const char* const number : {"_0002", "_0003"}) {
+        mList.writePage(mFolder / "page.html");
+        settle(mList);
+        EXPECT_THAT(mList.told(), testing::HasSubstr(std::string("page") + number + ".html"));
+        EXPECT_EQ(readTextFile(mFolder / (std::string("page") + number + ".html")), "page of 1");
+        mList.writeReport(mFolder / "report.dcm");
+        settle(mList);
+        EXPECT_EQ(readTextFile(mFolder / (std::string("report") + number + ".dcm")), "report of 1");
+    }
+    for (const char* const name : {"page.html", "report.dcm"})
+        EXPECT_EQ(readTextFile(mFolder / name), "of another scene");
+}
+
 TEST_F(FindingListTest, AReportIsWrittenOfWhatIsMeasured) {
     const std::filesystem::path file = mFolder / "report.dcm";
     mList.open(mScene, mFile);
@@ -315,6 +334,7 @@ TEST_F(FindingListTest, AReportIsWrittenOfWhatIsMeasured) {
     mList.open(mScene, mFolder / "findings/other.json");
     settle(mList);
     EXPECT_FALSE(std::filesystem::exists(file));
+    EXPECT_THAT(mList.problem(), testing::HasSubstr("report.dcm was not written"));
 }
 
 TEST_F(FindingListTest, ADamagedFileIsSetAside) {

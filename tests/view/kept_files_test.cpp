@@ -156,9 +156,18 @@ TEST(Bookmarks, ADamagedFileIsSetAside) {
         EXPECT_EQ(problem.find('\n'), std::string::npos);
         EXPECT_EQ(marks.takeProblem(), "");
         EXPECT_EQ(contentOf(file.string() + ".damaged"), damaged);
+        fs::remove(file.string() + ".damaged");
         marks.add(markNamed("anew"));
         EXPECT_THAT(namesOf(Bookmarks("terrain", folder / "places")), ElementsAre("anew"));
     }
+    // One of before stays.
+    for (const char* const damaged : {"first", "second", "third"}) {
+        putText(file, damaged);
+        EXPECT_THAT(Bookmarks("terrain", folder / "places").takeProblem(), HasSubstr(".damaged"));
+    }
+    EXPECT_EQ(contentOf(file.string() + ".damaged"), "first");
+    EXPECT_EQ(contentOf(file.string() + "_0002.damaged"), "second");
+    EXPECT_EQ(contentOf(file.string() + "_0003.damaged"), "third");
 }
 
 TEST(Bookmarks, APictureOfAnotherFolderIsNotTaken) {

@@ -271,6 +271,27 @@ TEST_F(SessionDetours, AsManyPathsAsAreKept) {
     EXPECT_EQ(s.path().duration(), 120) << "fifty steps back";
 }
 
+// Steps of long recordings: as many as a million places are in, and one always.
+TEST_F(SessionDetours, StepsOfLongPathsAreFewer) {
+    const auto ofPlaces = [](std::size_t count) {
+        std::vector<PathSample> samples(count);
+        for (std::size_t n = 0; n < count; ++n) samples[n].time = static_cast<double>(n);
+        return RecordedPath(std::move(samples), "test");
+    };
+    for (const auto& [count, steps] : {std::pair<std::size_t, int>{300'000, 3}, {1'200'000, 1}}) {
+        SCOPED_TRACE(count);
+        ViewSession s = sessionOf(mParts);
+        const RecordedPath path = ofPlaces(count);
+        for (int n = 0; n < 6; ++n) s.editPath([&](const RecordedPath&) { return path; });
+        int back = 0;
+        for (long long version = -1; version != s.pathVersion(); back += version != s.pathVersion()) {
+            version = s.pathVersion();
+            s.undoPath();
+        }
+        EXPECT_EQ(back, steps);
+    }
+}
+
 // The scene's own path, changed and taken back, is the scene's own again: it goes with the scene.
 TEST_F(SessionDetours, AnOwnPathThatIsTakenBackIsTheScenesAgain) {
     for (const bool goes : {true, false}) {

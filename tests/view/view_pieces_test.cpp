@@ -91,6 +91,10 @@ TEST_F(ViewPieces, AClickTakesOrLeavesThePieceUnderIt) {
     EXPECT_THAT(s.notice(), testing::HasSubstr("value 0 at 30.0,20.0,40.0: click in gas"));
     s.click(2, 200);
     EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("3 changes")) << "beside the study, and in tissue";
+    s.act({ViewCommand::Quit});
+    EXPECT_FALSE(s.slicesShown());
+    s.act({ViewCommand::Slices});
+    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("3 changes")) << "Esc does not take them away";
     s.act({ViewCommand::FindAgain});
     auto change = s.takeSceneChange();
     ASSERT_TRUE(change.has_value() && change->pieces.has_value());

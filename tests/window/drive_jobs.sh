@@ -16,6 +16,18 @@ look() {
     find "$out" -name '*.part*' -o -name '*.tmp*' -o -name '*.mp4' -o -name 'window_*.light' -o -path "$TMPDIR/*" |
         sed "s/^/$1 /" >>"$out/left.txt"
 }
+# insist COMMAND ...: while something is at work the first wish to close only asks
+insist() {
+    local end=$((SECONDS + patience))
+    "$@"
+    alive && turns
+    works || fail "$*: the job ends unasked"
+    while alive; do
+        [ "$SECONDS" -lt "$end" ] || fail "$* does not close the window"
+        "$@" 2>/dev/null
+        nap
+    done
+}
 # ended STEP: the window, and the job with it
 ended() {
     await_end "$1"
@@ -83,6 +95,7 @@ until_true works_on
 turns
 cancel
 until_true rests
+turns
 look cancelled_bake
 take
 press 750 63
@@ -94,6 +107,7 @@ until_true writes_movie
 turns
 cancel
 until_true rests
+turns
 look cancelled_movie
 take
 # A movie of a short flight, 320x180 pixels an eye, to its end.
@@ -113,7 +127,16 @@ turns
 press 387 358
 until_true [ -s "$out/flight.mp4" ]
 until_true rests
+turns
+# Once more: the one that is there stays.
+sum=$(cksum <"$out/flight.mp4")
+press 387 358
+until_true [ -s "$out/flight_0002.mp4" ]
+until_true rests
+turns
+[ "$sum" = "$(cksum <"$out/flight.mp4")" ] || fail "another movie took the place of the first"
 mv "$out/flight.mp4" "$out/made.mp4_"
+mv "$out/flight_0002.mp4" "$out/made_again.mp4_"
 press 320 257 # saves the flight
 keys 0
 turns
@@ -132,7 +155,7 @@ take
 press 750 63
 press 732 182
 until_true works_on
-"$client" close "$window"
+insist "$client" close "$window"
 ended closed_baking
 
 # Closed by its key, and told to stop, while it makes a movie. The panel is there again.
@@ -145,6 +168,6 @@ for step in closed_movie stopped_movie; do
     press 837 358
     until_true works
     until_true writes_movie
-    if [ "$step" = closed_movie ]; then keys ctrl+q; else kill -TERM "$pid"; fi
+    if [ "$step" = closed_movie ]; then insist keys Escape; else kill -TERM "$pid"; fi
     ended "$step"
 done

@@ -82,7 +82,7 @@ void drawSaving(PanelHost& host) {
     ImGui::BeginDisabled(busy || file.empty());
     if (ImGui::Button("Save##measured")) host.saveMeasured(file);
     ImGui::EndDisabled();
-    tooltip("Written beside the flight; a file that is there already is replaced, one that was read never.");
+    tooltip("Written beside the flight; where a file is there already, the new one gets a number.");
 }
 
 }  // namespace

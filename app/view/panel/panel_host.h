@@ -110,6 +110,9 @@ public:
     virtual void act(const ViewAction& action) = 0;
     // none: as it begins. Failures are told.
     virtual void set(const std::string& key, const std::optional<std::string>& text) = 0;
+    // What is asked before the window closes; "": nothing.
+    virtual std::string closingQuestion() const { return ""; }
+    virtual void answerClosing(bool /*close*/) {}
     virtual void open(const std::string& scene) = 0;  // a file, a folder, or a built-in scene's name
     virtual void quit() = 0;
     virtual const std::vector<RecentFile>& recentFiles() const = 0;  // newest first

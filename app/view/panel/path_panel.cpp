@@ -124,7 +124,9 @@ void drawMovie(PanelHost& host, ViewSession& session) {
     static MovieWish movie{"flight.mp4"};
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##movie", "flight.mp4", &movie.file);
-    tooltip("An .mp4 (H.264), an .mkv (lossless), an .avi; or the name of a folder, for pictures.");
+    tooltip(
+        "An .mp4 (H.264), an .mkv (lossless), an .avi; or the name of a folder, for pictures. What is there "
+        "already stays: the new one gets a number.");
     int size[2] = {movie.width, movie.height};
     ImGui::SetNextItemWidth(8 * ImGui::GetFontSize());
     if (ImGui::InputInt2("##size", size)) {

@@ -193,7 +193,9 @@ void drawPicture(PanelHost& host) {
     const SizeOption shown = host.pictureSize();
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##picture", "view.png", &picture.file);
-    tooltip("A .png of the mode that is shown, or of both eyes for 3D viewers: a .jps or an .mpo.");
+    tooltip(
+        "A .png of the mode that is shown, or of both eyes for 3D viewers: a .jps or an .mpo. What is there "
+        "already stays: the new one gets a number.");
     static double times = 1;
     ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
     ImGui::DragScalar("##times", ImGuiDataType_Double, &times, 0.02f, nullptr, nullptr, "%.2f times");

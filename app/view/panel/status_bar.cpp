@@ -92,6 +92,15 @@ void askForScreen(PanelHost& host, float wrap) {
     tooltip("It is not asked again.");
 }
 
+void askBeforeClosing(PanelHost& host, const std::string& question, float wrap) {
+    ImGui::PushStyleColor(ImGuiCol_Text, warningColor(host.look()));
+    wrappedText(question, wrap);
+    ImGui::PopStyleColor();
+    if (ImGui::Button("Quit##closing")) host.answerClosing(true);
+    ImGui::SameLine();
+    if (ImGui::Button("Go on##closing")) host.answerClosing(false);
+}
+
 void drawPreparing(PanelHost& host, const PaintWork& work, float wrap) {
     wrappedText(work.what, wrap);
     ImGui::ProgressBar(static_cast<float>(work.fraction), {std::min(wrap, 20 * ImGui::GetFontSize()), 0});
@@ -168,12 +177,14 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
     const bool asks = asksForScreen(host);
     const std::optional<PaintWork> painting = host.painting();
     const std::optional<PaintWork> preparing = host.preparing();
-    const bool works = waits || job || host.readingSlices() || painting || preparing;
+    const std::string closing = host.closingQuestion();
+    const bool works = waits || job || host.readingSlices() || painting || preparing || !closing.empty();
     if (notice.empty() && host.failure().empty() && !works && !asks) return;
     const float wrap =
         std::max(std::min(width - 2 * margin, 46 * ImGui::GetFontSize()) - 4 * ImGui::GetFontSize(), 60.0f);
     ImGui::SetNextWindowPos({left + width / 2, top + margin}, ImGuiCond_Always, {0.5f, 0});
     ImGui::Begin("##notices", nullptr, kBar | ImGuiWindowFlags_AlwaysAutoResize);
+    if (!closing.empty()) askBeforeClosing(host, closing, wrap);
     if (!host.failure().empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, warningColor(host.look()));
         wrappedText(host.failure(), wrap);

@@ -14,6 +14,7 @@
 #include "app/view/frame_views.h"
 #include "app/view/panel/controls.h"
 #include "engine/base/error.h"
+#include "engine/base/new_file.h"
 #include "engine/display/window.h"
 #include "engine/image/image_file.h"
 #include "engine/nav/flight_to.h"
@@ -190,8 +191,9 @@ void UnfoldedPanel::drawMaking(PanelHost& host) {
 }
 
 void UnfoldedPanel::save(PanelHost& host) {
+    const std::string place = freePlace(mFiles[mView]).string();
     mSaving.start(
-        [flat = made(), file = mFiles[mView]](Progress&) {
+        [flat = made(), file = place](Progress&) {
             try {
                 writeColorImage(file, flat.picture);
                 return "saved " + file;
@@ -200,7 +202,7 @@ void UnfoldedPanel::save(PanelHost& host) {
             }
         },
         [] { Window::wake(); });
-    host.session()->notify("saving " + mFiles[mView]);
+    host.session()->notify("saving " + place);
 }
 
 void UnfoldedPanel::drawControls(PanelHost& host) {
