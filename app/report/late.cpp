@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "app/report/run.h"
+#include "app/report/trial.h"
 #include "engine/image/image_file.h"
 #include "engine/late/late_warp.h"
 #include "engine/metrics/image_difference.h"
