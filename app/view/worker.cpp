@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/view/frame_pool.h"
 #include "app/view/rest_refiner.h"
+#include "engine/base/free_memory.h"
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/base/thread_priority.h"
@@ -127,29 +129,6 @@ void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& tr
 }
 
 }  // namespace
-
-// Frames that nobody looks at any more, to be used again: three or four are enough for ever.
-class ViewWorker::FramePool : public std::enable_shared_from_this<FramePool> {
-public:
-    std::unique_ptr<ViewFrame> take() {
-        const std::lock_guard lock(mMutex);
-        if (mFree.empty()) return std::make_unique<ViewFrame>();
-        auto frame = std::move(mFree.back());
-        mFree.pop_back();
-        return frame;
-    }
-    // Comes back here when its last reader lets it go, on whatever thread.
-    std::shared_ptr<const ViewFrame> share(std::unique_ptr<ViewFrame> frame) {
-        return {frame.release(), [pool = shared_from_this()](const ViewFrame* done) {
-                    const std::lock_guard lock(pool->mMutex);
-                    pool->mFree.emplace_back(const_cast<ViewFrame*>(done));
-                }};
-    }
-
-private:
-    std::mutex mMutex;
-    std::vector<std::unique_ptr<ViewFrame>> mFree;
-};
 
 ViewWorker::ViewWorker(Load load, std::function<void()> wake)
     : mWake(std::move(wake)),
@@ -299,6 +278,7 @@ struct ViewWorker::Drawn {
     bool whole = true;                       // not smaller than it is to be at rest, or something moves
     std::uint64_t lightChanges = 0;          // that it was drawn after
     std::chrono::steady_clock::time_point since;
+    bool gaveBack = true;  // what was free, since it was drawn
 };
 
 void ViewWorker::renderFrames() {
@@ -363,6 +343,7 @@ void ViewWorker::draw(const Job& job, Drawn& drawn) {
     // A difference is measured already.
     if (!shared->truthError && drawn.whole) drawn.frame = shared;
     drawn.since = std::chrono::steady_clock::now();
+    drawn.gaveBack = false;
     mRefiner->start(shared);
     {
         const std::lock_guard lock(mMutex);
@@ -395,12 +376,19 @@ std::optional<ViewWorker::Job> ViewWorker::nextJob(Drawn& drawn) {
             else
                 refine(drawn);
             lock.lock();
+        } else if (!measures && !refines && !drawn.gaveBack && now >= drawn.since + kLongRest) {
+            drawn.gaveBack = true;
+            lock.unlock();
+            giveBackFreeMemory();
+            lock.lock();
         } else if (light) {
             const auto until =
                 measures || refines ? std::min(now + kLookAtLight, rested) : now + kLookAtLight;
             mAsked.wait_until(lock, until, asked);
         } else if (measures || refines) {
             mAsked.wait_until(lock, rested);
+        } else if (!drawn.gaveBack) {
+            mAsked.wait_until(lock, drawn.since + kLongRest);
         } else {
             mAsked.wait(lock);
         }

@@ -96,6 +96,8 @@ struct ViewFrame : EyePair {
 
 class RestRefiner;
 
+class FramePool;
+
 class ViewWorker {
 public:
     // load runs on a thread of the worker's and may report progress; wake is called from there when there
@@ -141,9 +143,10 @@ public:
     std::optional<FrameTruth> takeTruth();
     void measureTruth(bool on);  // on at first
     static constexpr std::chrono::milliseconds kRest{300};
+    // When nothing was drawn for so long, what frames and scenes left free goes back to the system.
+    static constexpr std::chrono::milliseconds kLongRest{5000};
 
 private:
-    class FramePool;
     // What was drawn last.
     struct Drawn;
     struct Job {

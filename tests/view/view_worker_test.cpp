@@ -14,6 +14,7 @@
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/frame/cast_frames.h"
+#include "tests/support/held_memory.h"
 #include "tests/support/one_method_frames.h"
 #include "tests/support/wait_for.h"
 #include "tests/view/fake_scene.h"
@@ -123,6 +124,27 @@ TEST(ViewWorker, DropsWhatTakesTooLongOfAMedium) {
     const auto frame = nextFrame(worker);
     ASSERT_NE(frame, nullptr);
     EXPECT_EQ(frame->request.version, 2);
+}
+
+// What was freed in pieces between others stays with the C library, until the window rests.
+TEST(ViewWorker, GivesBackWhatIsFreeAtRest) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "the sanitizer's own memory stays";
+#endif
+    ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
+    constexpr std::size_t kBytes = 64 << 10, kPieces = 2400;  // 157 MB
+    std::vector<std::unique_ptr<char[]>> pieces(kPieces), between(kPieces);
+    for (std::size_t n = 0; n < kPieces; ++n) {
+        pieces[n].reset(new char[kBytes]);
+        std::fill_n(pieces[n].get(), kBytes, 'a');
+        between[n].reset(new char[64]);  // no two of the pieces are joined, nor is the last one cut off
+    }
+    pieces.clear();
+    const double free = test::bytesHeld();
+    worker.request(requestAt(1, 7));
+    ASSERT_NE(nextFrame(worker), nullptr);
+    EXPECT_TRUE(test::waitFor([&] { return test::bytesHeld() < free - 100e6; }))
+        << free << " to " << test::bytesHeld();
 }
 
 // A picture that rests is cast again until that changes nothing more, and only where that was asked for.
