@@ -349,25 +349,6 @@ void Viewer::takeFrame() {
     reportDisplay();
 }
 
-void Viewer::takeSlice() {
-    const OutputModeInfo& mode = infoOf(mSession->compose().mode);
-    const SizeOption eye = eyeSizeAt(mode, placeFor(mode));
-    const Plane<PackedColor>& picture = mSession->slicePicture(eye.width, eye.height);
-    mScreenshots.take(picture, mSession->compose());
-    if (mSession->sliceVersion() == mSliceVersion) return;
-    mSliceVersion = mSession->sliceVersion();
-    mPresenter.upload(picture, {});
-    mPicture = {};
-    mOnGpu = false;
-    mNewFrame = true;
-}
-
-void Viewer::endSlices() {
-    mSliceVersion = 0;
-    if (mFrame) showFrame();
-    mNewFrame = true;
-}
-
 void Viewer::reportSweep() {
     const std::string notice = mSweep ? mSweep->takeNotice() : "";
     if (!notice.empty()) mSession->notify(notice);

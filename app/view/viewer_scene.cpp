@@ -379,4 +379,23 @@ std::shared_ptr<const SliceStudy> Viewer::study() {
     return mSession->study();
 }
 
+void Viewer::takeSlice() {
+    const OutputModeInfo& mode = infoOf(mSession->compose().mode);
+    const SizeOption eye = eyeSizeAt(mode, placeFor(mode));
+    const Plane<PackedColor>& picture = mSession->slicePicture(eye.width, eye.height);
+    mScreenshots.take(picture, mSession->compose());
+    if (mSession->sliceVersion() == mSliceVersion) return;
+    mSliceVersion = mSession->sliceVersion();
+    mPresenter.upload(picture, {});
+    mPicture = {};
+    mOnGpu = false;
+    mNewFrame = true;
+}
+
+void Viewer::endSlices() {
+    mSliceVersion = 0;
+    if (mFrame) showFrame();
+    mNewFrame = true;
+}
+
 }  // namespace stereonav

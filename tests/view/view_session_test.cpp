@@ -1,7 +1,6 @@
 // The viewer's logic without a window: settings move slowly, modes are all reachable, flights are
 // recorded and played, parallax is watched.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,58 +13,12 @@
 #include "app/view/session.h"
 #include "app/view/status.h"
 #include "engine/base/error.h"
-#include "engine/nav/navigator.h"
-#include "tests/view/fake_frames.h"
-#include "tests/view/fake_scene.h"
+#include "tests/view/session_fixture.h"
 
 namespace stereonav {
 namespace {
 
-namespace fs = std::filesystem;
-
-const Pose kStart = poseFromAngles({0, 0, 500}, 0, -0.1, 0);
-
-FakeParts flatScene() {
-    FakeParts scene;
-    scene.makeFlight = []() -> std::unique_ptr<Flight> {
-        FlightSetting setting;
-        setting.speed = 200;
-        return std::make_unique<Navigator>([](const glm::dvec2&) { return 0.0; }, kStart, setting);
-    };
-    scene.path = RecordedPath(
-        {{2.0, poseFromAngles({0, 0, 500}, 0, 0, 0)}, {4.0, poseFromAngles({100, 0, 500}, 0, 0, 0)}}, "test");
-    scene.stereo = {20.0, 600.0};
-    static FakeFrames frames;
-    scene.frames = &frames;
-    scene.way.method = frames.defaultMethod();
-    return scene;
-}
-
-class ViewSessionTest : public testing::Test {
-protected:
-    void SetUp() override {
-        mFolder = fs::path(testing::TempDir()) / ("stereonav_session_" + std::to_string(getpid()));
-        fs::create_directories(mFolder);
-    }
-    void TearDown() override { fs::remove_all(mFolder); }
-    ViewSession session() {
-        return ViewSession(opened(*mScene), {OutputMode::SideBySide, std::nullopt, mFolder});
-    }
-
-    // A frame with this range of parallax.
-    static ViewFrame frameWith(double nearest, double farthest) {
-        ViewFrame frame;
-        frame.left.resize(10, 10);
-        frame.request.stereo = {20.0, 600.0};
-        frame.timings.warped = {0.4, 0.3, 7};
-        frame.nearParallax = nearest;
-        frame.farParallax = farthest;
-        return frame;
-    }
-
-    std::shared_ptr<FakeParts> mScene = std::make_shared<FakeParts>(flatScene());
-    fs::path mFolder;
-};
+class ViewSessionTest : public SessionFixture {};
 
 constexpr double kFrame = 1.0 / 60;
 
@@ -201,95 +154,6 @@ TEST_F(ViewSessionTest, RequestsAskForEyesThatFillTheWindow) {
     s.act({ViewCommand::SetMode, OutputMode::TopBottom});
     r = s.requestFor(1280, 721);
     EXPECT_EQ(std::pair(r.lens.width, r.lens.height), std::pair(1280, 360));
-}
-
-TEST_F(ViewSessionTest, RecordsAFlightSavesItAndPlaysItAgain) {
-    ViewSession s = session();
-    s.act({ViewCommand::Record});
-    EXPECT_TRUE(s.recording());
-    FlightInput forward;
-    forward.forward = 1;
-    for (int i = 0; i < 60; ++i) s.step(forward, kFrame);
-    const Pose end = s.pose();
-    s.act({ViewCommand::Record});
-    EXPECT_FALSE(s.recording());
-    ASSERT_TRUE(fs::exists(mFolder / "flight_0001.gltf")) << s.notice();
-    EXPECT_NEAR(readPath(mFolder / "flight_0001.gltf").duration(), 1.0, 1e-3);
-
-    s.act({ViewCommand::Home});
-    s.act({ViewCommand::Play});
-    EXPECT_TRUE(s.playing());
-    EXPECT_NEAR(glm::length(s.pose().position - kStart.position), 0, 1e-9);
-    for (int i = 0; i < 30; ++i) s.step(forward, kFrame);
-    EXPECT_TRUE(s.playing()) << "keys do not disturb it";
-    for (int i = 0; i < 40; ++i) s.step({}, kFrame);
-    EXPECT_FALSE(s.playing());
-    EXPECT_NEAR(glm::length(s.pose().position - end.position), 0, 1e-3);
-}
-
-// Before another scene's session takes its place, or the window closes.
-TEST_F(ViewSessionTest, WhatWasRecordedOrChangedIsKeptAtItsEnd) {
-    const fs::path file = mFolder / "flight_0001.gltf";
-    FlightInput forward;
-    forward.forward = 1;
-    const auto lasting = [](double seconds) {
-        return RecordedPath({{0, kStart}, {seconds, poseFromAngles({9, 9, 600}, 0, 0, 0)}}, "test");
-    };
-    {
-        ViewSession s = session();
-        EXPECT_EQ(s.keepWork(), "") << "the scene's own path needs no file";
-        s.openPath(lasting(5));
-        EXPECT_EQ(s.path().duration(), 5);
-        EXPECT_EQ(s.keepWork(), "") << "nor does one that was opened";
-        s.undoPath();
-        EXPECT_EQ(s.path().duration(), 2);
-        EXPECT_EQ(s.keepWork(), "");
-    }
-    EXPECT_TRUE(fs::is_empty(mFolder));
-    {
-        ViewSession s = session();
-        s.act({ViewCommand::Record});
-        for (int i = 0; i < 60; ++i) s.step(forward, kFrame);
-        EXPECT_THAT(s.keepWork(), testing::HasSubstr(file.string()));
-        EXPECT_FALSE(s.recording());
-        EXPECT_NEAR(readPath(file).duration(), 1, 1e-3);
-        EXPECT_EQ(s.keepWork(), "");
-        s.editPath([&](const RecordedPath&) { return lasting(7); });
-        EXPECT_THAT(s.keepWork(), testing::HasSubstr("flight_0002"));
-        EXPECT_EQ(s.keepWork(), "");
-        s.setPath(lasting(8));
-        s.savePath();
-        EXPECT_EQ(s.keepWork(), "") << "it was saved";
-        s.setPath(lasting(9));
-        s.act({ViewCommand::Record});  // whose path takes the place of one that is in no file
-        for (int i = 0; i < 120; ++i) s.step(forward, kFrame);
-        s.act({ViewCommand::Record});
-        EXPECT_NEAR(s.path().duration(), 2, 1e-3);
-    }
-    double seconds[] = {1, 7, 8, 2, 9}, found = 0;
-    for (const auto& entry : fs::directory_iterator(mFolder)) {
-        const double duration = readPath(entry.path()).duration();
-        EXPECT_NE(std::find_if(std::begin(seconds), std::end(seconds),
-                               [&](double one) { return std::abs(one - duration) < 1e-3; }),
-                  std::end(seconds))
-            << entry.path();
-        ++found;
-    }
-    EXPECT_EQ(found, 5);
-    EXPECT_NEAR(readPath(file).duration(), 1, 1e-3) << "none was written over";
-}
-
-// However the session ends: the program is told to stop, or fails.
-TEST_F(ViewSessionTest, ARecordingOutlivesItsSession) {
-    {
-        ViewSession s = session();
-        s.act({ViewCommand::Record});
-        FlightInput forward;
-        forward.forward = 1;
-        for (int i = 0; i < 30; ++i) s.step(forward, kFrame);
-    }
-    ASSERT_TRUE(fs::exists(mFolder / "flight_0001.gltf"));
-    EXPECT_NEAR(readPath(mFolder / "flight_0001.gltf").duration(), 0.5, 1e-3);
 }
 
 TEST_F(ViewSessionTest, PlaysTheScenesFlightOnItsOwnClock) {
