@@ -60,8 +60,9 @@ TEST_F(SoakWindowNightly, HoldsNoMoreAfterManyKeysThanAfterSome) {
     for (double bytes = 0; in >> bytes;) held.push_back(bytes);
     ASSERT_EQ(held.size(), static_cast<std::size_t>(kRounds));
     for (const double bytes : held) EXPECT_GT(bytes, 5e7);
-    const double some = *std::max_element(held.begin(), held.begin() + kRounds / 2),
-                 many = *std::max_element(held.begin() + kRounds / 2, held.end());
+    // The least of some rounds: what one of them has just freed may not be given back yet.
+    const double some = *std::min_element(held.begin(), held.begin() + kRounds / 2),
+                 many = *std::min_element(held.begin() + kRounds / 2, held.end());
     EXPECT_LT(many, some + 3e7) << textOf("held.txt");
     EXPECT_LT(many, 2.5e8) << textOf("held.txt");
 }
