@@ -1,5 +1,5 @@
-// A study in a window: it is flown through, its slices are shown, a click takes a piece and the colon is found
-// again from it; a volume seen from outside moves its surface.
+// A study in a window: it is flown through, its slices are shown, a click takes a piece and the colon is
+// found again from it; a volume seen from outside moves its surface.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -65,7 +65,8 @@ TEST_F(VolumeWindow, FliesThroughAColonAndTakesAPiece) {
     const std::size_t at = log.find("--include ");
     ASSERT_NE(at, std::string::npos) << log;
     double place[3] = {};
-    ASSERT_EQ(std::sscanf(log.c_str() + at, "--include %lf,%lf,%lf", &place[0], &place[1], &place[2]), 3) << log;
+    ASSERT_EQ(std::sscanf(log.c_str() + at, "--include %lf,%lf,%lf", &place[0], &place[1], &place[2]), 3)
+        << log;
     EXPECT_NEAR(place[0], 17, 0.5);
     EXPECT_NEAR(place[1], 0, 0.5);
     EXPECT_LT(std::abs(place[2]), 24);

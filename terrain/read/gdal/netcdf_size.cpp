@@ -8,7 +8,7 @@
 namespace stereonav {
 namespace {
 
-constexpr std::uint64_t kMostBytes = 1ull << 50;
+constexpr std::uint64_t kMostBytes = 1ull << 50;  // more than any file has
 
 // Big-endian numbers one after the other; after the end all is 0, and whole() is false. Each count that is
 // read is of things that take bytes of their own, so that none is larger than the file.
@@ -116,7 +116,7 @@ std::optional<std::uint64_t> classicNetCdfSize(const std::filesystem::path& file
     std::uint64_t end = 0, record = 0, first = 0;
     for (std::uint64_t n = header.list(); n > 0 && header.whole(); --n) {
         const Variable variable = readVariable(header, dimensions);
-        if (variable.begin > kMostBytes) return std::nullopt;
+        if (variable.begin > kMostBytes) return kMostBytes;
         if (!variable.hasRecords) {
             end = std::max(end, variable.begin + variable.bytes);
             continue;
@@ -124,7 +124,7 @@ std::optional<std::uint64_t> classicNetCdfSize(const std::filesystem::path& file
         first = first == 0 ? variable.begin : std::min(first, variable.begin);
         record += (variable.bytes + 3) / 4 * 4;
     }
-    if (!header.whole()) return std::nullopt;
+    if (!header.whole()) return kMostBytes;
     if (record > 0 && !streamed)
         end = std::max(end, first + times(record, records) - std::min<std::uint64_t>(record, 3));
     return end;
