@@ -13,7 +13,7 @@ namespace stereonav {
 
 class FramePool : public std::enable_shared_from_this<FramePool> {
 public:
-    // As many are kept. More are in use where many pictures are saved at a time: those are let go.
+    // The most that are kept. More are in use where many pictures are saved at a time: those are let go.
     static constexpr std::size_t kMostFree = 4;
 
     std::unique_ptr<ViewFrame> take() {

@@ -13,7 +13,7 @@ namespace {
 constexpr PackedColor packed(unsigned red, unsigned green, unsigned blue) {  // linear, 0 to 1023
     return red | green << 10 | blue << 20;
 }
-// Of pieces: taken, left out, left out without being sure; of marks: a choice to take, one to leave, the eye.
+// Colours of pieces (taken, left out, left out without being sure) and of marks (taken, left, the eye).
 constexpr PackedColor kTaken = packed(40, 500, 60), kLeft = packed(120, 180, 700),
                       kUnsure = packed(900, 620, 30), kTake = packed(300, 1000, 300),
                       kLeave = packed(1000, 300, 300), kEye = packed(300, 800, 1023);
@@ -25,7 +25,7 @@ struct AxisText {
 };
 constexpr AxisText kAxisTexts[3] = {{"axial", "z"}, {"coronal", "y"}, {"sagittal", "x"}};
 
-// As the command line takes it: LPS millimetres.
+// LPS millimetres, as the command line takes them.
 std::string clickedPlace(const glm::dvec3& world) {
     return fmt::format("{:.1f},{:.1f},{:.1f}", 1000 * world.x, 1000 * world.y, 1000 * world.z);
 }

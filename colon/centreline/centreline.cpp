@@ -45,7 +45,7 @@ std::vector<glm::dvec3> linePoints(const LumenField& lumen, int segment, const D
     std::vector<glm::dvec3> rough;
     for (const glm::ivec3& v : roughCentreline(lumen, segment, distance, setting.mostUneven, poll))
         rough.push_back(lumen.lumen.frame.worldFromVoxel(glm::dvec3(v)));
-    // Of a lumen of metres or kilometres a point each millimetre would be more than anybody waits for.
+    // A point each millimetre of a lumen of kilometres would be more than anybody waits for.
     constexpr double kMostPoints = 50'000;
     const LumenProbe probe(lumen, distance, segment);
     const std::vector<glm::dvec3> refined = refineCentreline(probe, rough, poll);

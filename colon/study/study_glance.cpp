@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostFiles = 100'000;  // that are counted
 constexpr std::size_t kMostLooks = 16;       // that are opened
 
-// Of the root of a disc those below that may be slices, by their names.
+// Files below the root of a disc that may be slices, by their names.
 std::vector<fs::path> filesAt(const fs::path& place, Progress& progress) {
     progress.report(0, "listing");
     std::error_code code;
