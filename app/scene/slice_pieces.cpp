@@ -27,6 +27,7 @@ SlicePieces slicePieces(const SliceStudy& study, const SegmentationSetting& sett
     AirPieces air = airOf(study, setting, progress);
     const AirMeasures measures(study.grey, air.pieces);
     SlicePieces pieces;
+    if (!study.ofMask) pieces.fluidAbove = setting.tagged;
     pieces.list.resize(air.kinds.size());
     for (std::size_t n = 0; n < air.kinds.size(); ++n) {
         const int piece = static_cast<int>(n);

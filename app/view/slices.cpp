@@ -17,8 +17,7 @@ constexpr PackedColor packed(unsigned red, unsigned green, unsigned blue) {  // 
 constexpr PackedColor kTaken = packed(40, 500, 60), kLeft = packed(120, 180, 700),
                       kUnsure = packed(900, 620, 30), kTake = packed(300, 1000, 300),
                       kLeave = packed(1000, 300, 300), kEye = packed(300, 800, 1023);
-constexpr double kTaggedFluid = 200;  // HU, as of SegmentationSetting
-constexpr double kEyeMoved = 2e-4;    // metres: less than a voxel is not worth a new picture
+constexpr double kEyeMoved = 2e-4;  // metres: less than a voxel is not worth a new picture
 
 struct AxisText {
     const char *name, *letter;
@@ -71,7 +70,8 @@ std::string SliceView::click(double x, double y, int width, int height, const Op
         return "no colon is looked for in this volume: there are no pieces to take";
     const double value = grey.at(voxelAt(*world)) * grey.scale + grey.offset;
     const int piece = pieceAt(*world);
-    if (piece < 0 && !(value > kTaggedFluid && !mStudy->ofMask))
+    const std::optional<double>& fluidAbove = mStudy->pieces.fluidAbove;
+    if (piece < 0 && !(fluidAbove && value > *fluidAbove))
         return fmt::format("value {:.0f} at {}: click in gas or tagged fluid to take or leave it", value,
                            clickedPlace(*world));
     const std::string& text = piece < 0 ? "" : mStudy->pieces.list[static_cast<std::size_t>(piece)].text;

@@ -22,7 +22,8 @@ struct SlicePieces {
     };
     VoxelRuns runs;  // of the study's grid
     Components parts;
-    std::vector<Piece> list;  // of each component
+    std::vector<Piece> list;           // of each component
+    std::optional<double> fluidAbove;  // values above it are tagged fluid, which is chosen too; none in masks
 
     int at(const glm::ivec3& voxel) const { return parts.at(runs, voxel); }  // -1: none
 };

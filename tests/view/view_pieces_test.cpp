@@ -29,6 +29,7 @@ protected:
             for (int j = 10; j < 14; ++j)
                 for (int i = 10; i < 14; ++i) mLumen.at(i, j, k) = 1;
         mStudy->pieces.runs = runsBelow(mStudy->grey, -700);
+        mStudy->pieces.fluidAbove = 200;
         mStudy->pieces.parts = connectedComponents(mStudy->pieces.runs);
         mStudy->pieces.list = {{{0.011, 0.011, 0.040}, "0.3 ml of gas", true},
                                {{0.025, 0.032, 0.040}, "0.3 ml of gas: by itself", false}};
