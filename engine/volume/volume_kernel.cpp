@@ -133,7 +133,7 @@ struct Packet {
         }
         return select(shade.t < end, F(0.0f), F(1.0f));
     }
-    // Of the hits: the cells that they are in.
+    // The cells that the hits are in.
     STEREONAV_INLINE Cells cellsOf(const Rays& r, const Hits& hits) const {
         const F t = select(hits.hit, hits.t, F(0.0f));
         const auto cell = [&](F eye, F direction, F local) {

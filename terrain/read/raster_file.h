@@ -24,8 +24,8 @@ public:
     virtual ~RasterPicture() = default;
     // Where it lies; `known` is set to whether the file says so (else a unit a pixel, no system).
     virtual Georeference georeference(bool& known) = 0;
-    // As its pixels ask for: of 16 bits that are hardly used a stretch, and that is noted. Of all of it, so
-    // that its parts are shown alike. Throws Error.
+    // The tone that its pixels ask for: 16 bits that are hardly used are stretched, and that is noted. Of all
+    // of it, so that its parts are shown alike. Throws Error.
     virtual PictureTone tone() = 0;
     // All that its bits hold, whatever its pixels.
     virtual PictureTone wholeTone() = 0;

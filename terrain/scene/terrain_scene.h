@@ -106,7 +106,7 @@ struct TerrainScene {
     StereoSetting stereo;
     bool eyesGiven = false;  // by the scene's file, or an option
     Lens lens;               // width and height are the caller's to set
-    // Of round ground, which the lens's fall is of: the share of its curvature that light follows.
+    // The share of the ground's curvature that light follows; of round ground, which the lens's fall is of.
     std::optional<double> refraction;
     Body body;               // that the ground lies on
     double clearance = 2.0;  // metres kept above the ground

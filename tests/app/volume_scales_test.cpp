@@ -64,7 +64,7 @@ TEST_F(VolumeScales, MasksOfEvenSpacingOpenAtAnySize) {
         const Outcome outside = run({"render", study, "--isosurface", "--size", "16x12", "--out", "a.png"});
         EXPECT_EQ(outside.status, 0) << spacing << ": " << outside.err;
     }
-    // As uneven as it may be.
+    // The most uneven that it may be.
     for (const char* spacings : {"0.5 0.5 24", "45 1 1", "1 49 1"}) {
         const Outcome outcome = run({"info", tubeOf(spacings), "--no-cache", "--size", "16x12"});
         EXPECT_EQ(linesIn(outcome.err), outcome.status) << spacings << ": " << outcome.err;

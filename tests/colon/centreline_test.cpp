@@ -398,7 +398,7 @@ TEST(Centreline, RefusesWhatHasNone) {
                     HasSubstr("expected metres, more than 0"));
 }
 
-// As of a lumen of kilometres, in which a point each millimetre would be no line that anybody waits for.
+// A line like that of a lumen of kilometres, where nobody would wait for a point each millimetre.
 TEST(Centreline, PointsOfVeryLongLinesAreFurtherApart) {
     const LumenField good = lumenOfVoxels({{1, 1, 1}, {1, 1, 2}}, glm::ivec3(4));
     const DistanceVolume distance = distanceToOutside(good.lumen);

@@ -123,7 +123,7 @@ TEST(StudyFolder, NamesTheFoldersBelowThatHoldSlices) {
     expectError(root, {"expected DICOM images, found none among 2 files", "its folders P1/S0,"});
 }
 
-// As macOS leaves them on discs that are no Mac's own.
+// Files that macOS leaves on discs that are no Mac's own.
 TEST(StudyFolder, HiddenFilesAreNotLookedAt) {
     const TemporaryFolder folder;
     writeStudy(folder / "s");

@@ -129,7 +129,7 @@ TEST(StudyLabels, ANumberOfSeveralSegmentsIsRefusedAndTheirNamesAreTaken) {
     }
 }
 
-// As Slicer wrote them before 4.11: a layer a segment, of zeros and ones.
+// Segments as Slicer wrote them before 4.11: a layer each, of zeros and ones.
 TEST(StudyLabels, SegmentsThatSayNothingOfLayersHaveOneEach) {
     const TemporaryFolder folder;
     std::vector<unsigned char> samples;

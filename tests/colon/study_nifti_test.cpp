@@ -91,7 +91,7 @@ TEST(StudyNiftiValues, ASlopeOf0MeansNoScale) {
     expectRamp(readNifti(ramp<short>(), s));
 }
 
-// As nibabel: a slope that is no number scales nothing, and the intercept does not count then.
+// The rule of nibabel: a slope that is no number scales nothing, and the intercept does not count then.
 TEST(StudyNiftiValues, ASlopeThatIsNoNumberMeansNoScaleAndItIsSaid) {
     const double nan = std::numeric_limits<double>::quiet_NaN(),
                  inf = std::numeric_limits<double>::infinity();

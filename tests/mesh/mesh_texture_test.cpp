@@ -103,7 +103,7 @@ TEST(MeshTexture, CoordinatesArePlacedAsKhrTextureTransformSays) {
         for (std::size_t k = 0; k < uvs.size(); ++k)
             ASSERT_LT(glm::distance(uvs[k], expected[k]), 1e-6) << k << ": " << uvs[k].x << " " << uvs[k].y;
     };
-    // Of the triangle: (0, 1) lower left, (1, 1) lower right, (0, 0) upper left.
+    // The triangle has (0, 1) lower left, (1, 1) lower right, (0, 0) upper left.
     expectUvs(uvsOf({{"offset", pair(0, 1)}, {"rotation", number(kPi / 2)}, {"scale", pair(0.5, 0.5)}}),
               {{0.5, 1}, {0.5, 0.5}, {0, 1}});
     expectUvs(uvsOf({{"offset", pair(0, 1)}, {"scale", pair(1, -1)}}), {{0, 0}, {1, 0}, {0, 1}});

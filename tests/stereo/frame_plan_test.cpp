@@ -99,7 +99,7 @@ TEST(FramePlan, MeasuresMoreThanOneFrame) {
     const std::vector<StereoViews> alone{apart}, among{apart, usual, usual, usual, usual};
     const double share = planFrame(scene, alone, std::nullopt, 0).costs.holeShare;
     ASSERT_GT(share, 0.9);
-    // Of three frames at least, whatever they take.
+    // Three frames are measured at least, whatever they take.
     const double mean = planFrame(scene, among, std::nullopt, 0).costs.holeShare;
     EXPECT_NEAR(mean, share / 3 + planFrame(scene, {&usual, 1}, std::nullopt, 0).costs.holeShare * 2 / 3,
                 1e-9);

@@ -30,7 +30,7 @@ RasterSpec tileOf(const Color& color, int side = 256, const char* driver = "PNG"
     return spec;
 }
 
-// As their publishers define them.
+// Codes as their publishers define them.
 Color gsi(const Height& height) {
     return [height](int c, int r) { return static_cast<int>(std::lround(100 * height(c, r))) & 0xffffff; };
 }

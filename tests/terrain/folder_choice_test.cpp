@@ -218,7 +218,7 @@ TEST_F(FolderChoice, OneCoversMoreThanTheOther) {
     expectHills("a coarse slope", {"c.tif"});
 }
 
-// Of one place counts alone were sent, which are called like the others.
+// From one place counts alone were sent, which are called like the others.
 TEST_F(FolderChoice, KindsGoTogetherOverTiles) {
     for (int tile = 0; tile < 3; ++tile) {
         const std::string name = "N35E13" + std::to_string(tile);
@@ -275,7 +275,7 @@ TEST_F(FolderChoice, PicturesAloneAreNoGround) {
                 AllOf(HasSubstr("a.tif"), HasSubstr("found a picture"), Not(HasSubstr("\n"))));
 }
 
-// As macOS and others leave them.
+// Files that macOS and others leave.
 TEST_F(FolderChoice, HiddenFilesAreNotThere) {
     write("a.tif", heightsAt());
     std::ofstream(parts() / "._a.tif") << std::string("\0\5\26\7", 4) << "Mac OS X";

@@ -89,7 +89,7 @@ TEST(PackedDem, NetCdfIsAnElevationModel) {
     expectRows(folder / "parts");
 }
 
-// Of several variables the one that is called heights.
+// The one of several variables that is called heights.
 TEST(PackedDem, NetCdfOfSeveralVariables) {
     const TempFolder folder;
     RasterSpec spec = netCdf();

@@ -23,7 +23,7 @@ TEST(FramePool, GivesAFrameThatCameBack) {
     EXPECT_EQ(pool->free(), 0u);
 }
 
-// As where many pictures are being saved.
+// Many frames in use, which happens where pictures are being saved.
 TEST(FramePool, KeepsAFewHoweverManyWereInUse) {
     const auto pool = std::make_shared<FramePool>();
     std::vector<std::shared_ptr<const ViewFrame>> held;

@@ -27,7 +27,7 @@ double rangeAround(const GreyVolume& volume, const glm::dvec3& voxel) {
     return double(most) - double(least);
 }
 
-// Of the trilinear values, stored numbers a metre, world; 0 on the faces of cells, where they have two.
+// The slope of the trilinear values, stored numbers a metre, world; 0 on the faces of cells, which have two.
 glm::dvec3 slopeAt(const GreyVolume& volume, const glm::dvec3& voxel) {
     const glm::dvec3 low = glm::floor(voxel), last(volume.frame.size - 1);
     glm::dvec3 slope(0.0);

@@ -101,7 +101,7 @@ private:
         return (mLocal.x > zero) & (mLocal.x < one) & (mLocal.y > zero) & (mLocal.y < one) &
                (mLocal.z > zero) & (mLocal.z < one);
     }
-    // Of the trilinear values, by voxels.
+    // The slope of the trilinear values, by voxels.
     STEREONAV_INLINE V3 slopeIn(const Corners& c) const {
         const auto along = [&](int k, F s, F t, int a, int b) {
             const F low = lerp(c.v[k] - c.v[0], c.v[a + k] - c.v[a], s);

@@ -93,7 +93,7 @@ public:
         ++mWraps;
         mCarries += (higher > 0) != (lower > 0);
     }
-    // Of heights the lower byte wraps, at least where the ground is not made of even steps, and at half of
+    // The lower byte of heights wraps, at least where the ground is not made of even steps, and at half of
     // the wraps and more the higher one goes the other way. Colours go the same way, and hardly ever so far.
     // unchanging: the lower byte may be the same all over.
     bool areColors(bool unchanging) const {
@@ -157,7 +157,7 @@ bool liesInJapan(const WebTile& tile) {
     return tile.longitude() > 122 && tile.longitude() < 155 && tile.latitude() > 20 && tile.latitude() < 46.5;
 }
 
-// Of a tile whose numbers are heights by both codes: 950 to 1900 m by GSI's, -500 to 9000 m by the other, ten
+// A tile whose numbers are heights by both codes: 950 to 1900 m by GSI's, -500 to 9000 m by the other, ten
 // times as steep.
 CodedTile gsiOrTerrainRgb(const Codes& codes, const std::optional<WebTile>& place) {
     const auto sea = std::count(codes.values.begin(), codes.values.end(), kRgbSea);

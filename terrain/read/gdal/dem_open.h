@@ -16,7 +16,7 @@ struct OpenedDem {
     std::vector<std::string> notes;            // what was guessed, for a person
 };
 
-// Of a folder a virtual raster over its elevation files (elevation_folder.h), but for what is no heights
+// A virtual raster over a folder's elevation files (elevation_folder.h), but for what is no heights
 // (folder_choice.h). They have one reference system, stand north up, and mean their numbers alike; where they
 // lie on both sides of 180 degrees they are one ground. The finest samples count; files that are coarser, or
 // not on the grid of the first, are resampled (bilinear). Where files overlap the one whose name comes last

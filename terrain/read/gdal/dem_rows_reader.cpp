@@ -144,7 +144,7 @@ public:
         std::sort(files.begin(), files.end());
         files.erase(std::unique(files.begin(), files.end()), files.end());
         Hash hash;
-        // Of a folder also how its files are mixed, where some are left aside which.
+        // How a folder's files are mixed counts too, and which, where some are left aside.
         if (!mFiles.empty()) hash.add(std::string_view("-9999 is not mixed"));
         if (!mFiles.empty() && mFiles.size() < elevationFilesIn(mFile).size())
             for (const std::filesystem::path& file : mFiles) hash.add(std::string_view(file.native()));

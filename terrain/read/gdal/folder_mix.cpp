@@ -52,7 +52,7 @@ bool turnTogether(std::vector<FilePlan*>& plans, double turn) {
         if (n < along.size()) end = std::max(end, next + along[n].second);
     }
     if (widest <= 0) return false;  // all around
-    // As the westernmost file itself counts, so that longitudes stay as its are.
+    // Longitudes stay as those of the westernmost file are.
     start = start >= turn ? start - turn : start;
     for (const FilePlan* plan : plans) {
         const double turns = (plan->west - start) / turn;

@@ -59,7 +59,7 @@ void registerDriversOnce() {
     });
 }
 
-// Of the rasters in a file (names and descriptions by turns) the one that is called heights; "" where none
+// The one of the rasters in a file (names and descriptions by turns) that is called heights; "" where none
 // is, or several are.
 std::string heightsAmong(char** several) {
     std::string found;
@@ -145,7 +145,7 @@ GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& me
     if (const auto bytes = classicNetCdfSize(file);
         bytes && *bytes > std::filesystem::file_size(file, failed))
         throw Error(file.string(), "", "the file is cut off or damaged", "fetch or export the file again");
-    // Of archives the driver unpacks zip alone itself.
+    // The driver unpacks zip itself, and no other archive.
     const bool gzipped = isPackedHeights(file) && std::tolower(file.native().back()) == 'z';
     GdalDataset dataset = opened((gzipped ? "/vsigzip/" : "") + file.string());
     if (dataset && dataset->GetRasterCount() > 0) return dataset;

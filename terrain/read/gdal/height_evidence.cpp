@@ -37,7 +37,7 @@ std::vector<double> someHeights(GDALDataset& dataset, const HeightBand& band, co
     return some;
 }
 
-// Of numbers that are there.
+// Measures of the numbers that are there.
 struct Spread {
     double low = 0, high = 0, median = 0, deviation = 0;
     std::size_t count = 0, kinds = 0;  // how many differ
@@ -97,7 +97,7 @@ void weighSamples(GDALDataset& dataset, const FolderFile& file, HeightEvidence& 
     weigh(rough > 0.6, -1, "its steps");
 }
 
-// Of the part that both cover, in a's and b's samples, at the same places.
+// Samples of a and b at the same places of the part that both cover.
 std::pair<std::vector<double>, std::vector<double>> shared(GDALDataset& a, const FolderFile& fileA,
                                                            GDALDataset& b, const FolderFile& fileB) {
     constexpr double kPlaces = 32;

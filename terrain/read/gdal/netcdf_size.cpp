@@ -32,7 +32,7 @@ public:
         for (int n = 0; n < bytes; ++n) value = value << 8 | read[n];
         return value;
     }
-    // Of things: 4 bytes, of version 5 twice as many.
+    // How many things follow: a number of 4 bytes, in version 5 of 8.
     std::uint64_t count() {
         const std::uint64_t value = number(mVersion == 5 ? 8 : 4);
         mTooMany |= value > mBytes;

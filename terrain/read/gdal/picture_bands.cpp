@@ -95,7 +95,7 @@ int bitsOf(GDALRasterBand& band) {
     return bits >= 1 && bits <= all ? bits : all;
 }
 
-// Of a band, thinned; without what is masked.
+// Values of a band, thinned; without what is masked.
 void addSome(GDALDataset& dataset, int number, const std::filesystem::path& file,
              std::vector<double>& values) {
     constexpr int kSide = 512;
