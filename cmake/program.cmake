@@ -38,7 +38,7 @@ if(NOT STEREONAV_TERRAIN)
   target_link_libraries(program PRIVATE toml11::toml11)
 endif()
 stereonav_part(colon OPTION STEREONAV_COLON LINK colon
-  SOURCES scene/colon_*.cpp scene/volume_*.cpp scene/glance_volume.cpp scene/shown_volume.cpp scene/seen_volume_light.cpp
+  SOURCES scene/colon_*.cpp scene/slice_pieces.cpp scene/volume_*.cpp scene/glance_volume.cpp scene/shown_volume.cpp scene/seen_volume_light.cpp
     scene/medium_of_volume.cpp scene/volume_type.cpp scene/light_loading.cpp scene/lazy_light.cpp
     scene/traced_light.cpp command/bake_volume.cpp command/info_colon.cpp
     command/info_series.cpp command/centreline_command.cpp command/coverage_command.cpp command/colon_of.cpp

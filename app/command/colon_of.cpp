@@ -25,6 +25,10 @@ const ColonScene& colonOf(const Scene& scene, const SceneOptions& options) {
     return *colon;
 }
 
+FactNumbers placeNumbers(const glm::dvec3& world) {
+    return {1e3 * world.x, 1e3 * world.y, 1e3 * world.z};
+}
+
 std::string placeText(const glm::dvec3& world) {
     return fmt::format("{:.1f}, {:.1f}, {:.1f}", 1e3 * world.x, 1e3 * world.y, 1e3 * world.z);
 }

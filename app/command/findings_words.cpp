@@ -15,10 +15,6 @@ namespace {
 
 constexpr const char* kDocument = "stereonav findings";
 
-FactNumbers millimetres(const glm::dvec3& world) {
-    return {1e3 * world.x, 1e3 * world.y, 1e3 * world.z};
-}
-
 // A field of a table: quoted where it has to be (RFC 4180).
 std::string field(const std::string& text) {
     if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
@@ -30,8 +26,8 @@ std::string field(const std::string& text) {
 void addPolyp(const Finding& finding, Facts& facts) {
     const MeasuredPolyp& polyp = *finding.polyp;
     facts.push_back(factForJson("diameter_mm", 1e3 * polyp.widest.length));
-    facts.push_back(factForJson("diameter_from_mm", millimetres(polyp.widest.from)));
-    facts.push_back(factForJson("diameter_to_mm", millimetres(polyp.widest.to)));
+    facts.push_back(factForJson("diameter_from_mm", placeNumbers(polyp.widest.from)));
+    facts.push_back(factForJson("diameter_to_mm", placeNumbers(polyp.widest.to)));
     facts.push_back(factForJson("slice_diameter_mm", 1e3 * polyp.widestInSlice.length));
     facts.push_back(factForJson("slice", std::string(nameOfSlice(polyp.sliceAxis))));
     facts.push_back(factForJson("slice_at_mm", 1e3 * polyp.slice));
@@ -59,7 +55,7 @@ const char* nameOfSlice(int axis) {
 
 Facts factsOf(const Finding& finding, std::size_t number) {
     Facts facts{factForJson("number", static_cast<std::int64_t>(number)),
-                factForJson("place_mm", millimetres(finding.asked)),
+                factForJson("place_mm", placeNumbers(finding.asked)),
                 factForJson("found", finding.polyp.has_value()), factForJson("along_mm", 1e3 * finding.along),
                 factForJson("segment", finding.segment)};
     if (finding.polyp) addPolyp(finding, facts);

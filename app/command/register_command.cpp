@@ -57,10 +57,6 @@ ColonOptions secondOptions(const RegisterOptions& options) {
     return reading;
 }
 
-FactNumbers millimetres(const glm::dvec3& world) {
-    return {1e3 * world.x, 1e3 * world.y, 1e3 * world.z};
-}
-
 void tellPlaces(CommandResult& result, const RegisterOptions& options, const ColonScene& first,
                 const ColonScene& second, const LineRegistration& registration) {
     std::vector<Facts> list;
@@ -69,9 +65,9 @@ void tellPlaces(CommandResult& result, const RegisterOptions& options, const Col
         const glm::dvec3 match = placeAlong(second.centreline, there);
         result.say(fmt::format("  {} is {:.0f} mm along; there {:.0f} mm along, at {}\n", placeText(place),
                                1e3 * along, 1e3 * there, placeText(match)));
-        list.push_back({factForJson("place_mm", millimetres(place)), factForJson("along_mm", 1e3 * along),
+        list.push_back({factForJson("place_mm", placeNumbers(place)), factForJson("along_mm", 1e3 * along),
                         factForJson("other_along_mm", 1e3 * there),
-                        factForJson("other_place_mm", millimetres(match))});
+                        factForJson("other_place_mm", placeNumbers(match))});
     }
     result.add("places", std::move(list));
 }

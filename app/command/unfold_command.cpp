@@ -41,10 +41,6 @@ void checkUnfoldOptions(const UnfoldOptions& options) {
                     "mark findings with --findings FILE.json");
 }
 
-FactNumbers millimetresOf(const glm::dvec3& world) {
-    return {1e3 * world.x, 1e3 * world.y, 1e3 * world.z};
-}
-
 struct Flattened {
     const ColonScene& colon;
     const WallMesh& wall;
@@ -120,7 +116,7 @@ void tellPlaces(CommandResult& result, const UnfoldOptions& options, const Flatt
         const double off = 1e3 * glm::distance(place, glm::dvec3(of.wall.places[vertex]));
         result.say(fmt::format("  {} is at pixel {:.0f},{:.0f}{}, {:.1f} mm from the wall\n",
                                placeText(place), at.x, at.y, hidden ? ", hidden by a fold" : "", off));
-        list.push_back({factForJson("place_mm", millimetresOf(place)),
+        list.push_back({factForJson("place_mm", placeNumbers(place)),
                         factForJson("pixel", FactNumbers{at.x, at.y}), factForJson("hidden", hidden),
                         factForJson("from_wall_mm", off)});
     }
@@ -134,7 +130,7 @@ void tellPlaces(CommandResult& result, const UnfoldOptions& options, const Flatt
         const double along = 1e3 * of.flat.alongAt(x);
         result.say(fmt::format("  pixel {},{} shows {}, {:.0f} mm along\n", x, y, placeText(*place), along));
         list.push_back({factForJson("pixel", FactNumbers{1.0 * x, 1.0 * y}),
-                        factForJson("place_mm", millimetresOf(*place)), factForJson("along_mm", along)});
+                        factForJson("place_mm", placeNumbers(*place)), factForJson("along_mm", along)});
     }
     if (!list.empty()) result.add("places", std::move(list));
 }

@@ -6,7 +6,7 @@
 
 #include "app/view/frame_truth.h"
 #include "engine/base/memory.h"
-#include "engine/medium/sweep/swept_frames.h"
+#include "engine/frame/sliced_frames.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/scene/surface_paint.h"
 
@@ -21,10 +21,15 @@ bool isShown(int rays) {
     return rays >= kFirstShown && (rays & (rays - 1)) == 0;
 }
 
+// Null where rays are cast.
+SlicedFrames* slicedFrames(const Scene& scene) {
+    return dynamic_cast<SlicedFrames*>(&scene.frames());
+}
+
 // For the frames of one step.
 class MoreEffort {
 public:
-    MoreEffort(SweptFrames* frames, double effort) : mFrames(frames) {
+    MoreEffort(SlicedFrames* frames, double effort) : mFrames(frames) {
         if (mFrames) mFrames->setEffort(effort);
     }
     ~MoreEffort() {
@@ -34,7 +39,7 @@ public:
     MoreEffort& operator=(const MoreEffort&) = delete;
 
 private:
-    SweptFrames* mFrames;
+    SlicedFrames* mFrames;
 };
 
 // Root mean square over both eyes, steps of 255.
@@ -84,9 +89,9 @@ void RestRefiner::start(std::shared_ptr<const ViewFrame> drawn) {
 bool RestRefiner::step(const Scene& scene, ViewFrame& shown) {
     const std::shared_ptr<const ViewFrame> drawn = std::exchange(mDrawn, nullptr);  // where anything throws
     if (mRefined.count() == 0 && !fits(drawn->request)) return false;
-    auto* const swept = scene.offered<SweptFrames>();
+    const bool swept = slicedFrames(scene) != nullptr;
     if (!swept || mFineEnough) return stepMean(scene, drawn, swept, shown);
-    const bool shows = stepEffort(*swept, *drawn, shown);
+    const bool shows = stepEffort(scene, *drawn, shown);
     if (!mEnds) mDrawn = drawn;
     return shows;
 }
@@ -94,13 +99,14 @@ bool RestRefiner::step(const Scene& scene, ViewFrame& shown) {
 // A picture is taken to be as far from the truth as from the one of half as much work; where that falls
 // slowly from step to step, as far as all steps to come would bring it together (docs/measured.md). Rays are
 // spread over the pixel only then.
-bool RestRefiner::stepEffort(SweptFrames& frames, const ViewFrame& drawn, ViewFrame& shown) {
+bool RestRefiner::stepEffort(const Scene& scene, const ViewFrame& drawn, ViewFrame& shown) {
     constexpr double kSlowest = 0.9;  // share of the step before that one may still be
     const FrameRequest& request = drawn.request;
+    FrameMaker& frames = scene.frames();
     if (mEffort == 1) mFinest = drawn;
     EyePair made;
     {
-        const MoreEffort more(&frames, 2 * mEffort);
+        const MoreEffort more(slicedFrames(scene), 2 * mEffort);
         if (request.twoEyes)
             frames.make(makeStereoViews(request.pose, request.lens, request.stereo), request.time,
                         {frames.exactMethod(), request.way.warp}, made);
@@ -128,7 +134,7 @@ bool RestRefiner::stepMean(const Scene& scene, const std::shared_ptr<const ViewF
     const FrameRequest& request = drawn->request;
     FrameMaker& frames = scene.frames();
     const FrameWay way{frames.exactMethod(), request.way.warp};
-    const MoreEffort more(swept ? scene.offered<SweptFrames>() : nullptr, mEffort);
+    const MoreEffort more(swept ? slicedFrames(scene) : nullptr, mEffort);
     if (swept && mRefined.count() == 0) mRefined.begin(mFinest);
     if (request.twoEyes)
         mRefined.add(frames, makeStereoViews(request.pose, request.lens, request.stereo), request.time, way);

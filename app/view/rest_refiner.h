@@ -10,8 +10,6 @@
 
 namespace stereonav {
 
-class SweptFrames;
-
 // For one thread at a time, the one that makes frames.
 class RestRefiner {
 public:
@@ -34,7 +32,7 @@ public:
 
 private:
     // More work in each frame, twice as much as in the one before; false once that is enough.
-    bool stepEffort(SweptFrames& frames, const ViewFrame& drawn, ViewFrame& shown);
+    bool stepEffort(const Scene& scene, const ViewFrame& drawn, ViewFrame& shown);
     bool stepMean(const Scene& scene, const std::shared_ptr<const ViewFrame>& drawn, bool swept,
                   ViewFrame& shown);
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "app/view/late_view.h"
-#include "engine/medium/sweep/swept_frames.h"
+#include "engine/frame/sliced_frames.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/metrics/supersampled_picture.h"
 
@@ -121,7 +121,7 @@ Plane<PackedColor> fineEye(const Scene& scene, const EyeView& view, double time,
 void addFine(const Scene& scene, const ShownPicture& picture, ErrorMean& error, const ShownPicture* other,
              ErrorMean& ofOther, Progress& progress) {
     setLight(scene, picture.of);
-    auto* const swept = scene.offered<SweptFrames>();
+    auto* const swept = dynamic_cast<SlicedFrames*>(&scene.frames());
     if (swept) swept->setEffort(kTruthEffort);
     const StereoViews views = viewsAt(picture.of, picture);
     lookFrom(scene, views);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
-#include "engine/frame/turned_frames.h"
+#include "engine/frame/sliced_frames.h"
 #include "engine/sampling/pixel_samples.h"
 #include "engine/stereo/error_prediction.h"
 
@@ -80,7 +80,7 @@ namespace {
 // For one frame.
 class Turned {
 public:
-    Turned(FrameMaker& frames, int count) : mFrames(dynamic_cast<TurnedFrames*>(&frames)) {
+    Turned(FrameMaker& frames, int count) : mFrames(dynamic_cast<SlicedFrames*>(&frames)) {
         constexpr double kGolden = 0.6180339887498949;  // its multiples cover 0 to 1 evenly
         double whole = 0;
         if (mFrames) mFrames->setTurn(std::modf(count * kGolden, &whole));
@@ -92,7 +92,7 @@ public:
     Turned& operator=(const Turned&) = delete;
 
 private:
-    TurnedFrames* mFrames;
+    SlicedFrames* mFrames;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/frame/cast_frames.h"
-#include "engine/frame/turned_frames.h"
+#include "engine/frame/sliced_frames.h"
 #include "engine/sampling/pixel_samples.h"
 #include "tests/support/analytic_scene.h"
 #include "tests/support/one_method_frames.h"
@@ -150,7 +150,7 @@ TEST(RefinedFrames, WhatFailsChangesNothing) {
 }
 
 // Grey that depends on nothing but the turn; one step of the packed colour for each hundredth.
-class GreyTurned final : public test::OneMethodFrames, public TurnedFrames {
+class GreyTurned final : public test::OneMethodFrames, public SlicedFrames {
 public:
     void makeOne(const EyeView& view, double, EyePair& frame) override {
         turns.push_back(mTurn);
@@ -161,6 +161,7 @@ public:
                 frame.left.color.at(x, y) = packColor(glm::vec3(static_cast<float>(mTurn)));
     }
     void setTurn(double turn) override { mTurn = turn; }
+    void setEffort(double) override {}
 
     std::vector<double> turns;
     double failsAt = -1;

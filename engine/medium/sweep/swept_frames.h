@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/frame/frame_maker.h"
-#include "engine/frame/turned_frames.h"
+#include "engine/frame/sliced_frames.h"
 #include "engine/medium/sweep/medium_scene.h"
 #include "engine/medium/sweep/medium_sweep.h"
 #include "engine/stereo/right_eye.h"
@@ -42,7 +42,7 @@ constexpr std::string_view kDepthSplatMethod = "depthsplat";
 constexpr std::array<std::string_view, 4> kSweepMethods{kSweepMethod, kOwnSamplesMethod, kTwoSweepsMethod,
                                                         kDepthSplatMethod};
 
-class SweptFrames final : public FrameMaker, public TurnedFrames {
+class SweptFrames final : public FrameMaker, public SlicedFrames {
 public:
     // scene must outlive this; its look is read at each frame.
     explicit SweptFrames(const MediumScene& scene, SimdTarget simd = SimdTarget::Auto);
@@ -60,9 +60,7 @@ public:
     void setSweep(SweepChooser chooser) { mChooser = std::move(chooser); }
     bool sweptElsewhere() const { return mElsewhere; }  // the last one
 
-    // Times the slices, and with the root of it the light's texels a side: 1 is what the scene asks for.
-    void setEffort(double share) { mEffort = share; }
-    // Of where slices lie, by a share of a slab.
+    void setEffort(double share) override { mEffort = share; }
     void setTurn(double turn) override { mTurn = turn; }
 
     SimdTarget target() const { return mSweep.target(); }
