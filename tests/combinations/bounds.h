@@ -26,6 +26,10 @@ Nearness besidePlainEdges(const Row& row);
 
 // Right eyes beside one cast in full, by the same instruction set; nothing where the method is to be wrong.
 std::optional<Range> rangeOfRight(const Row& row);
+// Pixels many times as tall as they are wide: rays added at an edge see what the pixel's own ray and its
+// neighbours are far from, and whether two pixels beside a contrast are an edge falls out differently in a
+// warped picture.
+bool edgesDecideColours(const Row& row);
 std::optional<Nearness> nearnessOfRight(const Row& row);
 
 // Which way is taken, and in which size, depends on what takes how long.

@@ -60,9 +60,14 @@ Limits limitsAround(const EyeImage& image, int x, int y, int reach) {
     return limits;
 }
 
-// By which the pixel's channels leave what the oracle has about it; 0 or less: they do not.
-int stepsOutside(const EyeImage& image, const EyeImage& oracle, int x, int y, int reach) {
-    const Limits limits = limitsAround(oracle, x, y, reach);
+// Steps by which the pixel's channels leave what the two oracles have about it; 0 or less: they do not.
+int stepsOutside(const EyeImage& image, const Oracles& oracles, int x, int y, int reach) {
+    Limits limits = limitsAround(oracles.first, x, y, reach);
+    const Limits second = limitsAround(oracles.second, x, y, reach);
+    for (int channel = 0; channel < 3; ++channel) {
+        limits.low[channel] = std::min(limits.low[channel], second.low[channel]);
+        limits.high[channel] = std::max(limits.high[channel], second.high[channel]);
+    }
     const PackedColor c = image.color.at(x, y);
     int steps = 0;
     for (int channel = 0; channel < 3; ++channel)
@@ -132,14 +137,14 @@ std::string tooFar(const EyeImage& image, const EyeImage& oracle, const Nearness
     return fmt::format("pictures differ by {:.2f} steps on average, {} are allowed", mean, bound.mean);
 }
 
-std::string outOfRange(const EyeImage& image, const EyeImage& oracle, const Range& range) {
-    if (!sameSize(image, oracle)) return "sizes differ";
+std::string outOfRange(const EyeImage& image, const Oracles& oracles, const Range& range) {
+    if (!sameSize(image, oracles.first) || !sameSize(image, oracles.second)) return "sizes differ";
     Counted wrong;
     eachPixel(image, [&](int x, int y) {
-        if (stepsOutside(image, oracle, x, y, range.reach) > range.steps)
+        if (stepsOutside(image, oracles, x, y, range.reach) > range.steps)
             wrong.add(x, y,
                       fmt::format("{} where there is {}", colorText(image.color.at(x, y)),
-                                  colorText(oracle.color.at(x, y))));
+                                  colorText(oracles.first.color.at(x, y))));
     });
     return wrong.text(image, range.beyond, "are like nothing about them");
 }
@@ -157,10 +162,10 @@ Nearness nearnessThatHolds(const EyeImage& image, const EyeImage& oracle, double
     return {stepsThatHold(std::move(differences), beyond), beyond, mean};
 }
 
-Range rangeThatHolds(const EyeImage& image, const EyeImage& oracle, const Range& range) {
+Range rangeThatHolds(const EyeImage& image, const Oracles& oracles, const Range& range) {
     std::vector<int> differences;
     eachPixel(image,
-              [&](int x, int y) { differences.push_back(stepsOutside(image, oracle, x, y, range.reach)); });
+              [&](int x, int y) { differences.push_back(stepsOutside(image, oracles, x, y, range.reach)); });
     return {range.reach, stepsThatHold(std::move(differences), range.beyond), range.beyond};
 }
 

@@ -34,8 +34,12 @@ struct Range {
     int reach = 1, steps = 0;
     double beyond = 0;  // share of pixels
 };
-std::string outOfRange(const EyeImage& image, const EyeImage& oracle, const Range& range);
-Range rangeThatHolds(const EyeImage& image, const EyeImage& oracle, const Range& range);
+// Two pictures of which a pixel may show what either has about it; the same twice where there is one alone.
+struct Oracles {
+    const EyeImage &first, &second;
+};
+std::string outOfRange(const EyeImage& image, const Oracles& oracles, const Range& range);
+Range rangeThatHolds(const EyeImage& image, const Oracles& oracles, const Range& range);
 
 // Pixels that are black, white or of the background, all over, where the oracle has nothing like it within
 // `reach` pixels. background: what is packed where nothing is met.
