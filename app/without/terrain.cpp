@@ -1,6 +1,7 @@
 // Stands in for terrain where the program is built without it: everything that needs it says so.
 #include <filesystem>
 
+#include "app/command/scene_facts.h"
 #include "app/options/built_without.h"
 #include "app/scene/scene_type.h"
 
@@ -24,6 +25,10 @@ const SceneType& terrainType() {
         .bake = [](const BakeOptions&) -> int { without(); },
         .hasGround = true};
     return type;
+}
+
+std::optional<Fact> factOfCurvature(const Scene&) {
+    return std::nullopt;
 }
 
 int runMesh(const MeshOptions&) {

@@ -55,6 +55,23 @@ foreach(name ${needed})
   endif()
 endforeach()
 
+# Hardened as cmake/options.cmake says: any address, tables of the loader that stay read-only, a stack that is not run and
+# that tells when it was overwritten. Builds with sanitizers are not.
+if(HARDENED)
+  run(dpkg-deb -x ${packages} ${WORK}/unpacked)
+  foreach(name bin/stereonav ${modules})
+    run(readelf --wide --file-header --program-headers --dynamic --dyn-syms ${WORK}/unpacked/usr/${name})
+    foreach(sign "Type: +DYN" "GNU_RELRO" "FLAGS.*(BIND_NOW|NOW)" "GNU_STACK[^\n]*RW " "__stack_chk_fail")
+      if(NOT output MATCHES "${sign}")
+        message(FATAL_ERROR "${name} is not hardened: readelf does not say \"${sign}\" of it")
+      endif()
+    endforeach()
+    if(name MATCHES "bin/" AND NOT output MATCHES "_chk@")
+      message(FATAL_ERROR "${name} calls no checked function of the C library")
+    endif()
+  endforeach()
+endif()
+
 find_program(LINTIAN lintian)
 if(LINTIAN)
   run(${LINTIAN} --fail-on error,warning ${packages})
