@@ -13,6 +13,7 @@
 #include "engine/base/error.h"
 #include "engine/base/files_read.h"
 #include "engine/base/memory.h"
+#include "engine/base/regular_file.h"
 
 namespace stereonav {
 namespace fs = std::filesystem;
@@ -193,13 +194,9 @@ void checkFileToRead(const fs::path& path) {
 }
 
 std::string readTextFile(const fs::path& path) {
-    checkFileToRead(path);
-    struct stat is {};
-    if (stat(path.c_str(), &is) != 0 || access(path.c_str(), R_OK) != 0)
-        throw Error(path.string(), "", "can not be opened", "check the name and its permissions");
-    checkMemory(path.string(), static_cast<double>(is.st_size), "name a smaller file");
-    OpenFile in(path, path, O_RDONLY);
-    std::string content(static_cast<std::size_t>(is.st_size), '\0');
+    RegularFile in(path);
+    checkMemory(path.string(), static_cast<double>(in.size()), "name a smaller file");
+    std::string content(in.size(), '\0');
     content.resize(in.read(content.data(), content.size()));
     for (std::string more(kBlock, '\0');;) {  // it grew, or is one that does not tell its size
         const std::size_t bytes = in.read(more.data(), more.size());
