@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/camera/gltf_file.h"
 
 namespace stereonav {
@@ -91,12 +92,17 @@ ElementRun packedRun(int bufferView, int byteOffset, std::size_t count, std::siz
 std::vector<double> plainValues(const GltfFile& file, int index, std::size_t components) {
     const tinygltf::Accessor& accessor = file.model.accessors[index];
     const std::string place = fmt::format("accessor {}", index);
+    const auto ask = [&] {  // once it is known that the file has, or needs, no data for more
+        checkMemory(file.name, static_cast<double>(accessor.count * components * sizeof(double)),
+                    "split the model");
+    };
     if (accessor.bufferView < 0) {
         if (accessor.count > kMostWithoutData)
             throw Error(file.name, place,
                         fmt::format("expected at most {} elements where there is no data for them, got {}",
                                     kMostWithoutData, accessor.count),
                         "export it with a buffer view");
+        ask();
         return std::vector<double>(accessor.count * components, 0.0);
     }
     const std::size_t each = componentBytes(accessor.componentType), size = each * components;
@@ -107,6 +113,7 @@ std::vector<double> plainValues(const GltfFile& file, int index, std::size_t com
     const std::size_t stride = given != 0 ? given : size;
     const auto bytes =
         elementBytes(file, {accessor.bufferView, accessor.byteOffset, accessor.count, size, stride}, place);
+    ask();
     std::vector<double> values;
     values.reserve(accessor.count * components);
     for (std::size_t e = 0; e < accessor.count; ++e)

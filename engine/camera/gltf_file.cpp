@@ -7,15 +7,25 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/memory.h"
+#include "engine/base/named_file.h"
+#include "engine/base/regular_file.h"
+#include "engine/camera/gltf_size.h"
 
 namespace stereonav {
 namespace {
 
 constexpr std::size_t kMaxFileBytes = std::numeric_limits<std::uint32_t>::max();  // of a .glb
+constexpr std::size_t kDescriptionAt = 20;  // byte of a .glb where its first chunk has its JSON
+constexpr std::size_t kDeepestNode = 1000;
+constexpr std::size_t kLongestName = 60;  // bytes of what a message repeats
 
 std::uint32_t wordAt(const std::string& bytes, std::size_t at) {
     std::uint32_t word = 0;
@@ -65,18 +75,61 @@ bool keepImageBytes(tinygltf::Image* image, int index, std::string*, std::string
     return true;
 }
 
-void visit(const GltfFile& file, int node, std::vector<int> chain, std::vector<std::vector<int>>& chains) {
-    const auto& nodes = file.model.nodes;
-    if (node < 0 || static_cast<std::size_t>(node) >= nodes.size())
-        throw Error(file.name, "nodes", fmt::format("refers to node {}, the file has {}", node, nodes.size()),
-                    "export the file again");
-    // In a tree no node is met twice, so a longer list than there are nodes is a loop or a shared child.
-    if (chains.size() >= nodes.size() || chain.size() > 1000)
-        throw Error(file.name, fmt::format("node {}", node), "is its own ancestor or has two parents",
-                    "export the file again");
-    chain.push_back(node);
-    chains.push_back(chain);
-    for (const int child : nodes[node].children) visit(file, child, chain, chains);
+// tinygltf's ways to files. It looks in its folder, then in the current one; given "." as the former it asks
+// twice for "./" and the name, which is taken for the file's own folder alone.
+class NamedFiles {
+public:
+    explicit NamedFiles(std::filesystem::path file) : mFile(std::move(file)) {}
+
+    tinygltf::FsCallbacks callbacks() {
+        return {
+            [](const std::string& path, void*) { return std::filesystem::exists(path); },
+            [](const std::string& path, void* self) { return static_cast<NamedFiles*>(self)->placeOf(path); },
+            [](std::vector<unsigned char>* bytes, std::string*, const std::string& path, void* self) {
+                *bytes = static_cast<NamedFiles*>(self)->bytesOf(path);
+                return true;
+            },
+            nullptr, this};
+    }
+
+private:
+    std::string placeOf(const std::string& path) const {
+        const std::string name = path.substr(2);
+        if (name.empty()) return "";
+        const auto place = fileNamedBy(mFile, name);
+        if (!place)
+            throw Error(mFile.string(), "",
+                        fmt::format("names the file \"{}\", which is not in its own folder or below",
+                                    name.substr(0, kLongestName)),
+                        "put both into one folder, and name it without a path");
+        return place->string();
+    }
+    std::vector<unsigned char> bytesOf(const std::string& path) const {
+        RegularFile in(path);
+        checkMemory(path, static_cast<double>(in.size()), "split the model");
+        std::vector<unsigned char> bytes(in.size());
+        bytes.resize(in.read(bytes.data(), bytes.size()));
+        return bytes;
+    }
+
+    std::filesystem::path mFile;
+};
+
+std::vector<int> rootsOf(const GltfFile& file) {
+    const auto& model = file.model;
+    if (!model.scenes.empty()) {
+        const int scene = std::max(model.defaultScene, 0);
+        if (static_cast<std::size_t>(scene) >= model.scenes.size())
+            throw Error(file.name, "scene", fmt::format("is {}, the file has {}", scene, model.scenes.size()),
+                        "export the file again");
+        return model.scenes[scene].nodes;
+    }
+    std::set<int> children;
+    for (const auto& node : model.nodes) children.insert(node.children.begin(), node.children.end());
+    std::vector<int> roots;
+    for (int n = 0; n < static_cast<int>(model.nodes.size()); ++n)
+        if (!children.contains(n)) roots.push_back(n);
+    return roots;
 }
 
 }  // namespace
@@ -89,18 +142,26 @@ GltfFile readGltf(const std::filesystem::path& path) {
         throw Error(file.name, "", "is larger than 4 GiB, the limit of glTF", "split it");
     const bool binary = bytes.starts_with("glTF");
     if (binary) checkBinaryFrame(bytes, file.name);
+    const std::string_view behindHead = std::string_view(bytes).substr(binary ? kDescriptionAt : 0);
+    const std::string_view description = behindHead.substr(0, binary ? wordAt(bytes, 12) : bytes.size());
+    checkGltfSize(description, behindHead.size() - description.size(), file.name);
     tinygltf::TinyGLTF loader;
+    NamedFiles named(path);
+    loader.SetFsCallbacks(named.callbacks());
     loader.SetImageLoader(keepImageBytes, &file.imageBytes);
     std::string problem, warning;
     bool loaded = false;
-    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
     const auto size = static_cast<unsigned>(bytes.size());
     try {
         loaded =
-            binary ? loader.LoadBinaryFromMemory(&file.model, &problem, &warning,
-                                                 reinterpret_cast<const unsigned char*>(bytes.data()), size,
-                                                 folder)
-                   : loader.LoadASCIIFromString(&file.model, &problem, &warning, bytes.data(), size, folder);
+            binary
+                ? loader.LoadBinaryFromMemory(&file.model, &problem, &warning,
+                                              reinterpret_cast<const unsigned char*>(bytes.data()), size, ".")
+                : loader.LoadASCIIFromString(&file.model, &problem, &warning, bytes.data(), size, ".");
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         problem = error.what();
     }
@@ -162,24 +223,37 @@ NodePlacement placementOf(const tinygltf::Node& node) {
     return p;
 }
 
-std::vector<std::vector<int>> nodeChains(const GltfFile& file) {
-    const auto& model = file.model;
-    std::vector<int> roots;
-    if (!model.scenes.empty()) {
-        const int scene = std::max(model.defaultScene, 0);
-        if (static_cast<std::size_t>(scene) >= model.scenes.size())
-            throw Error(file.name, "scene", fmt::format("is {}, the file has {}", scene, model.scenes.size()),
+std::vector<MetNode> nodesOfScene(const GltfFile& file) {
+    const auto& nodes = file.model.nodes;
+    std::vector<MetNode> met;
+    struct Way {
+        std::size_t at = 0, child = 0;  // of `met`; which of its children is next
+    };
+    std::vector<Way> way;  // from a root down
+    const auto meet = [&](int node, int above) {
+        if (node < 0 || static_cast<std::size_t>(node) >= nodes.size())
+            throw Error(file.name, "nodes",
+                        fmt::format("refers to node {}, the file has {}", node, nodes.size()),
                         "export the file again");
-        roots = model.scenes[scene].nodes;
-    } else {
-        std::set<int> children;
-        for (const auto& node : model.nodes) children.insert(node.children.begin(), node.children.end());
-        for (int n = 0; n < static_cast<int>(model.nodes.size()); ++n)
-            if (!children.contains(n)) roots.push_back(n);
+        // In a tree no node is met twice, so a longer list than there are nodes is a loop or a shared child.
+        if (met.size() >= nodes.size() || way.size() > kDeepestNode)
+            throw Error(file.name, fmt::format("node {}", node), "is its own ancestor or has two parents",
+                        "export the file again");
+        way.push_back({met.size(), 0});
+        met.push_back({node, above});
+    };
+    for (const int root : rootsOf(file)) {
+        meet(root, -1);
+        while (!way.empty()) {
+            const std::size_t at = way.back().at;
+            const std::vector<int>& children = nodes[met[at].node].children;
+            if (way.back().child < children.size())
+                meet(children[way.back().child++], static_cast<int>(at));
+            else
+                way.pop_back();
+        }
     }
-    std::vector<std::vector<int>> chains;
-    for (const int root : roots) visit(file, root, {}, chains);
-    return chains;
+    return met;
 }
 
 }  // namespace stereonav

@@ -31,7 +31,8 @@ struct GltfFile {
     std::vector<std::vector<unsigned char>> imageBytes;
 };
 
-// Reads .glb or .gltf (told apart by content). Throws Error naming the file and what is wrong.
+// Reads .glb or .gltf (told apart by content), and files that it names in its folder or below. What it
+// describes is held against the memory first (gltf_size.h). Throws Error naming the file and what is wrong.
 GltfFile readGltf(const std::filesystem::path& file);
 
 // Whether a name ends like a glTF file's: .gltf or .glb, in any case.
@@ -63,9 +64,14 @@ struct NodePlacement {
 };
 NodePlacement placementOf(const tinygltf::Node& node);
 
-// The nodes of the default scene (of all roots when there is none), parents before children, each
-// with the indices from its root down to itself. Throws Error on loops and indices out of range.
-std::vector<std::vector<int>> nodeChains(const GltfFile& file);
+// A node as it is met on the way down from the roots.
+struct MetNode {
+    int node = 0;
+    int above = -1;  // place in the list of the one that it hangs on; -1: it is a root
+};
+// The nodes of the default scene (of all roots when there is none), parents before children. Throws Error on
+// loops and indices out of range.
+std::vector<MetNode> nodesOfScene(const GltfFile& file);
 
 // Appends data to buffer 0 as a new accessor and returns its index. elements: components * count
 // floats; bounds: write min and max (needed for positions and animation times).

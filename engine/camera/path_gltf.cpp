@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "engine/base/error.h"
+#include "engine/base/stop.h"
 #include "engine/camera/gltf_file.h"
 #include "engine/camera/path_formats.h"
 #include "engine/camera/path_track.h"
@@ -20,14 +21,17 @@ constexpr int kMaxHalvings = 8;           // of the time between two keyframes
 constexpr double kPositionShare = 1e-5;   // of the path's extent, see path_formats.h
 constexpr double kAngleTolerance = 1e-4;  // radians
 constexpr double kStepTime = 1e-3;        // seconds
+constexpr int kMostTracks = 100;          // of the camera and the nodes above it
+constexpr std::size_t kMostKeys = 1'000'000, kMostPoses = 4'000'000;
 
 struct AnimatedNode {
     NodePlacement rest;
     std::optional<PathTrack> translation, rotation, scale;
 
+    bool moves() const { return translation || rotation || scale; }
     glm::dmat4 parentFromNode(double time, bool left) const {
         NodePlacement now = rest;
-        if (translation || rotation || scale) now.hasMatrix = false;
+        if (moves()) now.hasMatrix = false;
         if (translation) now.translation = glm::dvec3(translation->at(time, left));
         if (rotation) {
             const glm::dvec4 q = rotation->at(time, left);
@@ -37,6 +41,21 @@ struct AnimatedNode {
         return now.parentFromNode();
     }
 };
+
+// Neighbours that stand still, as one each: what is above a camera is asked for at every time.
+std::vector<AnimatedNode> withoutStill(const std::vector<AnimatedNode>& nodes) {
+    std::vector<AnimatedNode> fewer;
+    for (const AnimatedNode& node : nodes) {
+        if (fewer.empty() || fewer.back().moves() || node.moves()) {
+            fewer.push_back(node);
+            continue;
+        }
+        NodePlacement& rest = fewer.back().rest;
+        rest.matrix = rest.parentFromNode() * node.rest.parentFromNode();
+        rest.hasMatrix = true;
+    }
+    return fewer;
+}
 
 // The rotation of a matrix that may also scale: the view axis is kept exactly, then the head's top.
 glm::dquat rotationOf(const glm::dmat4& m) {
@@ -69,6 +88,7 @@ private:
 CameraAnimation::CameraAnimation(const GltfFile& file, int animation, const std::vector<int>& chain) {
     for (const int node : chain) mNodes.push_back({placementOf(file.model.nodes[node]), {}, {}, {}});
     const auto& channels = file.model.animations[animation].channels;
+    int tracks = 0;
     for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
         const auto at = std::find(chain.begin(), chain.end(), channels[c].target_node);
         const std::string& target = channels[c].target_path;
@@ -77,23 +97,40 @@ CameraAnimation::CameraAnimation(const GltfFile& file, int animation, const std:
         auto& track = target == "rotation" ? node.rotation
                       : target == "scale"  ? node.scale
                                            : node.translation;
+        if (track)
+            throw Error(file.name, fmt::format("animation {}, channel {}", animation, c),
+                        fmt::format("expected one channel for the {} of node {}, found two", target, *at),
+                        "export the animation again");
+        if (++tracks > kMostTracks)
+            throw Error(file.name, fmt::format("animation {}", animation),
+                        fmt::format("expected at most {} tracks of the nodes above the camera, found more",
+                                    kMostTracks),
+                        "export the camera's own animation");
         track = readPathTrack(file, animation, c);
         mHasSteps |= track->interpolation == Interpolation::Step;
         mKeyTimes.insert(mKeyTimes.end(), track->times.begin(), track->times.end());
     }
+    mNodes = withoutStill(mNodes);
     std::sort(mKeyTimes.begin(), mKeyTimes.end());
     mKeyTimes.erase(std::unique(mKeyTimes.begin(), mKeyTimes.end()), mKeyTimes.end());
+    if (mKeyTimes.size() > kMostKeys)
+        throw Error(file.name, fmt::format("animation {}", animation),
+                    fmt::format("expected at most {} keyframes, got {}", kMostKeys, mKeyTimes.size()),
+                    "export it with fewer");
 }
 
 // Appends what lies between two samples, halving where straight lines are not good enough.
 class Sampler {
 public:
-    Sampler(const CameraAnimation& animation, double positionTolerance)
-        : mAnimation(animation), mPositionTolerance(positionTolerance) {}
+    Sampler(const CameraAnimation& animation, double positionTolerance, const std::string& file)
+        : mAnimation(animation), mPositionTolerance(positionTolerance), mFile(file) {}
 
     void appendBetween(const PathSample& a, const PathSample& b, std::vector<PathSample>& samples,
                        int halvings = kMaxHalvings) const {
         if (halvings == 0 || isStraight(a, b)) return;
+        if (samples.size() > kMostPoses)
+            throw Error(mFile, "animations", fmt::format("its curves need more than {} poses", kMostPoses),
+                        "export it with fewer keyframes");
         const double time = 0.5 * (a.time + b.time);
         if (!(time > a.time && time < b.time)) return;
         const PathSample middle{time, mAnimation.at(time, false)};
@@ -118,6 +155,7 @@ private:
 
     const CameraAnimation& mAnimation;
     double mPositionTolerance;
+    const std::string& mFile;
 };
 
 double extentOf(const CameraAnimation& animation) {
@@ -130,11 +168,12 @@ double extentOf(const CameraAnimation& animation) {
     return animation.keyTimes().empty() ? 0.0 : glm::distance(low, high);
 }
 
-std::vector<PathSample> samplesOf(const CameraAnimation& animation) {
+std::vector<PathSample> samplesOf(const CameraAnimation& animation, const std::string& file) {
     std::vector<PathSample> samples;
     const auto& times = animation.keyTimes();
-    const Sampler sampler(animation, kPositionShare * extentOf(animation) + 1e-9);
+    const Sampler sampler(animation, kPositionShare * extentOf(animation) + 1e-9, file);
     for (std::size_t k = 0; k < times.size(); ++k) {
+        throwIfStopped();
         const PathSample start{times[k], animation.at(times[k], false)};
         samples.push_back(start);
         if (k + 1 == times.size()) break;
@@ -147,21 +186,48 @@ std::vector<PathSample> samplesOf(const CameraAnimation& animation) {
     return samples;
 }
 
-bool moves(const tinygltf::Animation& animation, const std::vector<int>& chain) {
-    return std::any_of(animation.channels.begin(), animation.channels.end(), [&](const auto& channel) {
-        return channel.target_path != "weights" &&
-               std::find(chain.begin(), chain.end(), channel.target_node) != chain.end();
-    });
+// From its root down to a node of the list, by their numbers.
+std::vector<int> chainTo(const std::vector<MetNode>& nodes, std::size_t at) {
+    std::vector<int> chain;
+    for (int n = static_cast<int>(at); n >= 0; n = nodes[n].above) chain.push_back(nodes[n].node);
+    std::reverse(chain.begin(), chain.end());
+    return chain;
+}
+
+// Of each node the first camera of the list that it moves with it, as a place in the list; -1: none.
+std::vector<int> firstCameras(const GltfFile& file, const std::vector<MetNode>& nodes) {
+    std::vector<int> first(file.model.nodes.size(), -1), passed(nodes.size(), 0);
+    for (std::size_t c = 0; c < nodes.size(); ++c) {
+        if (file.model.nodes[nodes[c].node].camera < 0) continue;
+        for (int n = static_cast<int>(c); n >= 0 && !passed[n]; n = nodes[n].above) {
+            passed[n] = 1;
+            int& camera = first[nodes[n].node];
+            if (camera < 0) camera = static_cast<int>(c);
+        }
+    }
+    return first;
+}
+
+// The first camera that an animation moves, as a place in the list; -1: none.
+int movedCamera(const tinygltf::Animation& animation, const std::vector<int>& firstCamera) {
+    int moved = -1;
+    for (const auto& channel : animation.channels) {
+        const int target = channel.target_node;
+        if (channel.target_path == "weights" || target < 0 ||
+            static_cast<std::size_t>(target) >= firstCamera.size() || firstCamera[target] < 0)
+            continue;
+        if (moved < 0 || firstCamera[target] < moved) moved = firstCamera[target];
+    }
+    return moved;
 }
 
 }  // namespace
 
 RecordedPath readGltfPath(const std::filesystem::path& path) {
     const GltfFile file = readGltf(path);
-    std::vector<std::vector<int>> cameras;
-    for (const auto& chain : nodeChains(file))
-        if (file.model.nodes[chain.back()].camera >= 0) cameras.push_back(chain);
-    if (cameras.empty())
+    const std::vector<MetNode> nodes = nodesOfScene(file);
+    const std::vector<int> firstCamera = firstCameras(file, nodes);
+    if (std::all_of(firstCamera.begin(), firstCamera.end(), [](int camera) { return camera < 0; }))
         throw Error(file.name, "nodes", "expected a node with a camera, found none",
                     "export the animated camera");
     const auto& animations = file.model.animations;
@@ -169,9 +235,9 @@ RecordedPath readGltfPath(const std::filesystem::path& path) {
         throw Error(file.name, "animations", "expected an animation of the camera, found none",
                     "export with animations");
     for (int a = 0; a < static_cast<int>(animations.size()); ++a)
-        for (const auto& chain : cameras)
-            if (moves(animations[a], chain))
-                return RecordedPath(samplesOf(CameraAnimation(file, a, chain)), file.name);
+        if (const int camera = movedCamera(animations[a], firstCamera); camera >= 0)
+            return RecordedPath(samplesOf(CameraAnimation(file, a, chainTo(nodes, camera)), file.name),
+                                file.name);
     throw Error(file.name, "animations", "expected one that moves the camera, found none",
                 "export the camera's own animation");
 }

@@ -10,6 +10,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
+#include <map>
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
@@ -22,6 +23,7 @@ namespace {
 constexpr const char* kMeshAdvice = "export the mesh again";
 constexpr std::size_t kMaxVertices = 1u << 30;
 constexpr std::size_t kTellEach = 1u << 16;  // vertices
+constexpr std::size_t kTellEachPart = 64;
 
 // Which of a vertex's texture coordinates count, and how they are placed (KHR_texture_transform).
 struct TexturePlaces {
@@ -62,9 +64,15 @@ public:
 
     TriangleMesh read() {
         readMaterials();
-        const std::vector<std::vector<int>> chains = nodeChains(mFile);
-        makeRoom(chains);
-        for (const auto& chain : chains) readNode(chain);
+        const std::vector<MetNode> nodes = nodesOfScene(mFile);
+        makeRoom(nodes);
+        std::vector<glm::dmat4> sceneFromNode;
+        sceneFromNode.reserve(nodes.size());
+        for (const MetNode& met : nodes) {
+            const glm::dmat4 placed = placementOf(mFile.model.nodes[met.node]).parentFromNode();
+            sceneFromNode.push_back(met.above < 0 ? placed : sceneFromNode[met.above] * placed);
+            readNode(met.node, sceneFromNode.back());
+        }
         if (mMesh.triangles.empty())
             throw Error(mFile.name, "scene", "expected a mesh with triangles, found none",
                         "export a mesh with it");
@@ -72,11 +80,12 @@ public:
     }
 
 private:
-    void makeRoom(const std::vector<std::vector<int>>& chains);
+    void makeRoom(const std::vector<MetNode>& nodes);
     void readMaterials();
     TextureWrap wrapOf(int code, const std::string& place) const;
     int readTexture(int texture, MeshMaterial& material);
-    void readNode(const std::vector<int>& chain);
+    int readImage(int image, const std::string& place);
+    void readNode(int node, const glm::dmat4& sceneFromNode);
     void readPrimitive(const tinygltf::Primitive& primitive, const glm::dmat4& sceneFromNode,
                        const std::string& place);
     void readVertices(const tinygltf::Primitive& primitive, const glm::dmat4& sceneFromNode,
@@ -90,19 +99,25 @@ private:
     const GltfFile& mFile;
     Progress& mProgress;
     TriangleMesh mMesh;
+    std::map<int, int> mTextures;               // of the mesh, by the image that they are of
     std::vector<TexturePlaces> mTexturePlaces;  // of each material's base colour texture
 };
 
 // A mesh that several nodes show is there several times. No accessor counts for more elements than its buffer
 // has bytes for: what a file names without having it takes no memory, and is refused when it is read.
-void MeshReader::makeRoom(const std::vector<std::vector<int>>& chains) {
+void MeshReader::makeRoom(const std::vector<MetNode>& nodes) {
     // Of Embree, a triangle, while its tree is built, beside its copy of the mesh: measured 110 to 131.
     constexpr double kTreeBytes = 140;
     const auto& model = mFile.model;
     double vertices = 0, triangles = 0, most = 0;
-    for (const auto& chain : chains) {
-        const int mesh = model.nodes[chain.back()].mesh;
+    std::size_t parts = 0;
+    for (const MetNode& met : nodes) {
+        const int mesh = model.nodes[met.node].mesh;
         if (mesh < 0 || static_cast<std::size_t>(mesh) >= model.meshes.size()) continue;
+        parts += model.meshes[mesh].primitives.size();
+        if (parts > kMostMeshParts)
+            throw Error(mFile.name, "scene", fmt::format("shows more than {} primitives", kMostMeshParts),
+                        "simplify the mesh");
         for (const tinygltf::Primitive& primitive : model.meshes[mesh].primitives) {
             const auto position = primitive.attributes.find("POSITION");
             const std::size_t own =
@@ -174,28 +189,35 @@ int MeshReader::readTexture(int index, MeshMaterial& material) {
         material.wrapX = wrapOf(sampler.wrapS, samplerPlace);
         material.wrapY = wrapOf(sampler.wrapT, samplerPlace);
     }
-    const tinygltf::Image& image = model.images[texture.source];
-    const std::span<const unsigned char> bytes = image.bufferView >= 0
-                                                     ? bufferViewBytes(mFile, image.bufferView, place)
-                                                     : std::span(mFile.imageBytes[texture.source]);
-    mMesh.textures.emplace_back(decodeColorImage(bytes, mFile.name, fmt::format("image {}", texture.source)),
-                                glm::dvec2(0), glm::dvec2(1));
-    return static_cast<int>(mMesh.textures.size()) - 1;
+    return readImage(texture.source, place);
 }
 
-void MeshReader::readNode(const std::vector<int>& chain) {
+// Each picture is decoded once, however many materials show it.
+int MeshReader::readImage(int source, const std::string& place) {
+    const auto [known, isNew] = mTextures.try_emplace(source, static_cast<int>(mMesh.textures.size()));
+    if (!isNew) return known->second;
+    const tinygltf::Image& image = mFile.model.images[source];
+    const std::span<const unsigned char> bytes = image.bufferView >= 0
+                                                     ? bufferViewBytes(mFile, image.bufferView, place)
+                                                     : std::span(mFile.imageBytes[source]);
+    mMesh.textures.emplace_back(decodeColorImage(bytes, mFile.name, fmt::format("image {}", source)),
+                                glm::dvec2(0), glm::dvec2(1));
+    return known->second;
+}
+
+void MeshReader::readNode(int node, const glm::dmat4& sceneFromNode) {
     const auto& model = mFile.model;
-    const int mesh = model.nodes[chain.back()].mesh;
+    const int mesh = model.nodes[node].mesh;
     if (mesh < 0) return;
     if (static_cast<std::size_t>(mesh) >= model.meshes.size())
-        throw Error(mFile.name, fmt::format("node {}", chain.back()),
+        throw Error(mFile.name, fmt::format("node {}", node),
                     fmt::format("refers to mesh {}, the file has {}", mesh, model.meshes.size()),
                     kMeshAdvice);
-    glm::dmat4 sceneFromNode(1.0);
-    for (const int node : chain) sceneFromNode *= placementOf(model.nodes[node]).parentFromNode();
-    for (std::size_t p = 0; p < model.meshes[mesh].primitives.size(); ++p)
+    for (std::size_t p = 0; p < model.meshes[mesh].primitives.size(); ++p) {
+        if (p % kTellEachPart == 0) tell();
         readPrimitive(model.meshes[mesh].primitives[p], sceneFromNode,
                       fmt::format("mesh {}, primitive {}", mesh, p));
+    }
 }
 
 void MeshReader::readPrimitive(const tinygltf::Primitive& primitive, const glm::dmat4& sceneFromNode,
