@@ -71,8 +71,9 @@ std::uint64_t keyOfFiles(const std::vector<fs::path>& files, const StudyOptions&
 std::vector<fs::path> filesOfVolume(const fs::path& file) {
     const VolumeHeader header = readVolumeHeader(file);
     std::vector<fs::path> files = header.headers;
+    std::set<fs::path> known(files.begin(), files.end());
     for (const fs::path& data : header.place.files)
-        if (std::find(files.begin(), files.end(), data) == files.end()) files.push_back(data);
+        if (known.insert(data).second) files.push_back(data);
     return files;
 }
 

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "engine/base/memory.h"
+#include "engine/base/stop.h"
 #include "engine/text/number.h"
 
 namespace stereonav {
@@ -22,7 +24,11 @@ constexpr std::uint32_t kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd 
 constexpr std::uint32_t kPixels = 0x7fe00010;
 constexpr int kDeepest = 32;                     // sequences within sequences
 constexpr std::uint64_t kLongestKept = 1 << 17;  // bytes of a value: a table of 65536
-constexpr std::uint64_t kMostUnpacked = 4ull << 30;
+constexpr std::size_t kMostItems = 1'000'000;    // of sequences that a study is read from
+constexpr std::size_t kTellEach = 64 << 20;      // bytes that are unpacked between two looks for a stop
+// Bytes of a data set of the deflated syntax.
+constexpr std::uint64_t kFirstDeflated = 1 << 20, kMostDeflatedHead = 64 << 20, kMostDeflated = 1 << 30;
+constexpr double kMostSpare = 1 << 20;  // of its pixels that no row or frame has
 constexpr const char *kImplicit = "1.2.840.10008.1.2", *kDeflated = "1.2.840.10008.1.2.1.99",
                      *kBigEndian = "1.2.840.10008.1.2.2", *kDirectory = "1.2.840.10008.1.3.10";
 
@@ -65,6 +71,45 @@ std::string plainText(const std::string& bytes) {
 
 struct Fault {
     std::string clause;
+};
+
+// A stream without a head of its own, unpacked as far as it is wanted.
+class Inflater {
+public:
+    Inflater(const unsigned char* data, std::uint64_t size) : mData(data), mLeft(size) {
+        if (inflateInit2(&mStream, -MAX_WBITS) != Z_OK) throw std::bad_alloc();
+    }
+    ~Inflater() { inflateEnd(&mStream); }
+    Inflater(const Inflater&) = delete;
+    Inflater& operator=(const Inflater&) = delete;
+
+    // Adds to what it gave before until there are so many bytes, or it gives no more.
+    void fill(std::vector<unsigned char>& to, std::uint64_t bytes) {
+        std::uint64_t at = to.size();
+        to.resize(bytes);
+        while (mState == Z_OK && at < bytes) {
+            throwIfStopped();
+            if (mStream.avail_in == 0) {
+                mStream.next_in = const_cast<Bytef*>(mData);  // zlib only reads it
+                mStream.avail_in = static_cast<uInt>(std::min<std::uint64_t>(mLeft, 1 << 30));
+                mData += mStream.avail_in, mLeft -= mStream.avail_in;
+            }
+            const auto room = static_cast<uInt>(std::min<std::uint64_t>(bytes - at, kTellEach));
+            mStream.next_out = to.data() + at;
+            mStream.avail_out = room;
+            mState = inflate(&mStream, Z_NO_FLUSH);
+            at += room - mStream.avail_out;
+        }
+        to.resize(at);
+    }
+    bool goesOn() const { return mState == Z_OK; }
+    bool isWhole() const { return mState == Z_STREAM_END; }
+
+private:
+    const unsigned char* mData;
+    std::uint64_t mLeft;
+    z_stream mStream{};
+    int mState = Z_OK;
 };
 
 std::string tagText(std::uint32_t tag) {
@@ -187,6 +232,8 @@ private:
                 throw Fault{
                     fmt::format("is cut off or damaged: an item at byte {} says {} bytes, {} are left", at,
                                 length, end - at)};
+            if (kept && ++mItems > kMostItems)
+                throw Fault{fmt::format("is damaged: its sequences have more than {} items", kMostItems)};
             DicomItem* item = kept ? &kept->items.emplace_back() : nullptr;
             if (length == kUnknownLength)
                 at = set(at, end, true, item, depth);
@@ -197,10 +244,14 @@ private:
         return at;
     }
 
-    // Zeros behind the last element, as tapes leave them.
-    bool restIsPadding(std::uint64_t at, std::uint64_t end) const {
-        return mFile.mPixels.found &&
-               std::all_of(mData + at, mData + end, [](unsigned char c) { return c == 0; });
+    // Zeros behind the last element, as tapes leave them. Where they begin is looked up once.
+    bool restIsPadding(std::uint64_t at, std::uint64_t end) {
+        if (!mFile.mPixels.found) return false;
+        if (!mPadding) {
+            mPadding = end;
+            while (*mPadding > at && mData[*mPadding - 1] == 0) --*mPadding;
+        }
+        return at >= *mPadding;
     }
 
     std::uint64_t pixels(const Head& h, std::uint64_t end) {
@@ -210,6 +261,7 @@ private:
         pixels.words = mExplicit && std::memcmp(mData + h.body - 8, "OW", 2) == 0;
         pixels.encapsulated = h.length == kUnknownLength;
         if (!pixels.encapsulated) {
+            pixels.said = h.length;
             pixels.bytes = std::min<std::uint64_t>(h.length, end - h.body);
             if (h.length > end - h.body) throw Fault{cutPixels(h.length, end - h.body)};
             return h.body + h.length;
@@ -232,21 +284,18 @@ private:
     }
 
     std::string cutPixels(std::uint64_t said, std::uint64_t left) const {
-        const std::uint64_t columns = mFile.word(0x00280011, 0), rows = mFile.word(0x00280010, 0);
-        const std::uint64_t samples = mFile.word(0x00280002, 1), bits = mFile.word(0x00280100, 16);
-        const auto frames = mFile.mSet.numbers(0x00280008, 1);
-        const double expected = static_cast<double>(columns * rows * samples * ((bits + 7) / 8)) *
-                                (frames.empty() ? 1 : std::max(frames[0], 1.0));
+        const double expected = mFile.pixelBytes();
         if (static_cast<double>(said) <= expected + 1 && static_cast<double>(left) < expected)
             return fmt::format("is cut off: {:.0f} bytes of its pixels are missing",
                                expected - static_cast<double>(left));
-        return fmt::format("is damaged: it says {} bytes of pixels, {} x {} of them have {:.0f}", said,
-                           columns, rows, expected);
+        return mFile.tooManyPixels(said);
     }
 
     DicomFile& mFile;
     const unsigned char* mData;
     bool mExplicit, mBig;
+    std::size_t mItems = 0;
+    std::optional<std::uint64_t> mPadding;  // where zeros begin that reach to the end
 };
 
 int DicomFile::word(std::uint32_t tag, int otherwise) const {
@@ -291,29 +340,62 @@ void DicomFile::readHead(const fs::path& file) {
     mBig = mSyntax == kBigEndian;
 }
 
-// The data set of the deflated syntax: a stream without a head of its own.
-void DicomFile::unpack() {
-    z_stream stream{};
-    if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) throw std::bad_alloc();
-    const std::unique_ptr<z_stream, void (*)(z_stream*)> end(&stream, [](z_stream* s) { inflateEnd(s); });
-    std::uint64_t at = mStart;
-    std::vector<unsigned char> block(1 << 20);
-    int state = Z_OK;
-    while (state == Z_OK && mUnpacked.size() < kMostUnpacked) {
-        if (stream.avail_in == 0) {
-            stream.next_in = const_cast<Bytef*>(mData + at);  // zlib only reads it
-            stream.avail_in = static_cast<uInt>(std::min<std::uint64_t>(mSize - at, 1 << 30));
-            at += stream.avail_in;
-        }
-        stream.next_out = block.data();
-        stream.avail_out = static_cast<uInt>(block.size());
-        state = inflate(&stream, Z_NO_FLUSH);
-        mUnpacked.insert(mUnpacked.end(), block.data(), stream.next_out);
+// By what the elements before the pixels say of them.
+double DicomFile::pixelBytes() const {
+    const std::uint64_t columns = word(0x00280011, 0), rows = word(0x00280010, 0);
+    const std::uint64_t samples = word(0x00280002, 1), bits = word(0x00280100, 16);
+    const auto frames = mSet.numbers(0x00280008, 1);
+    return static_cast<double>(columns * rows * samples * ((bits + 7) / 8)) *
+           (frames.empty() ? 1 : std::max(frames[0], 1.0));
+}
+
+std::string DicomFile::tooManyPixels(std::uint64_t said) const {
+    return fmt::format("is damaged: it says {} bytes of pixels, {} x {} of them have {:.0f}", said,
+                       word(0x00280011, 0), word(0x00280010, 0), pixelBytes());
+}
+
+// How far the data set of the deflated syntax is wanted, by so much of it as is unpacked: to the end of its
+// pixels, or to twice as much where these have not begun. None, and mDamage, where it can be no picture.
+std::optional<std::uint64_t> DicomFile::wantedOf() {
+    mSet = {};
+    mPixels = {};
+    try {
+        Walk(*this).all();
+    } catch (const Fault&) {  // as it has to be, in the middle of the set
     }
-    if (state != Z_STREAM_END) mDamage = "is cut off or damaged: it can not be unpacked";
-    mData = mUnpacked.data();
-    mSize = mUnpacked.size();
+    if (!mPixels.found && mSize < kMostDeflatedHead) return 2 * mSize;
+    if (!mPixels.found)
+        mDamage = fmt::format("is damaged: it has no pixels in its first {} bytes, unpacked", mSize);
+    else if (mPixels.encapsulated)
+        mDamage = "is damaged: its pixels are compressed in a data set that is compressed";
+    else if (static_cast<double>(mPixels.said) > pixelBytes() + kMostSpare)
+        mDamage = tooManyPixels(mPixels.said);
+    else if (mPixels.at + mPixels.said > kMostDeflated)
+        mDamage = fmt::format("has {} bytes of pixels in a data set that is compressed, more than are read",
+                              mPixels.said);
+    else
+        return mPixels.at + mPixels.said;
+    return std::nullopt;
+}
+
+// The data set of the deflated syntax. What stands behind the pixels is left packed.
+void DicomFile::unpack(const fs::path& file) {
+    Inflater stream(mData + mStart, mSize - mStart);
+    std::optional<std::uint64_t> wanted = kFirstDeflated;
     mStart = 0;
+    while (wanted && *wanted > mUnpacked.size() && stream.goesOn()) {
+        checkMemory(file.string(), static_cast<double>(*wanted),
+                    "convert it to a syntax that is not deflated");
+        stream.fill(mUnpacked, *wanted);
+        mData = mUnpacked.data();
+        mSize = mUnpacked.size();
+        if (stream.goesOn()) wanted = wantedOf();
+    }
+    if (mDamage.empty() && !stream.goesOn() && !stream.isWhole())
+        mDamage = "is cut off or damaged: it can not be unpacked";
+    if (mDamage.empty() && stream.goesOn()) mSize = mPixels.at + mPixels.said;
+    mSet = {};
+    mPixels = {};
 }
 
 DicomFile::DicomFile(const fs::path& file) : mFile(file), mData(mFile.data()), mSize(mFile.size()) {
@@ -321,7 +403,7 @@ DicomFile::DicomFile(const fs::path& file) : mFile(file), mData(mFile.data()), m
     if (mHasHead) {
         readHead(file);
         if (isDirectory()) return;
-        if (mSyntax == kDeflated) unpack();
+        if (mSyntax == kDeflated) unpack(file);
     } else {
         // Without a head, as before 1993: group 8 first, and no mistake in all of it.
         if (mSize < 16 || mData[0] != 8 || mData[1] != 0 || mData[3] != 0) return;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +40,7 @@ public:
         bool found = false, encapsulated = false;
         bool words = false;               // stands in words of 16 bits (OW), which big-endian files turn over
         std::uint64_t at = 0, bytes = 0;  // of data()
+        std::uint64_t said = 0;           // bytes, by their length in the file; 0 where they are encapsulated
         std::vector<std::pair<std::uint64_t, std::uint64_t>>
             fragments;  // place and bytes; the first: offsets
     };
@@ -64,7 +66,10 @@ public:
 private:
     class Walk;
     void readHead(const std::filesystem::path& file);
-    void unpack();
+    double pixelBytes() const;
+    std::string tooManyPixels(std::uint64_t said) const;
+    std::optional<std::uint64_t> wantedOf();
+    void unpack(const std::filesystem::path& file);
 
     MappedFile mFile;
     std::vector<unsigned char> mUnpacked;  // of the deflated syntax

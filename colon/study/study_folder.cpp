@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
-#include <fstream>
 
 #include "colon/study/study_text.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/regular_file.h"
 
 namespace stereonav {
 namespace {
@@ -74,9 +73,12 @@ bool isDicomFile(const fs::path& path) {
     std::error_code code;
     if (!fs::is_regular_file(path, code)) return false;
     if (extension == ".dcm" || extension == ".ima" || extension == ".dicom") return true;
-    char head[132];
-    std::ifstream in(path, std::ios::binary);
-    return in.read(head, sizeof head) && std::memcmp(head + 128, "DICM", 4) == 0;
+    try {
+        const std::string head = firstBytes(path, 132);
+        return head.size() == 132 && head.ends_with("DICM");
+    } catch (const Error&) {  // it can not be opened
+        return false;
+    }
 }
 
 fs::path folderOfStudy(const fs::path& place) {

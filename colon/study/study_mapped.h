@@ -1,14 +1,12 @@
 // A file's bytes as memory, for as long as it lives. Shared among colon/study/*.cpp only.
 #pragma once
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <filesystem>
 
 #include "engine/base/error.h"
+#include "engine/base/regular_file.h"
 
 namespace stereonav {
 
@@ -16,15 +14,13 @@ class MappedFile {
 public:
     // Throws Error; an empty file has no bytes.
     explicit MappedFile(const std::filesystem::path& file) {
-        const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-        struct stat status {};
-        if (descriptor >= 0 && fstat(descriptor, &status) == 0 && status.st_size > 0) {
-            mBytes = static_cast<std::size_t>(status.st_size);
-            mData = mmap(nullptr, mBytes, PROT_READ, MAP_PRIVATE, descriptor, 0);
-        }
-        if (descriptor >= 0) close(descriptor);
-        if (descriptor < 0 || mData == MAP_FAILED)
+        const RegularFile opened(file);
+        if (opened.size() == 0) return;
+        void* const data = mmap(nullptr, opened.size(), PROT_READ, MAP_PRIVATE, opened.descriptor(), 0);
+        if (data == MAP_FAILED)
             throw Error(file.string(), "", "can not be opened", "check the name and its permissions");
+        mData = data;
+        mBytes = opened.size();
     }
     ~MappedFile() {
         if (mData) munmap(mData, mBytes);

@@ -9,6 +9,7 @@
 
 #include "colon/study/study_header.h"
 #include "colon/study/study_text.h"
+#include "engine/base/regular_file.h"
 #include "engine/text/number.h"
 #include "engine/text/words.h"
 
@@ -77,7 +78,7 @@ void MetaText::take(int line, const std::string& key, const std::string& text_) 
 MetaText readMetaText(const fs::path& file) {
     MetaText meta;
     meta.file = file;
-    meta.text = beginningOf(file, kLongestStudyHeader);
+    meta.text = firstBytes(file, kLongestStudyHeader);
     std::string line;
     for (int number = 1; nextLine(meta.text, meta.end, line); ++number) {
         const std::size_t equal = line.find('=');

@@ -12,6 +12,7 @@
 #include "colon/study/study_header.h"
 #include "colon/study/study_stream.h"
 #include "colon/study/study_text.h"
+#include "engine/base/regular_file.h"
 
 namespace stereonav {
 namespace {
@@ -334,7 +335,7 @@ void takeNiftiPlaces(const fs::path& file, const NiftiNumbers& n, VolumeHeader& 
 
 bool isGzip(const fs::path& file) {
     std::error_code code;
-    return fs::is_regular_file(file, code) && beginningOf(file, 2) == "\x1f\x8b";
+    return fs::is_regular_file(file, code) && firstBytes(file, 2) == "\x1f\x8b";
 }
 
 // The first bytes of a file, inflated where it is compressed; "" where it is none.
@@ -343,8 +344,7 @@ std::string plainBeginning(const fs::path& file, std::size_t bytes) {
     if (!fs::is_regular_file(file, code)) return "";
     std::string text(bytes, '\0');
     const auto encoding = isGzip(file) ? SampleEncoding::Deflate : SampleEncoding::Raw;
-    text.resize(
-        openStream(file, file, 0, encoding)->read(reinterpret_cast<unsigned char*>(text.data()), bytes));
+    text.resize(openStream(file, 0, encoding)->read(reinterpret_cast<unsigned char*>(text.data()), bytes));
     return text;
 }
 
@@ -388,7 +388,7 @@ VolumeHeader readNiftiHeader(const fs::path& file) {
     const std::string name = loweredText(file.filename().string());
     const bool isImage = name.ends_with(".img") || name.ends_with(".img.gz");
     const fs::path headerFile = isImage ? otherOfPair(file, ".hdr") : file;
-    beginningOf(headerFile, 1);  // that it is there
+    firstBytes(headerFile, 1);  // that it is there
     const NiftiNumbers n = numbersOf(headerFile, plainBeginning(headerFile, kSecondSize));
     checkNumbers(headerFile, n);
     VolumeHeader header;

@@ -10,6 +10,7 @@
 
 #include "colon/study/study_header.h"
 #include "colon/study/study_text.h"
+#include "engine/base/regular_file.h"
 #include "engine/text/number.h"
 #include "engine/text/words.h"
 
@@ -48,7 +49,7 @@ struct NrrdText {
 NrrdText readNrrdText(const fs::path& file) {
     NrrdText nrrd;
     nrrd.file = file;
-    nrrd.text = beginningOf(file, kLongestStudyHeader);
+    nrrd.text = firstBytes(file, kLongestStudyHeader);
     if (!nrrd.text.starts_with("NRRD000"))
         throw Error(file.string(), "", "expected a NRRD file, which begins with NRRD000",
                     "give a volume file (.nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd) or a folder of DICOM");

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
-#include <limits>
 
 #include "colon/study/study_header.h"
 #include "colon/study/study_stream.h"
+#include "engine/base/file.h"
 #include "engine/base/parallel.h"
+#include "engine/base/regular_file.h"
 #include "engine/text/number.h"
 
 namespace stereonav {
@@ -18,7 +18,9 @@ namespace fs = std::filesystem;
 
 // deflate never makes more than 1032 bytes of one (zlib's technical notes).
 constexpr std::uint64_t kMostInflation = 1032;
-constexpr std::size_t kReadBlock = 8 << 20;
+constexpr std::size_t kReadBlock = 8 << 20, kLineBlock = 1 << 18;
+// Bytes before samples that are compressed with them: each has to be unpacked to be left out.
+constexpr std::uint64_t kMostPackedSkip = 64 << 20;
 constexpr std::size_t kLongestNumber = 400;  // characters
 
 std::uint64_t bytesExpected(const VolumeHeader& header) {
@@ -42,12 +44,14 @@ std::uint64_t startOf(const fs::path& data, const SamplePlace& place, std::uint6
         return size - std::min(size, share);
     }
     if (place.lines == 0) return place.offset;
-    std::ifstream in(data, std::ios::binary);
-    in.seekg(static_cast<std::streamoff>(place.offset));
-    std::uint64_t at = place.offset;
-    for (std::uint64_t n = 0; n < place.lines && in; ++n) {
-        in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-        at += static_cast<std::uint64_t>(in.gcount());
+    RegularFile in(data);
+    in.seek(place.offset);
+    std::vector<char> block(kLineBlock);
+    std::uint64_t at = place.offset, lines = 0;
+    while (const std::size_t held = in.read(block.data(), block.size())) {
+        for (std::size_t n = 0; n < held; ++n)
+            if (block[n] == '\n' && ++lines == place.lines) return at + n + 1;
+        at += held;
     }
     return at;
 }
@@ -225,6 +229,7 @@ void checkSampleFiles(const fs::path& file, const VolumeHeader& header) {
         throw Error(file.string(), "", "names no data file", "the header is damaged: get it again");
     std::uint64_t found = 0;
     for (const fs::path& data : place.files) {
+        checkFileToRead(data);
         std::error_code code;
         const auto bytes = fs::file_size(data, code);
         if (code)
@@ -234,6 +239,12 @@ void checkSampleFiles(const fs::path& file, const VolumeHeader& header) {
         const std::uint64_t before = place.offset + (raw && !place.atEnd ? place.skip : 0);
         found += bytes - std::min<std::uint64_t>(bytes, before);
     }
+    const bool packed = place.encoding == SampleEncoding::Deflate || place.encoding == SampleEncoding::Bzip2;
+    if (packed && place.skip > kMostPackedSkip)
+        throw Error(file.string(), "",
+                    fmt::format("expected compressed samples behind at most {} bytes, found {} to leave out",
+                                kMostPackedSkip, place.skip),
+                    "correct it in the header, or save it without compression");
     const std::uint64_t expected = bytesExpected(header), count = expected / bytesOf(header.type);
     if (place.files.size() > 1 && count % place.files.size() != 0)
         throw Error(file.string(), "",
@@ -265,7 +276,7 @@ void readSamples(const fs::path& file, const VolumeHeader& header, unsigned char
     Reading reading{file, header, progress, come, bytesExpected(header)};
     const std::uint64_t share = reading.expected / place.files.size();
     for (const fs::path& data : place.files) {
-        const auto stream = openStream(file, data, startOf(data, place, share), place.encoding);
+        const auto stream = openStream(data, startOf(data, place, share), place.encoding);
         leaveOut(*stream, place.atEnd ? 0 : place.skip);
         if (place.encoding == SampleEncoding::Text)
             readText(*stream, header.type, to, share / bytesOf(header.type), reading);

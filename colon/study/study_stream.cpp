@@ -5,10 +5,10 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <fstream>
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/regular_file.h"
 
 namespace stereonav {
 namespace {
@@ -20,32 +20,21 @@ constexpr std::size_t kBehind = 1 << 16;  // bytes beyond the samples within whi
 
 class PlainStream : public ByteStream {
 public:
-    PlainStream(const fs::path& file, fs::path data, std::uint64_t offset)
-        : mHeader(file), mData(std::move(data)), mIn(mData, std::ios::binary) {
-        std::error_code code;
-        if (!mIn || !fs::is_regular_file(mData, code))
-            throw Error(mHeader.string(), "", "its data file " + mData.string() + " can not be opened",
-                        "put it beside the header under that name");
-        mIn.seekg(static_cast<std::streamoff>(offset));
-    }
-    std::size_t read(unsigned char* to, std::size_t count) override {
-        mIn.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(count));
-        return static_cast<std::size_t>(mIn.gcount());
-    }
+    PlainStream(const fs::path& data, std::uint64_t offset) : mData(data), mIn(data) { mIn.seek(offset); }
+    std::size_t read(unsigned char* to, std::size_t count) override { return mIn.read(to, count); }
     [[noreturn]] void refuse(const std::string& problem) const {
         throw Error(mData.string(), "", problem, "copy or save the file again");
     }
 
 private:
-    fs::path mHeader, mData;
-    std::ifstream mIn;
+    fs::path mData;
+    RegularFile mIn;
 };
 
 // A stream of streams: gzip and bzip2 files may be several, one after another.
 class PackedStream : public ByteStream {
 public:
-    PackedStream(const fs::path& file, const fs::path& data, std::uint64_t offset)
-        : mFile(file, data, offset), mInput(kInputBlock) {}
+    PackedStream(const fs::path& data, std::uint64_t offset) : mFile(data, offset), mInput(kInputBlock) {}
 
     std::size_t read(unsigned char* to, std::size_t count) override {
         std::size_t done = 0;
@@ -94,8 +83,7 @@ private:
 
 class InflateStream : public PackedStream {
 public:
-    InflateStream(const fs::path& file, const fs::path& data, std::uint64_t offset)
-        : PackedStream(file, data, offset) {
+    InflateStream(const fs::path& data, std::uint64_t offset) : PackedStream(data, offset) {
         if (inflateInit2(&mStream, 32 + MAX_WBITS) != Z_OK) throw std::bad_alloc();  // 32: gzip or zlib
     }
     ~InflateStream() override { inflateEnd(&mStream); }
@@ -121,10 +109,7 @@ private:
 
 class Bzip2Stream : public PackedStream {
 public:
-    Bzip2Stream(const fs::path& file, const fs::path& data, std::uint64_t offset)
-        : PackedStream(file, data, offset) {
-        start();
-    }
+    Bzip2Stream(const fs::path& data, std::uint64_t offset) : PackedStream(data, offset) { start(); }
     ~Bzip2Stream() override { BZ2_bzDecompressEnd(&mStream); }
 
 private:
@@ -155,15 +140,14 @@ private:
 
 }  // namespace
 
-std::unique_ptr<ByteStream> openStream(const fs::path& file, const fs::path& data, std::uint64_t offset,
-                                       SampleEncoding encoding) {
+std::unique_ptr<ByteStream> openStream(const fs::path& data, std::uint64_t offset, SampleEncoding encoding) {
     switch (encoding) {
         case SampleEncoding::Deflate:
-            return std::make_unique<InflateStream>(file, data, offset);
+            return std::make_unique<InflateStream>(data, offset);
         case SampleEncoding::Bzip2:
-            return std::make_unique<Bzip2Stream>(file, data, offset);
+            return std::make_unique<Bzip2Stream>(data, offset);
         default:
-            return std::make_unique<PlainStream>(file, data, offset);
+            return std::make_unique<PlainStream>(data, offset);
     }
 }
 

@@ -20,9 +20,9 @@ public:
     virtual void finish() {}
 };
 
-// `offset`: bytes of the file to leave out. Text and Hex come as they are. Throws Error naming `file`, the
-// header, where `data` can not be opened.
-std::unique_ptr<ByteStream> openStream(const std::filesystem::path& file, const std::filesystem::path& data,
-                                       std::uint64_t offset, SampleEncoding encoding);
+// `offset`: bytes of the file to leave out. Text and Hex come as they are. Throws Error where `data` can not
+// be opened, or is no file.
+std::unique_ptr<ByteStream> openStream(const std::filesystem::path& data, std::uint64_t offset,
+                                       SampleEncoding encoding);
 
 }  // namespace stereonav

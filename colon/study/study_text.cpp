@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "engine/base/error.h"
+#include "engine/base/named_file.h"
 #include "engine/text/number.h"
 #include "engine/text/words.h"
 
@@ -41,15 +41,6 @@ std::string shortText(const std::string& text) {
     return text.size() > kLongestFound ? found + fmt::format("... ({} characters)", text.size()) : found;
 }
 
-std::string beginningOf(const fs::path& file, std::size_t bytes) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error(file.string(), "", "can not be opened", "check the name and its permissions");
-    std::string text(bytes, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(bytes));
-    text.resize(static_cast<std::size_t>(in.gcount()));
-    return text;
-}
-
 bool nextLine(const std::string& text, std::size_t& at, std::string& line) {
     if (at >= text.size()) return false;
     const std::size_t end = text.find('\n', at);
@@ -71,8 +62,10 @@ std::vector<double> numbersIn(const std::string& text) {
 }
 
 fs::path besideHeader(const fs::path& header, const std::string& name) {
-    const fs::path path(name);
-    return path.is_absolute() ? path : header.parent_path() / path;
+    if (const auto place = fileNamedBy(header, name)) return *place;
+    throw Error(header.string(), "",
+                "names the data file \"" + shortText(name) + "\", which is not in its own folder or below",
+                "put both into one folder, and name it without a path");
 }
 
 std::string numberedName(const std::string& pattern, std::int64_t n) {

@@ -17,15 +17,13 @@ std::string loweredText(std::string text);
 // For messages: printable, and no longer than a line.
 std::string shortText(const std::string& text);
 
-// The first bytes of a file, at most so many. Throws Error.
-std::string beginningOf(const std::filesystem::path& file, std::size_t bytes);
 // One line of text from `at` on, which moves behind it; false at the end.
 bool nextLine(const std::string& text, std::size_t& at, std::string& line);
 
 // As many numbers as the text begins with.
 std::vector<double> numbersIn(const std::string& text);
 
-// A data file's name as a header has it, relative to the header's folder.
+// A data file's name as a header has it, in the header's folder or below. Throws Error for one elsewhere.
 std::filesystem::path besideHeader(const std::filesystem::path& header, const std::string& name);
 // "slice.%03d.raw" for n; the pattern itself where it has no place for a whole number.
 std::string numberedName(const std::string& pattern, std::int64_t n);
