@@ -12,7 +12,8 @@ namespace {
 void readPoints(NumberText& words, PolyLines& poly) {
     const std::size_t count = words.count("points");
     words.word();  // the type of number
-    for (std::size_t n = 0; n < 3 * count; ++n) poly.coordinates.push_back(words.number("a coordinate"));
+    const std::string what = "a coordinate";
+    for (std::size_t n = 0; n < 3 * count; ++n) poly.coordinates.push_back(words.number(what));
 }
 
 void readLines(NumberText& words, PolyLines& poly) {
@@ -32,8 +33,9 @@ void readLines(NumberText& words, PolyLines& poly) {
 }
 
 void readArray(NumberText& words, std::string_view name, std::size_t count, PolyLines& poly) {
+    const std::string what(name.substr(0, 40));
     std::vector<double> values;
-    for (std::size_t n = 0; n < count; ++n) values.push_back(words.number(std::string(name)));
+    for (std::size_t n = 0; n < count; ++n) values.push_back(words.number(what));
     if (name == kRadiusArray) poly.radii = std::move(values);
     if (name == kSegmentArray) poly.segments = std::move(values);
 }

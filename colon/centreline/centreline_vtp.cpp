@@ -2,6 +2,7 @@
 // one piece, one polyline a segment, radii as point data, the segments' numbers as cell data.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "colon/centreline/centreline_formats.h"
@@ -11,6 +12,7 @@ namespace stereonav {
 namespace {
 
 constexpr const char* kPolyDataAdvice = "write the centreline again";
+constexpr std::size_t kLongestName = 40;  // of what a message repeats
 
 void appendArray(std::string& text, const std::string& type, const std::string& name, int components,
                  const std::string& values) {
@@ -40,18 +42,21 @@ public:
             const std::size_t end = mText.find(comment ? "-->" : ">", begin);
             if (end == std::string::npos) fail(begin, "a tag is cut off");
             mAt = end + (comment ? 3 : 1);
+            const auto behind = static_cast<std::ptrdiff_t>(mAt);
+            mLine +=
+                static_cast<std::size_t>(std::count(mText.begin() + mCounted, mText.begin() + behind, '\n'));
+            mCounted = behind;
             if (comment || mText[begin + 1] == '?' || mText[begin + 1] == '!') continue;
             tag = parsed(begin, end);
             return true;
         }
     }
-    std::size_t lineOf(std::size_t at) const {
-        std::size_t line = 1;
-        for (std::size_t n = 0; n < at; ++n) line += mText[n] == '\n';
-        return line;
-    }
+    // The one that the last tag ends in.
+    std::size_t nextLine() const { return mLine; }
     [[noreturn]] void fail(std::size_t at, const std::string& problem) const {
-        throw Error(mFile, std::to_string(lineOf(at)), problem, kPolyDataAdvice);
+        const auto line =
+            1 + std::count(mText.begin(), mText.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+        throw Error(mFile, std::to_string(line), problem, kPolyDataAdvice);
     }
 
 private:
@@ -76,7 +81,8 @@ private:
 
     const std::string& mText;
     const std::string& mFile;
-    std::size_t mAt = 0;
+    std::size_t mAt = 0, mLine = 1;
+    std::ptrdiff_t mCounted = 0;  // characters, whose line ends are in mLine
 };
 
 std::string attribute(const Tag& tag, const std::string& name) {
@@ -88,11 +94,13 @@ std::vector<double> arrayValues(const Tags& tags, const Tag& tag, const std::str
                                 const std::string& file) {
     const std::string name = attribute(tag, "Name"), format = attribute(tag, "format");
     if (format != "ascii")
-        tags.fail(tag.begin, fmt::format("expected array \"{}\" in format ascii, got \"{}\"", name, format));
+        tags.fail(tag.begin, fmt::format("expected array \"{}\" in format ascii, got \"{}\"",
+                                         name.substr(0, kLongestName), format.substr(0, kLongestName)));
     const std::size_t end = std::min(text.find('<', tag.end), text.size());
-    NumberText words(file, std::string_view(text).substr(tag.end, end - tag.end), tags.lineOf(tag.end));
+    NumberText words(file, std::string_view(text).substr(tag.end, end - tag.end), tags.nextLine());
+    const std::string what = name.empty() ? "a coordinate" : name.substr(0, kLongestName);
     std::vector<double> values;
-    while (!words.atEnd()) values.push_back(words.number(name.empty() ? "a coordinate" : name));
+    while (!words.atEnd()) values.push_back(words.number(what));
     return values;
 }
 

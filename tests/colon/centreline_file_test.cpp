@@ -224,6 +224,29 @@ TEST_F(CentrelineFile, BadXmlIsOneClearLine) {
         EXPECT_NE(errorOf("cut.vtp", good.substr(0, cut)), "") << cut;
 }
 
+// What is looked at once for each number or each array is neither a name of a megabyte nor all before it.
+TEST_F(CentrelineFile, LongNamesAndManyArraysTakeNoLongTime) {
+    const std::string longName(1 << 20, 'n');
+    std::string numbers;
+    for (int n = 0; n < 200000; ++n) numbers += "0 ";
+    const auto vtp = [](const std::string& arrays) {
+        return "<VTKFile type=\"PolyData\"><PolyData><Piece><Lines>\n" + arrays +
+               "</Lines></Piece></PolyData></VTKFile>\n";
+    };
+    const auto array = [](const std::string& name, const std::string& values) {
+        return "<DataArray Name=\"" + name + "\" format=\"ascii\">" + values + "</DataArray>\n";
+    };
+    expectError("a.vtp", vtp(array(longName, numbers)), "expected an array Points");
+    expectError("a.vtp", vtp(array(longName, numbers + "x")), ":2: expected a number (nnnn");
+    std::string many;
+    for (int n = 0; n < 40000; ++n) many += array("a", "1");
+    expectError("a.vtp", vtp(many), "expected an array Points");
+    expectError("a.vtp", vtp(many + array("a", "x")), ":40002: expected a number (a), got \"x\"");
+    const std::string vtk =
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINT_DATA 200000\nSCALARS ";
+    expectError("a.vtk", vtk + longName + " double 1\nLOOKUP_TABLE default\n" + numbers, "expected points");
+}
+
 TEST_F(CentrelineFile, NamesThatCanNotBe) {
     EXPECT_THROW(writeCentreline(path("a.obj"), sample()), Error);
     EXPECT_THROW(readCentreline(path("a")), Error);
