@@ -50,15 +50,25 @@ void checkFindingsOptions(const FindingsOptions& options) {
         throw Error("--comment", "", "expected with one --at, whose it is", "give one place at a time");
 }
 
-std::vector<Finding> collect(const FindingsOptions& options, const FindingTool& tool, Progress& progress) {
+// What was kept is measured again, each place once.
+void addKept(const std::vector<KeptFinding>& list, const FindingTool& tool, Progress& progress,
+             std::vector<Finding>& findings) {
+    if (list.empty()) return;
+    ProgressSteps measured(progress, list.size(), "measuring findings");
+    for (const KeptFinding& kept : list) {
+        Finding finding = listsPlace(findings, kept.place) ? Finding() : tool.at(kept.place);
+        finding.asked = kept.place;
+        finding.comment = kept.comment;
+        finding.candidate = kept.candidate;
+        addFinding(findings, std::move(finding));
+        measured.done();
+    }
+}
+
+std::vector<Finding> collect(const FindingsOptions& options, const std::vector<KeptFinding>& kept,
+                             const FindingTool& tool, Progress& progress) {
     std::vector<Finding> findings;
-    if (!options.file.empty())
-        for (const KeptFinding& kept : readFindings(options.file)) {
-            Finding finding = tool.at(kept.place);
-            finding.comment = kept.comment;
-            finding.candidate = kept.candidate;
-            addFinding(findings, std::move(finding));
-        }
+    addKept(kept, tool, progress, findings);
     for (const glm::dvec3& place : options.at) {
         Finding finding = tool.at(place);
         finding.comment = options.comment;
@@ -68,6 +78,10 @@ std::vector<Finding> collect(const FindingsOptions& options, const FindingTool& 
         for (Finding& finding : tool.atTruth()) addFinding(findings, std::move(finding));
     if (options.candidates)
         for (Finding& finding : tool.candidates(progress)) addFinding(findings, std::move(finding));
+    if (!options.file.empty() && findings.size() > kMostFindings)
+        throw Error(options.file, "",
+                    fmt::format("would keep {} findings, more than {}", findings.size(), kMostFindings),
+                    "name another file for the new ones");
     noteDoubles(findings);
     return findings;
 }
@@ -119,6 +133,8 @@ int runFindings(const FindingsOptions& options) {
     CommandResult result(
         "findings", options.telling,
         {{"--csv", options.csv}, {"--page", options.page}, {"--file", options.file}, {"--sr", options.sr}});
+    const std::vector<KeptFinding> kept =
+        options.file.empty() ? std::vector<KeptFinding>() : readFindings(options.file);
     ProgressBar bar(!options.telling.quiet);
     checkSceneOptions(options.scene);
     ColonOptions reading = colonOptionsOf(options.scene);
@@ -128,7 +144,7 @@ int runFindings(const FindingsOptions& options) {
         throw Error(options.scene.scene, "", "no colon was found", "give --seed x,y,z inside it");
     checkNotRead({{"--csv", options.csv}, {"--page", options.page}, {"--sr", options.sr}});
     const FindingTool tool(colon, joinedWall(colon, bar.progress()));
-    const std::vector<Finding> findings = collect(options, tool, bar.progress());
+    const std::vector<Finding> findings = collect(options, kept, tool, bar.progress());
     bar.clear();
     if (!options.sr.empty() && cradsClassOf(findings).empty())
         throw Error("--sr", "", "expected a finding that a person kept, found candidates alone",

@@ -9,11 +9,13 @@
 #include "app/command/facts_json.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/text/json_check.h"
 
 namespace stereonav {
 namespace {
 
 constexpr const char* kDocument = "stereonav findings";
+constexpr const char* kNameAnother = "name a file that findings wrote";
 
 // A field of a table: quoted where it has to be (RFC 4180).
 std::string field(const std::string& text) {
@@ -40,7 +42,7 @@ void addPolyp(const Finding& finding, Facts& facts) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& place, const char* expected) {
-    throw Error(file.string(), place, std::string("expected ") + expected, "name a file that findings wrote");
+    throw Error(file.string(), place, std::string("expected ") + expected, kNameAnother);
 }
 
 }  // namespace
@@ -127,10 +129,16 @@ std::vector<KeptFinding> readFindings(const std::filesystem::path& file) {
 }
 
 std::vector<KeptFinding> findingsIn(const std::string& text, const std::filesystem::path& file) {
+    checkJson(text, file.string(), kNameAnother);
     const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
     if (!document.is_object() || document.value("document", nlohmann::json()) != kDocument ||
         !document.contains("findings") || !document["findings"].is_array())
         refuse(file, "", "a document of findings");
+    if (document["findings"].size() > kMostFindings)
+        throw Error(
+            file.string(), "",
+            fmt::format("expected at most {} findings, found {}", kMostFindings, document["findings"].size()),
+            "leave those out that are none");
     std::vector<KeptFinding> kept;
     for (const nlohmann::json& one : document["findings"]) {
         const std::string place = fmt::format("finding {}", kept.size() + 1);

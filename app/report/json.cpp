@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/text/json_check.h"
 
 namespace stereonav {
 namespace {
@@ -59,7 +60,7 @@ Json papersJson(const std::vector<PaperRow>& rows) {
     return list;
 }
 
-ReportFigure figureFrom(const Json& json) {
+ReportFigure figureFrom(const nlohmann::json& json) {
     ReportFigure figure;
     figure.id = json.at("id").get<std::string>();
     figure.unit = json.at("unit").get<std::string>();
@@ -162,15 +163,16 @@ std::string figuresCsv(const Report& report) {
 EarlierReport readEarlierReport(const std::filesystem::path& file) {
     const std::string content = readTextFile(file);
     const char* advice = "name the report.json that an earlier stereonav report wrote";
+    checkJson(content, file.string(), advice);
     try {
-        const Json json = Json::parse(content);
+        const auto json = nlohmann::json::parse(content);  // ordered ones take the square of an object's size
         if (json.at("format") != kFormat || json.at("version") != kVersion)
             throw Error(file.string(), "", fmt::format("expected version {} of a report", kVersion), advice);
         EarlierReport report;
         report.quick = json.at("quick").get<bool>();
         for (const auto& [name, value] : json.at("machine").items())
             report.machine.emplace_back(name, value.get<std::string>());
-        for (const Json& figure : json.at("figures")) report.figures.push_back(figureFrom(figure));
+        for (const nlohmann::json& figure : json.at("figures")) report.figures.push_back(figureFrom(figure));
         return report;
     } catch (const nlohmann::json::parse_error& error) {
         throw Error(file.string(), "",

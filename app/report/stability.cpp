@@ -9,11 +9,14 @@
 
 #include "engine/base/error.h"
 #include "engine/base/module.h"
+#include "engine/text/json_check.h"
 
 namespace stereonav {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
+
+constexpr const char* kRowsAdvice = "make the rows anew: ninja -C build/release stability_rows";
 
 struct Row {
     std::string id, words, quantity, unit;
@@ -27,6 +30,7 @@ double numberFrom(const Json& value) {
 }
 
 Row rowFrom(const std::string& line, const std::string& source, int number) {
+    checkJson(line, source, kRowsAdvice);
     try {
         const Json json = Json::parse(line);
         return {json.at("id").get<std::string>(),
@@ -39,7 +43,7 @@ Row rowFrom(const std::string& line, const std::string& source, int number) {
     } catch (const nlohmann::json::exception&) {
         throw Error(source, std::to_string(number),
                     "expected a row of the stability tests, found \"" + line.substr(0, 40) + "\"",
-                    "make the rows anew: ninja -C build/release stability_rows");
+                    kRowsAdvice);
     }
 }
 

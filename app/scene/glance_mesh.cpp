@@ -6,19 +6,19 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/scene/file_glance.h"
 #include "engine/base/error.h"
+#include "engine/base/regular_file.h"
+#include "engine/text/json_check.h"
 
 namespace stereonav {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uintmax_t kLongest = 16 << 20;  // bytes of the description
+constexpr std::uint64_t kLongest = 16 << 20;  // bytes of the description
 constexpr std::uint32_t kJsonPart = 0x4E4F534A;
 
 [[noreturn]] void refuse(const std::string& file, const std::string& found) {
@@ -30,28 +30,23 @@ std::uint32_t wordAt(const unsigned char* bytes) {
 }
 
 std::string descriptionIn(const std::string& file) {
-    std::error_code code;
-    const std::uintmax_t size = std::filesystem::file_size(file, code);
-    std::ifstream in(file, std::ios::binary);
-    if (code || !in) throw Error(file, "", "can not be opened", "check the name and its permissions");
-    std::uintmax_t length = size;
+    RegularFile in(file);
+    std::uint64_t length = in.size();
     std::array<unsigned char, 20> head{};
-    in.read(reinterpret_cast<char*>(head.data()), head.size());
-    if (in.gcount() == head.size() && std::memcmp(head.data(), "glTF", 4) == 0) {
+    if (in.read(head.data(), head.size()) == head.size() && std::memcmp(head.data(), "glTF", 4) == 0) {
         length = wordAt(&head[12]);
         if (wordAt(&head[4]) != 2 || wordAt(&head[16]) != kJsonPart) refuse(file, "another version");
-        if (wordAt(&head[8]) > size || length > size - head.size())
-            refuse(file, fmt::format("a part of it, {} bytes of {}", size, wordAt(&head[8])));
+        if (wordAt(&head[8]) > in.size() || length > in.size() - head.size())
+            refuse(file, fmt::format("a part of it, {} bytes of {}", in.size(), wordAt(&head[8])));
     } else {
-        in.clear();
-        in.seekg(0);
+        in.seek(0);
     }
     if (length > kLongest)
         throw Error(file, "", fmt::format("its description has {} bytes, more than are looked at", length),
                     "open it");
     std::string text(length, ' ');
-    in.read(text.data(), static_cast<std::streamsize>(length));
-    if (static_cast<std::uintmax_t>(in.gcount()) != length) refuse(file, "that it ends too early");
+    if (in.read(text.data(), length) != length) refuse(file, "that it ends too early");
+    checkJson(text, file, "export the mesh again");
     return text;
 }
 

@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/new_file.h"
+#include "engine/text/json_check.h"
 
 namespace stereonav {
 namespace {
@@ -96,6 +97,7 @@ std::optional<json> readKeptJson(const fs::path& file, bool (*isRight)(const jso
     try {
         text = readKept(file);
         if (!text) return std::nullopt;
+        checkJson(*text, file.string(), "move it away: a new one is made");
         read = json::parse(*text, nullptr, false);
     } catch (const Error& error) {  // a folder in its place, no right to read it, too large
         problem = error.what();

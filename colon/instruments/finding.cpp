@@ -65,6 +65,10 @@ Landmarks landmarksOf(const Centreline& line) {
     return marks;
 }
 
+bool isSamePlace(const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::distance(a, b) <= kSamePlace;
+}
+
 // The second one's tip is of the first one's head.
 bool ofOnePolyp(const Finding& first, const Finding& second) {
     return first.polyp && second.polyp &&
@@ -126,9 +130,14 @@ std::vector<Finding> FindingTool::candidates(Progress& progress) const {
     return findings;
 }
 
+bool listsPlace(const std::vector<Finding>& findings, const glm::dvec3& place) {
+    return std::any_of(findings.begin(), findings.end(),
+                       [&place](const Finding& other) { return isSamePlace(other.asked, place); });
+}
+
 void addFinding(std::vector<Finding>& findings, Finding finding) {
     const auto same = [&finding](const Finding& other) {
-        if (glm::distance(other.asked, finding.asked) <= kSamePlace) return true;
+        if (isSamePlace(other.asked, finding.asked)) return true;
         return (other.candidate || finding.candidate) && ofOnePolyp(other, finding);
     };
     const auto at = std::find_if(findings.begin(), findings.end(), same);

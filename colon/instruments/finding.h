@@ -2,6 +2,7 @@
 // them amounts to. Not a medical device.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@
 #include "colon/scene/colon_scene.h"
 
 namespace stereonav {
+
+// That a document keeps: each is measured when it is opened, and compared with the others.
+constexpr std::size_t kMostFindings = 1000;
 
 struct Finding {
     glm::dvec3 asked{0.0};  // world, metres: where it was looked for
@@ -61,6 +65,8 @@ private:
 // candidate any more, and has their comment.
 void addFinding(std::vector<Finding>& findings, Finding finding);
 constexpr double kSamePlace = 0.0005;  // metres
+// Whether the list has that place already: one there needs not to be measured to be added.
+bool listsPlace(const std::vector<Finding>& findings, const glm::dvec3& place);
 
 // Notes on findings that are of one polyp: each but the first says so. Nothing is left out.
 void noteDoubles(std::vector<Finding>& findings);

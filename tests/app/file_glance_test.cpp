@@ -46,6 +46,14 @@ TEST_F(FileGlance, OfATerrain) {
     EXPECT_THAT(rows["spacing"], HasSubstr("30 x 30"));
 }
 
+TEST_F(FileGlance, OfWhatIsNoMeshIsOneLine) {
+    std::string deep = "{\"asset\":{},\"meshes\":";
+    for (int n = 0; n < 100000; ++n) deep += '[';
+    for (int n = 0; n < 100000; ++n) deep += ']';
+    EXPECT_THAT(problemOf(input("deep.gltf", deep + "}")), HasSubstr("at most 100 deep"));
+    EXPECT_THAT(problemOf(input("cut.gltf", "{\"asset\"")), HasSubstr("expected a glTF 2.0 mesh"));
+}
+
 TEST_F(FileGlance, OfASceneFileIsThatOfWhatItNames) {
     hills();
     Rows rows = glance(input("scene.toml", "[terrain]\ndem = \"hills.asc\"\n"));

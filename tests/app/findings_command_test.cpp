@@ -129,6 +129,33 @@ TEST_F(ColonInstruments, FindingsAtTheTruthAreRight) {
     EXPECT_EQ(json.at("missed").size(), 11u - right);
 }
 
+std::string documentOfPlaces(int count, const std::string& place) {
+    std::string text = "{\"document\":\"stereonav findings\",\"findings\":[";
+    for (int n = 0; n < count; ++n) text += (n ? "," : "") + place;
+    return text + "]}";
+}
+
+// A document is what somebody sent, and each of its findings is measured: one of too many is refused before
+// the study is read, and a place that it has a thousand times is one.
+TEST_F(ColonInstruments, DocumentsOfFindingsAreBounded) {
+    const std::string mask = withPolyp();
+    const std::string place = "{\"place_mm\":[1.5,10.5,-0.5]}";
+    const auto file = [&](const std::string& text) { return input("kept.json", text); };
+    expectRefused({"findings", mask, "--no-cache", "--file", file(documentOfPlaces(1001, place))},
+                  {"kept.json: expected at most 1000 findings, found 1001"});
+    expectRefused(
+        {"unfold", mask, "--no-cache", "--out", "u.png", "--findings", file(documentOfPlaces(1001, place))},
+        {"kept.json: expected at most 1000 findings, found 1001"});
+    std::string deep = "{\"document\":";
+    for (int n = 0; n < 100000; ++n) deep += '[';
+    for (int n = 0; n < 100000; ++n) deep += ']';
+    expectRefused({"findings", mask, "--no-cache", "--file", file(deep + ",\"findings\":[]}")},
+                  {"kept.json:byte ", "at most 100 deep"});
+    const Json json = documentOf({"findings", mask, "--file", file(documentOfPlaces(1000, place))});
+    ASSERT_EQ(json.at("findings").size(), 1u);
+    EXPECT_TRUE(json["findings"][0].at("found").get<bool>());
+}
+
 TEST_F(ColonInstruments, FindingsRefuseBadInput) {
     const std::string mask = withPolyp();
     expectRefused({"findings", mask}, {"expected a place", "--at"});

@@ -91,6 +91,27 @@ TEST(ReportJson, RefusesWhatIsNoReport) {
     EXPECT_THROW(readEarlierReport(file), Error);
 }
 
+// Of an earlier report that somebody sent.
+TEST(ReportJson, NeitherDepthNorManyNamesHoldItUp) {
+    const fs::path file = fs::path(testing::TempDir()) / ("odd_report_" + std::to_string(getpid()) + ".json");
+    const auto errorFor = [&](const std::string& machine) {
+        std::ofstream(file)
+            << "{\"format\": \"stereonav report\", \"version\": 1, \"quick\": false, \"machine\": " << machine
+            << ", \"figures\": []}";
+        try {
+            readEarlierReport(file);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(errorFor(std::string(100000, '[') + std::string(100000, ']')), HasSubstr("at most 100 deep"));
+    std::string names = "{\"a\": \"b\"";
+    for (int n = 0; n < 300000; ++n) names += ",\"" + std::to_string(n) + "\":\"b\"";
+    EXPECT_EQ(errorFor(names + "}"), "");
+    fs::remove(file);
+}
+
 TEST(ReportJson, TheSameIdTwiceIsAMistake) {
     Report report;
     addFigure(report, {"a", "", "", ReportFigure::Kind::Time, exactly(1)});

@@ -131,6 +131,18 @@ TEST(Bookmarks, ThumbnailsAreSmallAndGoWithTheirPlace) {
     EXPECT_TRUE(fs::exists(marks.find("b")->thumbnail));
 }
 
+// As deep as no file is that the window wrote: it is copied and compared while it is looked at.
+TEST(Bookmarks, ADeepFileIsSetAside) {
+    const TemporaryFolder folder;
+    const fs::path file = Bookmarks("terrain", folder / "places").file();
+    const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+    putText(file, "{\"stereonav_places\":" + deep + ",\"places\":" + deep + "}");
+    Bookmarks marks("terrain", folder / "places");
+    EXPECT_THAT(marks.list(), IsEmpty());
+    EXPECT_THAT(marks.takeProblem(), HasSubstr("at most 100 deep"));
+    EXPECT_TRUE(fs::exists(file.string() + ".damaged"));
+}
+
 TEST(Bookmarks, ADamagedFileIsSetAside) {
     const TemporaryFolder folder;
     fs::path file;
