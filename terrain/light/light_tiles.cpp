@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/memory.h"
 #include "terrain/ground/level_step.h"
@@ -52,6 +53,8 @@ std::size_t bytesASample(const TerrainLightSettings& settings) {
 // Zeros where there is less.
 Head headIn(const std::filesystem::path& file) {
     Head head;
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(file, code)) return {};  // a pipe would be waited for
     std::ifstream in(file, std::ios::binary);
     if (in.read(reinterpret_cast<char*>(&head), sizeof head)) return head;
     if (in.bad()) throw DiskError(file.string());
@@ -60,6 +63,7 @@ Head headIn(const std::filesystem::path& file) {
 
 // With the finest level that the file has, where it is such a file.
 FineLightShape asFineAs(const std::filesystem::path& file, FineLightShape shape) {
+    checkFileToRead(file);
     const Head head = headIn(file);
     if (head.magic == kFineMagic) shape.finest = std::clamp(head.finest, 0, shape.coarsest);
     return shape;

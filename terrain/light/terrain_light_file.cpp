@@ -176,6 +176,8 @@ void saveTerrainLight(const std::filesystem::path& file, const TerrainLight& lig
 }
 
 bool isTerrainLight(const std::filesystem::path& file) {
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(file, code)) return false;  // a pipe would be waited for
     std::ifstream in(file, std::ios::binary);
     char magic[sizeof kMagic] = {};
     in.read(magic, sizeof magic);
@@ -184,6 +186,7 @@ bool isTerrainLight(const std::filesystem::path& file) {
 
 TerrainLight loadTerrainLight(const std::filesystem::path& file, const Heightfield* ground) {
     const std::string name = file.string();
+    checkFileToRead(file);
     std::error_code code;
     const std::uintmax_t size = std::filesystem::file_size(file, code);
     std::ifstream in(file, std::ios::binary);

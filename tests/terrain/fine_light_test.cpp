@@ -1,6 +1,7 @@
 // Light baked at finer samples than those in memory: each tile as a bake of all finest samples, the file, and
 // who makes it.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -229,6 +230,15 @@ TEST_F(FineLightFile, WhatDoesNotFitIsOneLine) {
     EXPECT_THAT(problem(mShape), HasSubstr("cut off"));
     EXPECT_THAT(errorOf([&] { LightTiles::begin(mFolder / "none" / "a", mShape); }),
                 HasSubstr("cannot be written"));
+}
+
+// Finer light is looked for by its name beside the other: what lies there may be anything.
+TEST_F(FineLightFile, APipeInItsPlaceIsNotWaitedFor) {
+    ASSERT_EQ(mkfifo(place().c_str(), 0600), 0);
+    EXPECT_FALSE(isFineLight(place()));
+    EXPECT_FALSE(isTerrainLight(place()));
+    EXPECT_THAT(errorOf([&] { loadTerrainLight(place(), nullptr); }), HasSubstr("found a pipe"));
+    EXPECT_THAT(errorOf([&] { LightTiles(place(), mShape); }), HasSubstr("found a pipe"));
 }
 
 // Light that can not be read now may be whole: it is neither taken for damaged nor for another file. The
