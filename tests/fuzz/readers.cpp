@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "app/command/findings_words.h"
+#include "app/report/json.h"
 #include "colon/centreline/centreline.h"
 #include "colon/scene/colon_cache.h"
 #include "colon/study/study.h"
@@ -91,6 +93,8 @@ constexpr Reader kReaders[] = {
          Progress progress;
          readDem(file, 1.0, progress);
      }},
+    {"findings", "findings.json", [](const fs::path& file) { readFindings(file); }},
+    {"report", "report.json", [](const fs::path& file) { readEarlierReport(file); }},
     {"track", "track.gpx", [](const fs::path& file) { readTrackFile(file); }},
     {"bake", "light.bake", bake, mendBake},
     {"ground-light", "light.tlight", [](const fs::path& file) { loadTerrainLight(file, nullptr); }},

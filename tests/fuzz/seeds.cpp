@@ -94,6 +94,12 @@ constexpr const char* kSegments =
     "Segment1_Name:=fluid\nSegment1_LabelValue:=2\nSegment1_Layer:=0\n"
     "Segment2_Name:=polyp\nSegment2_LabelValue:=1\nSegment2_Layer:=1\n\n";
 
+constexpr const char* kKeptFindings =
+    R"({"document":"stereonav findings","findings":[{"place_mm":[1,2.5,-3e1],"comment":"a","candidate":true}]})";
+constexpr const char* kEarlierReport =
+    R"({"format":"stereonav report","version":1,"quick":false,"machine":{"processor":"a"},"figures":[{"id":"a",)"
+    R"("kind":"time","median":1,"low":0.5,"high":2,"count":3,"unit":"ms","setting":"b"}]})";
+
 constexpr const char* kGrid =
     "ncols 3\nnrows 2\nxllcorner 500000\nyllcorner 4000000\ncellsize 30\n"
     "NODATA_value -9999\n1 2 3\n4 -9999 6\n";
@@ -175,6 +181,10 @@ void writeSeeds(const fs::path& folder) {
     frames.knownLengths = false;
     frames.syntax = test::DicomSyntax::Implicit;
     test::writeDicom(folder / "dicom/implicit", frames);
+    frames.syntax = test::DicomSyntax::Deflated;
+    test::writeDicom(folder / "dicom/deflated", frames);
+    writeTextFile(folder / "findings/seed", kKeptFindings);
+    writeTextFile(folder / "report/seed", kEarlierReport);
     writeTextFile(folder / "raster/seed", kGrid);
     writeBakes(folder);
     writeColon(folder);
