@@ -11,7 +11,7 @@ install(TARGETS ${modules} LIBRARY DESTINATION ${STEREONAV_MODULES_DIR} RUNTIME 
 
 include(CMakePackageConfigHelpers)
 get_property(rooms GLOBAL PROPERTY stereonav_rooms)
-list(REMOVE_ITEM rooms engine_byte_image)  # for modules alone: it brings OpenCV
+list(REMOVE_ITEM rooms engine_byte_image engine_helper)  # for modules, and helpers, alone: they bring libraries
 foreach(room ${rooms})
   string(REGEX REPLACE "^engine_" "" name ${room})
   set_target_properties(${room} PROPERTIES EXPORT_NAME ${name})  # stereonav::stereo
@@ -35,7 +35,7 @@ foreach(folder ${folders})
   get_filename_component(parent ${folder} DIRECTORY)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stereonav/${parent} ${development}
     FILES_MATCHING PATTERN "*.h" PATTERN "opencv" EXCLUDE PATTERN "jxl" EXCLUDE PATTERN "gdal" EXCLUDE
-    PATTERN "mpi" EXCLUDE PATTERN "dcmtk" EXCLUDE)
+    PATTERN "mpi" EXCLUDE PATTERN "dcmtk" EXCLUDE PATTERN "gdcm" EXCLUDE)
 endforeach()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/package.cmake.in ${CMAKE_BINARY_DIR}/stereonav-config.cmake

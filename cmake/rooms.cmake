@@ -104,7 +104,7 @@ function(stereonav_module name folder)
 endfunction()
 
 # A part of the program that runs as a process of its own when first asked (engine/base/helper_program.h): all sources of
-# `folder` in lib/stereonav/stereonav_<name>.
+# `folder` in lib/stereonav/stereonav_<name>, with engine/helper.
 # stereonav_helper(name folder [ONLY files] [LINK targets])
 function(stereonav_helper name folder)
   cmake_parse_arguments(ARG "" "" "ONLY;LINK" ${ARGN})
@@ -112,6 +112,6 @@ function(stereonav_helper name folder)
   set_property(GLOBAL APPEND PROPERTY stereonav_modules ${target})  # installed beside the modules
   add_executable(${target})
   stereonav_sources(${target} ${folder} ONLY ${ARG_ONLY})
-  target_link_libraries(${target} PRIVATE engine_base ${ARG_LINK})
+  target_link_libraries(${target} PRIVATE engine_helper ${ARG_LINK})
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/stereonav)
 endfunction()

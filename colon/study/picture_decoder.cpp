@@ -1,12 +1,17 @@
 #include "colon/study/picture_decoder.h"
 
 #include <cstring>
+#include <limits>
+#include <utility>
 
 #include "colon/study/gdcm/picture_request.h"
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 
 namespace stereonav {
 namespace {
+
+constexpr std::size_t kEachThreads = std::numeric_limits<std::size_t>::max();  // one for each is kept
 
 void append(std::string& bytes, const void* from, std::size_t count) {
     bytes.append(static_cast<const char*>(from), count);
@@ -34,45 +39,41 @@ std::string requestOf(const PackedPicture& picture) {
 
 }  // namespace
 
-std::unique_ptr<HelperProgram> PictureDecoder::takeHelper() {
-    {
-        const std::lock_guard lock(mLock);
-        if (!mIdle.empty()) {
-            std::unique_ptr<HelperProgram> helper = std::move(mIdle.back());
-            mIdle.pop_back();
-            return helper;
-        }
-    }
-    return std::make_unique<HelperProgram>("gdcm", "to unpack DICOM pictures");
+std::optional<DecodedPixels> pixelsOf(std::string answer, std::uint64_t count) {
+    PictureAnswer told;
+    if (answer.size() < sizeof told) return std::nullopt;
+    std::memcpy(&told, answer.data() + answer.size() - sizeof told, sizeof told);
+    answer.resize(answer.size() - sizeof told);
+    const bool wholeNumbers = told.bits == 8 || told.bits == 16 || told.bits == 32;
+    if (!wholeNumbers || (told.isSigned != 0 && told.isSigned != 1)) return std::nullopt;
+    const auto bytes = static_cast<std::uint64_t>(told.bits / 8);
+    if (answer.size() / bytes != count || answer.size() % bytes != 0) return std::nullopt;
+    return DecodedPixels{std::move(answer), told.bits, told.isSigned == 1};
 }
+
+PictureDecoder::PictureDecoder() : mHelpers("gdcm", "to unpack DICOM pictures", kEachThreads) {}
 
 DecodedPixels PictureDecoder::decode(const PackedPicture& picture) {
     constexpr std::uint64_t kWidestPixel = 4;  // bytes
+    constexpr double kWorthAsking = 1e8;
     const std::uint64_t count =
         static_cast<std::uint64_t>(picture.columns) * static_cast<std::uint64_t>(picture.rows);
     const auto fail = [&](const std::string& problem) {
         return Error(picture.file.string(), "", problem, "copy the file again");
     };
-    std::unique_ptr<HelperProgram> helper = takeHelper();
-    HelperAnswer answer = helper->ask(requestOf(picture), kWidestPixel * count + sizeof(PictureAnswer));
-    // One that met damage keeps what it took for it, and is not asked again.
+    // In both processes, and as numbers of this program. Most are too small to ask for.
+    const double bytes = static_cast<double>(count) * (3 * kWidestPixel + sizeof(double));
+    if (bytes > kWorthAsking) checkMemory(picture.file.string(), bytes, "take another series");
+    const std::string request = requestOf(picture);
+    const HelperLimits limits =
+        limitsForPicture(count, request.size(), kWidestPixel * count + sizeof(PictureAnswer));
+    HelperAnswer answer = mHelpers.ask("", request, limits);
     if (answer.kind == HelperAnswer::Kind::Ended)
         throw fail("damaged: the program that decodes its pixels was ended by them (" + answer.text + ")");
     if (answer.kind == HelperAnswer::Kind::Refused) throw fail(answer.text);
-    {
-        const std::lock_guard lock(mLock);
-        mIdle.push_back(std::move(helper));
-    }
-    PictureAnswer told;
-    if (answer.text.size() < sizeof told) throw fail("damaged: its pixels can not be decoded");
-    DecodedPixels pixels{std::move(answer.text)};
-    std::memcpy(&told, pixels.bytes.data() + pixels.bytes.size() - sizeof told, sizeof told);
-    pixels.bytes.resize(pixels.bytes.size() - sizeof told);
-    pixels.bits = told.bits;
-    pixels.isSigned = told.isSigned;
-    if (pixels.bytes.size() != count * static_cast<std::uint64_t>(told.bits / 8))
-        throw fail("damaged: its pixels can not be decoded");
-    return pixels;
+    std::optional<DecodedPixels> pixels = pixelsOf(std::move(answer.text), count);
+    if (!pixels) throw fail("damaged: its pixels can not be decoded");
+    return *std::move(pixels);
 }
 
 }  // namespace stereonav

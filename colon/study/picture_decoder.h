@@ -3,13 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "engine/base/helper_program.h"
+#include "engine/base/helper_pool.h"
 
 namespace stereonav {
 
@@ -29,17 +28,18 @@ struct PackedPicture {
     std::vector<std::string_view> parts;
 };
 
-// Starts helpers as they are asked for, one for each thread that decodes at once, and ends them with itself.
+// What a helper answered for a picture of so many pixels; nothing where it is no such picture.
+std::optional<DecodedPixels> pixelsOf(std::string answer, std::uint64_t count);
+
+// One for a study: its helpers see nothing else, and end with it.
 class PictureDecoder {
 public:
+    PictureDecoder();
     // From any thread. Throws Error naming the picture's file, and Cancelled.
     DecodedPixels decode(const PackedPicture& picture);
 
 private:
-    std::unique_ptr<HelperProgram> takeHelper();
-
-    std::mutex mLock;
-    std::vector<std::unique_ptr<HelperProgram>> mIdle;
+    HelperPool mHelpers;
 };
 
 }  // namespace stereonav

@@ -1,7 +1,7 @@
 #include "engine/base/helper_program.h"
 
 #include <fcntl.h>
-#include <poll.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -9,14 +9,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <fstream>
+#include <thread>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/base/module.h"
-#include "engine/base/stop.h"
+#include "engine/base/sanitizers.h"
 
 extern char** environ;
 
@@ -24,11 +28,7 @@ namespace stereonav {
 namespace fs = std::filesystem;
 namespace {
 
-struct Head {
-    std::uint64_t bytes = 0;
-    HelperAnswer::Kind kind = HelperAnswer::Kind::Given;  // of answers
-};
-constexpr int kRequests = STDIN_FILENO;  // the helper's end of the socket
+std::atomic<std::chrono::milliseconds> longestWait = std::chrono::milliseconds::max();
 
 Error cannotStart(const fs::path& file, const std::string& purpose, const std::string& reason) {
     return Error(file.string(), "", "can not be started (" + reason + "); it is needed " + purpose,
@@ -39,7 +39,7 @@ Error cannotStart(const fs::path& file, const std::string& purpose, const std::s
 int start(const fs::path& file, int socket) {
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, socket, kRequests);
+    posix_spawn_file_actions_adddup2(&files, socket, STDIN_FILENO);
     for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
         posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
@@ -51,151 +51,137 @@ int start(const fs::path& file, int socket) {
     return error ? -error : process;
 }
 
-// Whole, or false at the other side's end.
-bool readAll(int file, void* to, std::size_t count) {
-    for (char* next = static_cast<char*>(to); count > 0;) {
-        const ssize_t got = read(file, next, count);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return false;
-        next += got;
-        count -= static_cast<std::size_t>(got);
-    }
-    return true;
+// No more than there is, where it is much.
+std::uint64_t memoryWithin(std::uint64_t most) {
+    constexpr std::uint64_t kWorthAsking = std::uint64_t{1} << 29;
+    if (most <= kWorthAsking) return most;
+    const double there = std::max(availableMemory(), static_cast<double>(kWorthAsking));
+    return there < static_cast<double>(most) ? static_cast<std::uint64_t>(there) : most;
 }
 
-bool sendAll(int socket, const void* from, std::size_t count) {
-    for (const char* next = static_cast<const char*>(from); count > 0;) {
-        const ssize_t sent = send(socket, next, count, MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR) continue;
-        if (sent <= 0) return false;
-        next += sent;
-        count -= static_cast<std::size_t>(sent);
-    }
-    return true;
+void limitSoftly(pid_t process, __rlimit_resource what, rlim_t most) {
+    rlimit limit{};
+    if (prlimit(process, what, nullptr, &limit) != 0) return;
+    limit.rlim_cur = std::min(limit.rlim_max, most);
+    prlimit(process, what, &limit, nullptr);
 }
 
-bool sendMessage(int socket, const Head& head, std::string_view bytes) {
-    return sendAll(socket, &head, sizeof head) && sendAll(socket, bytes.data(), bytes.size());
+std::string howItEnded(int status) {
+    if (WIFSIGNALED(status)) return std::string("by ") + strsignal(WTERMSIG(status));
+    return "with status " + std::to_string(WEXITSTATUS(status));
 }
 
 }  // namespace
+
+HelperLimits limitsForPicture(std::uint64_t pixels, std::uint64_t packed, std::uint64_t answer) {
+    constexpr std::uint64_t kBytesPerPixel = 64, kCopies = 8, kAlways = std::uint64_t{256} << 20;
+    constexpr std::chrono::seconds kWork(20);
+    constexpr std::uint64_t kPixelsPerSecond = 250'000;  // a tenth of what slow codecs do on slow machines
+    constexpr std::chrono::minutes kMore(1);
+    constexpr int kShare = 4;  // that many run on its processor
+    HelperLimits limits;
+    limits.answer = answer;
+    limits.memory = kAlways + kBytesPerPixel * pixels + kCopies * packed;
+    limits.work = kWork + std::chrono::seconds(pixels / kPixelsPerSecond);
+    limits.wait = kMore + kShare * limits.work;
+    return limits;
+}
+
+void waitForHelpersAtMost(std::chrono::milliseconds longest) {
+    longestWait = longest;
+}
 
 HelperProgram::HelperProgram(const fs::path& file, const std::string& purpose, int) {
     int sockets[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0)
         throw cannotStart(file, purpose, std::strerror(errno));
-    mSocket = sockets[0];
+    mSocket.emplace(sockets[0]);
     mProcess = start(file, sockets[1]);
     close(sockets[1]);
-    if (mProcess > 0) return;
-    close(mSocket);
-    throw cannotStart(file, purpose, std::strerror(-mProcess));
+    if (mProcess < 0) throw cannotStart(file, purpose, std::strerror(-mProcess));
 }
 
-HelperProgram::HelperProgram(const std::string& name, const std::string& purpose)
+HelperProgram::HelperProgram(const std::string& name, const std::string& purpose,
+                             std::chrono::milliseconds startWithin)
     : HelperProgram(moduleFolder() / ("stereonav_" + name), purpose, 0) {
     // The first thing that it says is which build it is of.
+    using Fate = HelperSocket::Fate;
     const std::string_view build = moduleBuild();
     const fs::path file = moduleFolder() / ("stereonav_" + name);
-    Head head;
-    if (!receive(&head, sizeof head)) throw cannotStart(file, purpose, "it ended " + waitForEnd());
+    const auto until = HelperSocket::Time::clock::now() + startWithin;
+    HelperHead head;
     std::string said(build.size(), ' ');
-    if (head.bytes != said.size() || !receive(said.data(), said.size()) || said != build)
+    Fate fate = mSocket->receive(&head, sizeof head, until);
+    if (fate == Fate::Closed) throw cannotStart(file, purpose, "it ended " + waitForEnd());
+    if (fate == Fate::Whole) fate = head.bytes == said.size() ? fate : Fate::Wrong;
+    if (fate == Fate::Whole) fate = mSocket->receive(said.data(), said.size(), until);
+    if (fate == Fate::Late)
+        throw cannotStart(file, purpose, fmt::format("no word from it in {} s", startWithin.count() / 1e3));
+    if (fate != Fate::Whole || said != build)
         throw cannotStart(file, purpose, "it is of another build than the program");
 }
 
 HelperProgram::~HelperProgram() {
+    end();
+}
+
+std::string HelperProgram::end() {
     if (mProcess > 0) kill(mProcess, SIGKILL);
-    waitForEnd();
-    close(mSocket);
+    return waitForEnd();
 }
 
-bool HelperProgram::send(const void* bytes, std::size_t count) {
-    return sendAll(mSocket, bytes, count);
-}
-
-bool HelperProgram::receive(void* bytes, std::size_t count) {
-    constexpr int kLookEvery_ms = 100;
-    for (char* next = static_cast<char*>(bytes); count > 0;) {
-        pollfd state{mSocket, POLLIN, 0};
-        const int ready = poll(&state, 1, kLookEvery_ms);
-        throwIfStopped();
-        if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
-        const ssize_t got = recv(mSocket, next, count, 0);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return false;
-        next += got;
-        count -= static_cast<std::size_t>(got);
-    }
-    return true;
-}
-
+// One that has closed its end is about to end; one that does not is made to.
 std::string HelperProgram::waitForEnd() {
-    if (mProcess <= 0) return "";
+    constexpr int kLooks = 100;
+    constexpr std::chrono::milliseconds kLookEvery(10);
     int status = 0;
-    while (waitpid(mProcess, &status, 0) < 0 && errno == EINTR) {
+    for (int look = 0; mProcess > 0; ++look) {
+        if (look == kLooks) kill(mProcess, SIGKILL);
+        const pid_t ended = waitpid(mProcess, &status, look < kLooks ? WNOHANG : 0);
+        if (ended == mProcess || (ended < 0 && errno != EINTR)) break;
+        if (look < kLooks) std::this_thread::sleep_for(kLookEvery);
     }
     mProcess = -1;
-    if (WIFSIGNALED(status)) return std::string("by ") + strsignal(WTERMSIG(status));
-    return "with status " + std::to_string(WEXITSTATUS(status));
+    return howItEnded(status);
 }
 
-HelperAnswer HelperProgram::ask(std::string_view request, std::uint64_t mostBytes) {
+// From here, so that a helper need not be allowed to change its own limits.
+void HelperProgram::limit(const HelperLimits& limits) const {
+    if (!kAddressSanitizer) {
+        std::uint64_t pages = 0;
+        std::ifstream(fmt::format("/proc/{}/statm", mProcess)) >> pages;
+        const std::uint64_t taken = pages * static_cast<std::uint64_t>(getpagesize());
+        if (pages > 0) limitSoftly(mProcess, RLIMIT_AS, taken + memoryWithin(limits.memory));
+    }
+    clockid_t clock = 0;
+    timespec used{};
+    if (clock_getcpuclockid(mProcess, &clock) == 0 && clock_gettime(clock, &used) == 0)
+        limitSoftly(mProcess, RLIMIT_CPU, static_cast<rlim_t>(used.tv_sec + 1 + limits.work.count()));
+}
+
+HelperAnswer HelperProgram::ask(std::string_view request, const HelperLimits& limits) {
+    using Fate = HelperSocket::Fate;
     HelperAnswer answer;
-    const Head asked{request.size()};
-    Head head;
-    if (mProcess > 0 && send(&asked, sizeof asked) && send(request.data(), request.size()) &&
-        receive(&head, sizeof head) && head.bytes <= mostBytes) {
-        answer.text.resize(head.bytes);
-        if (receive(answer.text.data(), answer.text.size())) {
-            answer.kind = head.kind;
+    if (mProcess <= 0) return answer;
+    limit(limits);
+    const std::chrono::milliseconds wait = std::min(limits.wait, longestWait.load());
+    switch (mSocket->ask(request, limits.answer, HelperSocket::Time::clock::now() + wait, answer)) {
+        case Fate::Whole:
             return answer;
-        }
+        case Fate::Closed:
+            answer.text = waitForEnd();
+            break;
+        case Fate::Late:
+            end();
+            answer.text = fmt::format("by the program, after {} s without an answer", wait.count() / 1e3);
+            break;
+        case Fate::Wrong:
+            end();
+            answer.text = "by the program, since what it answered is no answer";
+            break;
     }
-    if (head.bytes > mostBytes && mProcess > 0) kill(mProcess, SIGKILL);  // it is alive
-    answer.text = waitForEnd();
+    answer.kind = HelperAnswer::Kind::Ended;
     return answer;
-}
-
-int serveRequests(const std::function<std::string(std::string_view)>& answer) {
-    std::signal(SIGINT, SIG_IGN);  // from a terminal: the program decides
-    const rlimit none{0, 0};
-    setrlimit(RLIMIT_CORE, &none);
-    if (!sendMessage(kRequests, {std::strlen(moduleBuild())}, moduleBuild())) return 0;
-    std::string request;
-    for (Head head; readAll(kRequests, &head, sizeof head);) {
-        request.resize(head.bytes);
-        if (!readAll(kRequests, request.data(), request.size())) return 0;
-        HelperAnswer said{HelperAnswer::Kind::Given, ""};
-        try {
-            said.text = answer(request);
-        } catch (const std::exception& error) {
-            said = {HelperAnswer::Kind::Refused, error.what()};
-        }
-        if (!sendMessage(kRequests, {said.text.size(), said.kind}, said.text)) return 0;
-    }
-    return 0;
-}
-
-void limitThisProcess(std::uint64_t memory, int seconds) {
-#ifndef __SANITIZE_ADDRESS__
-    std::uint64_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    rlimit limit{};
-    getrlimit(RLIMIT_AS, &limit);
-    limit.rlim_cur =
-        std::min<rlim_t>(limit.rlim_max, pages * static_cast<std::uint64_t>(getpagesize()) + memory);
-    if (pages > 0) setrlimit(RLIMIT_AS, &limit);
-#else
-    (void)memory;
-#endif
-    rusage used{};
-    getrusage(RUSAGE_SELF, &used);
-    rlimit time{};
-    getrlimit(RLIMIT_CPU, &time);
-    time.rlim_cur = std::min<rlim_t>(
-        time.rlim_max, static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1 + seconds));
-    setrlimit(RLIMIT_CPU, &time);
 }
 
 }  // namespace stereonav

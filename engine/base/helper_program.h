@@ -1,63 +1,62 @@
 // A part of the program that runs as a process of its own, lib/stereonav/stereonav_<name>. What a library
-// does over damaged data (it ends, prints, takes memory or time without end) stays in there.
+// does over damaged data (it ends, prints, takes memory or time without end, does what a stranger wants)
+// stays in there.
 //
-//   program    HelperProgram helper("gdcm", "to unpack DICOM pictures");  helper.ask(request, mostBytes)
+//   program    HelperProgram helper("gdcm", "to unpack DICOM pictures");  helper.ask(request, limits)
 //   helper     int main() { return serveRequests([](std::string_view request) { ... }); }
 //
-// Both are of one build and on one machine, so that requests and answers may be structures as they lie in
-// memory.
+// The helper's side is engine/helper/serve_requests.h. Both are of one build and on one machine, so that
+// requests and answers may be structures as they lie in memory; each field of an answer is checked all the
+// same.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "engine/base/helper_socket.h"
+
 namespace stereonav {
 
-struct HelperAnswer {
-    enum class Kind {
-        Given,    // text: the answer's bytes
-        Refused,  // text: what was thrown, one line
-        Ended,    // text: how the helper ended over it, "by Segmentation fault"
-    };
-    Kind kind = Kind::Ended;
-    std::string text;
+// What one request may take. Sanitized builds take memory as they like.
+struct HelperLimits {
+    std::uint64_t answer = 0;                                 // bytes; a longer one counts as Ended
+    std::uint64_t memory = std::uint64_t{1} << 30;            // bytes, beyond those that it has
+    std::chrono::seconds work{60};                            // of its processor's time
+    std::chrono::milliseconds wait{std::chrono::minutes(5)};  // by the clock
 };
+// For a picture of so many pixels that comes in so many bytes: what a sound one takes at most, and far more.
+HelperLimits limitsForPicture(std::uint64_t pixels, std::uint64_t packed, std::uint64_t answer);
+// From now on no answer is waited for longer than this, whatever the limits say; for tests.
+void waitForHelpersAtMost(std::chrono::milliseconds longest);
 
 class HelperProgram {
 public:
     // Starts it. purpose completes "it is needed ...". Throws Error naming the file where it is missing, can
-    // not run or is of another build.
-    HelperProgram(const std::string& name, const std::string& purpose);
+    // not run, does not say within that time that it is there, or is of another build.
+    HelperProgram(const std::string& name, const std::string& purpose,
+                  std::chrono::milliseconds startWithin = std::chrono::minutes(5));
     ~HelperProgram();  // ends it, whatever it does
     HelperProgram(const HelperProgram&) = delete;
     HelperProgram& operator=(const HelperProgram&) = delete;
 
-    // One request at a time. An answer of more than mostBytes counts as Ended. After Ended nothing more can
-    // be asked. A wish to stop (stop.h) is heard within a tenth of a second and throws Cancelled.
-    HelperAnswer ask(std::string_view request, std::uint64_t mostBytes);
+    // One request at a time. Beyond a limit it is ended. After Ended nothing more can be asked. A wish to
+    // stop (stop.h) is heard within a tenth of a second and throws Cancelled.
+    HelperAnswer ask(std::string_view request, const HelperLimits& limits);
 
     int processId() const { return mProcess; }
 
 private:
     HelperProgram(const std::filesystem::path& file, const std::string& purpose, int);  // without a word
-    bool send(const void* bytes, std::size_t count);
-    bool receive(void* bytes, std::size_t count);
+    void limit(const HelperLimits& limits) const;
+    std::string end();
     std::string waitForEnd();
 
-    int mProcess = -1, mSocket = -1;
+    int mProcess = -1;
+    std::optional<HelperSocket> mSocket;
 };
-
-// --- the helper's side
-
-// Answers until the program closes its end; what `answer` throws is told to the program. Returns main's
-// status.
-int serveRequests(const std::function<std::string(std::string_view request)>& answer);
-
-// From now on at most so much memory (bytes beyond what is taken) and processor time: beyond it allocations
-// fail, and the system ends this process. Sanitized builds take memory as they like.
-void limitThisProcess(std::uint64_t memory, int seconds);
 
 }  // namespace stereonav

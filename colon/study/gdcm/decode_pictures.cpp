@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "colon/study/gdcm/picture_request.h"
-#include "engine/base/helper_program.h"
+#include "engine/helper/serve_requests.h"
 
 namespace stereonav {
 namespace {
@@ -118,20 +118,10 @@ PictureAnswer answerOf(const gdcm::PixelFormat& format) {
     return answer;
 }
 
-// What a sound picture takes at most, and far more: codecs hold 4 bytes a number and a few copies.
-void limitTo(std::uint64_t pixels, std::uint64_t packed) {
-    constexpr std::uint64_t kBytesPerPixel = 64, kCopies = 8, kAlways = std::uint64_t{256} << 20;
-    constexpr int kSeconds = 20;
-    constexpr std::uint64_t kPixelsPerSecond = 250'000;  // a tenth of what slow codecs do on slow machines
-    limitThisProcess(kAlways + kBytesPerPixel * pixels + kCopies * packed,
-                     kSeconds + static_cast<int>(pixels / kPixelsPerSecond));
-}
-
 std::string decode(std::string_view request) {
     const Picture picture = pictureOf(request);
     const std::uint64_t count =
         static_cast<std::uint64_t>(picture.head.columns) * static_cast<std::uint64_t>(picture.head.rows);
-    limitTo(count, request.size());
     std::istringstream file(fileOf(picture));
     gdcm::ImageReader reader;
     reader.SetStream(file);

@@ -1,0 +1,56 @@
+// What the program and a helper (helper_program.h) say to each other, seen from the program: each message is
+// a head and as many bytes as the head says. The other side is not trusted: a library that a damaged file has
+// taken over may say anything, in any pieces, or nothing.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace stereonav {
+
+struct HelperAnswer {
+    enum class Kind {
+        Given,    // text: the answer's bytes
+        Refused,  // text: what was thrown, one line
+        Ended,    // text: how the helper ended over it, "by Segmentation fault"
+    };
+    Kind kind = Kind::Ended;
+    std::string text;
+};
+
+struct HelperHead {
+    std::uint64_t bytes = 0;
+    std::uint64_t kind = 0;  // of answers: HelperAnswer::Kind, but Ended
+};
+
+class HelperSocket {
+public:
+    using Time = std::chrono::steady_clock::time_point;
+    enum class Fate {
+        Whole,
+        Closed,  // by the other side
+        Late,    // it was not whole in time
+        Wrong,   // no kind of answer that there is, or a longer one than was allowed
+    };
+
+    explicit HelperSocket(int socket);  // takes it over
+    ~HelperSocket();
+    HelperSocket(const HelperSocket&) = delete;
+    HelperSocket& operator=(const HelperSocket&) = delete;
+
+    // Sends a request and takes its answer, of at most mostBytes; `answer` counts where it is Whole. All
+    // three: a wish to stop (stop.h) is heard within a tenth of a second and throws Cancelled.
+    Fate ask(std::string_view request, std::uint64_t mostBytes, Time until, HelperAnswer& answer);
+    Fate send(std::string_view bytes, Time until);
+    Fate receive(void* to, std::size_t count, Time until);
+
+private:
+    bool waitFor(short event, Time until) const;  // false: the time is over
+
+    int mSocket;
+};
+
+}  // namespace stereonav
