@@ -35,7 +35,7 @@ foreach(folder ${folders})
   get_filename_component(parent ${folder} DIRECTORY)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stereonav/${parent} ${development}
     FILES_MATCHING PATTERN "*.h" PATTERN "opencv" EXCLUDE PATTERN "jxl" EXCLUDE PATTERN "gdal" EXCLUDE
-    PATTERN "mpi" EXCLUDE PATTERN "dcmtk" EXCLUDE PATTERN "gdcm" EXCLUDE)
+    PATTERN "mpi" EXCLUDE PATTERN "dcmtk" EXCLUDE PATTERN "gdcm" EXCLUDE PATTERN "picture_reader" EXCLUDE)
 endforeach()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/package.cmake.in ${CMAKE_BINARY_DIR}/stereonav-config.cmake

@@ -12,6 +12,7 @@ find_package(PkgConfig REQUIRED)
 find_package(MPI QUIET COMPONENTS C)  # without it there is no module for several processes
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavformat>=59 libavcodec>=59 libavutil>=57)
 pkg_check_modules(SECCOMP REQUIRED IMPORTED_TARGET libseccomp>=2.5)
+pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 pkg_check_modules(JXL REQUIRED IMPORTED_TARGET libjxl>=0.7)
 find_path(JXL_BUTTERAUGLI jxl/butteraugli.h REQUIRED)  # later versions have no such header
 find_path(STB_TRUETYPE stb/stb_truetype.h REQUIRED)

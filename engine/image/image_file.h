@@ -1,5 +1,7 @@
-// Picture files, through OpenCV, which is slow to load: the module stereonav_pictures (engine/image/opencv),
-// loaded by the first function that is called.
+// Picture files: the only way that pictures of others come into the program (but rasters of terrain, which
+// GDAL reads). They are unpacked by a program of its own (decoded_picture.h); others than PNG are packed by
+// OpenCV, the module stereonav_pictures (engine/image/opencv), which is loaded by the first function that
+// asks for it.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +16,8 @@
 
 namespace stereonav {
 
-// PNG, JPEG, TIFF, BMP...: 8 or 16 bit, gray or colour, taken as sRGB. Row 0 is the top. Throws Error.
+// PNG, JPEG, TIFF, BMP, WebP or Radiance by their first bytes, whatever their name is: 8 or 16 bits, gray or
+// colour, taken as sRGB; floats are linear. Row 0 is the top. Throws Error.
 Plane<PackedColor> readColorImage(const std::filesystem::path& file);
 
 // The same from a picture's bytes held in memory; file and place are named in errors.
@@ -23,7 +26,7 @@ Plane<PackedColor> decodeColorImage(std::span<const unsigned char> bytes, const 
 // The bytes of a picture file, 8-bit sRGB; extension: ".png" or ".jpg". Throws Error.
 std::vector<unsigned char> encodeColorImage(const Plane<PackedColor>& image, const std::string& extension);
 
-// Linear RGB, row 0 at the top: .hdr (Radiance) and, like readColorImage, everything else.
+// The same in linear RGB, row 0 at the top.
 struct LinearImage {
     int width = 0, height = 0;
     std::vector<glm::vec3> pixels;

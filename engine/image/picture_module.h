@@ -6,10 +6,7 @@
 namespace stereonav {
 
 struct PictureFunctions {
-    decltype(&stereonav::readColorImage) readColorImage;
-    decltype(&stereonav::decodeColorImage) decodeColorImage;
     decltype(&stereonav::encodeColorImage) encodeColorImage;
-    decltype(&stereonav::readLinearImage) readLinearImage;  // but for .hdr
     decltype(&stereonav::canWritePicture) canWritePicture;
 };
 

@@ -8,16 +8,16 @@
 #include <cmath>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "engine/base/error.h"
-#include "engine/base/file.h"
+#include "engine/base/memory.h"
+#include "engine/image/picture_format.h"
 #include "engine/text/number.h"
 
 namespace stereonav {
 namespace {
 
-constexpr int kMaxSide = 65536;
-constexpr long long kMaxPixels = 1ll << 27;
 constexpr const char* kReadAgain = "fetch or export the file again";
 
 using Rgbe = std::array<std::uint8_t, 4>;
@@ -25,8 +25,7 @@ using Rgbe = std::array<std::uint8_t, 4>;
 // Reads lines, then bytes, of a file held in memory.
 class RadianceReader {
 public:
-    RadianceReader(const std::filesystem::path& file, const std::string& content)
-        : mFile(file.string()), mRest(content) {}
+    RadianceReader(std::string_view content, std::string file) : mFile(std::move(file)), mRest(content) {}
 
     LinearImage read() {
         readHeader();
@@ -50,7 +49,6 @@ private:
     }
 
     void readHeader() {
-        if (mRest.empty()) throw Error(mFile, "", "the file is empty", "name an image file");
         if (!mRest.starts_with("#?"))
             throw Error(mFile, "header", "expected a Radiance picture beginning with \"#?\"",
                         "give a .hdr file of that format");
@@ -73,14 +71,15 @@ private:
                 image.width = takeWhole<int>(rest).value_or(0);
             }
         }
-        if (image.width < 1 || image.height < 1 || image.width > kMaxSide || image.height > kMaxSide ||
-            static_cast<long long>(image.width) * image.height > kMaxPixels)
+        if (!isPictureSize(image.width, image.height))
             throw Error(mFile, "size",
                         fmt::format("expected \"-Y height +X width\" of at most {} pixels, got \"{}\"",
-                                    kMaxPixels, text.substr(0, 40)),
+                                    kMostPicturePixels, text.substr(0, 40)),
                         "turn it upright or make it smaller");
         // However well a row is packed, it has a pixel's four bytes.
         if (mRest.size() < 4u * static_cast<std::size_t>(image.height)) throwCutOff();
+        const double pixels = static_cast<double>(image.width) * image.height;
+        checkMemory(mFile, pixels * (sizeof(glm::vec3) + sizeof(PackedColor)), "make the picture smaller");
         return image;
     }
 
@@ -158,9 +157,8 @@ private:
 
 }  // namespace
 
-LinearImage readRadianceImage(const std::filesystem::path& file) {
-    const std::string content = readTextFile(file);
-    return RadianceReader(file, content).read();
+LinearImage radianceImageOf(std::string_view content, const std::string& file, const std::string& place) {
+    return RadianceReader(content, place.empty() ? file : file + ":" + place).read();
 }
 
 }  // namespace stereonav

@@ -2,14 +2,15 @@
 // library, which prints to the terminal when a file is damaged.
 #pragma once
 
-#include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "engine/image/image_file.h"
 
 namespace stereonav {
 
-// Linear RGB, row 0 at the top. Format 32-bit_rle_rgbe, rows from the top and columns from the left;
-// flat, old and new run lengths. At most 2^27 pixels. Throws Error with file and place.
-LinearImage readRadianceImage(const std::filesystem::path& file);
+// Linear RGB, row 0 at the top, of a file's bytes. Format 32-bit_rle_rgbe, rows from the top and columns from
+// the left; flat, old and new run lengths. Throws Error with file and place.
+LinearImage radianceImageOf(std::string_view content, const std::string& file, const std::string& place);
 
 }  // namespace stereonav

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/image/radiance_file.h"
+#include "engine/image/image_file.h"
 #include "engine/math/luminance.h"
 #include "terrain/read/raster_file.h"
 
@@ -105,7 +105,7 @@ SkyPicture described(LinearImage image, const std::filesystem::path& file, const
 }
 
 SkyPicture readProbe(const std::filesystem::path& file) {
-    LinearImage image = readRadianceImage(file);
+    LinearImage image = readLinearImage(file);
     const int width = image.width, height = image.height;
     toneMap(image, coversSphere(width, height));
     while (image.width > 2 * mapSize(width)) image = halved(image);

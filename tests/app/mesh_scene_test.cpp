@@ -5,6 +5,7 @@
 #include "engine/camera/gltf_file.h"
 #include "engine/mesh/triangle_mesh.h"
 #include "tests/app/program.h"
+#include "tests/support/dicom_files.h"
 
 namespace stereonav::test {
 namespace {
@@ -44,6 +45,37 @@ TEST_F(MeshScene, InfoSaysWhatIsThere) {
     EXPECT_NEAR(facts.at("size").at(1), 23 * 30.0, 1e-3);
     EXPECT_NEAR(facts.at("size").at(2), 49, 1e-3);
     EXPECT_GT(facts.at("bytes"), corners / 3 * sizeof(TriangleMesh::Triangle));
+}
+
+// As one that ended the program by a signal: DICOM inside, compressed, with more segments than it has bytes.
+TEST_F(MeshScene, ATextureThatIsNoPictureIsOneLine) {
+    DicomSpec spec;
+    spec.slice.columns = spec.slice.rows = 64;
+    spec.slice.bitsStored = spec.bits = 8;
+    const DicomBytes numbers(DicomSyntax::Explicit);
+    std::string packed = numbers.number(0x7fffffff, 4) + numbers.number(64, 4);
+    while (packed.size() < 64) packed += numbers.number(9999, 4);
+    spec.packed = {packed + std::string(20, '\x81')};
+    spec.packedSyntax = "1.2.840.10008.1.2.5";
+    const std::string dicom = dicomBytes(spec), file = mesh();
+    tinygltf::Model model = readGltf(file).model;
+    model.images.at(0).bufferView = addBytes(model, std::vector<unsigned char>(dicom.begin(), dicom.end()));
+    writeGltf(file, model);
+    for (const char* command : {"info", "render"}) {
+        std::vector<std::string> arguments{command, file};
+        if (arguments[0] == "render")
+            arguments.insert(arguments.end(), {"--size", "64x48", "--out", "a.png"});
+        const Outcome done = run(arguments);
+        EXPECT_EQ(done.status, 1);
+        EXPECT_EQ(linesIn(done.err), 1) << done.err;
+        EXPECT_NE(done.err.find("hills.glb:image 0: is not a picture"), std::string::npos) << done.err;
+    }
+    const Outcome sky =
+        run({"render", "--sky", input("sky.png", dicom), "--size", "64x48", "--out", "a.png"});
+    EXPECT_EQ(sky.status, 1);
+    EXPECT_EQ(linesIn(sky.err), 1) << sky.err;
+    EXPECT_NE(sky.err.find("sky.png: is not a picture"), std::string::npos) << sky.err;
+    EXPECT_TRUE(std::filesystem::is_empty(place()));
 }
 
 TEST_F(MeshScene, BothKindsOfFileGiveOnePicture) {

@@ -1,19 +1,27 @@
 #include "tests/fuzz/readers.h"
 
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 
 #include "app/command/findings_words.h"
 #include "app/report/json.h"
 #include "colon/centreline/centreline.h"
 #include "colon/scene/colon_cache.h"
+#include "colon/study/picture_decoder.h"
 #include "colon/study/study.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/base/helper_socket.h"
 #include "engine/base/progress.h"
 #include "engine/camera/recorded_path.h"
+#include "engine/image/decoded_picture.h"
 #include "engine/image/image_file.h"
-#include "engine/image/radiance_file.h"
+#include "engine/image/picture_format.h"
 #include "engine/light/bake/bake_file.h"
 #include "engine/medium/model/medium_transfer.h"
 #include "engine/medium/model/noise_file.h"
@@ -47,6 +55,36 @@ void colonCache(const fs::path&) {
     readColonCache(kCacheKey, damaged);
 }
 
+void pictureHead(const fs::path& file) {
+    const std::string content = readTextFile(file);
+    if (const auto format = pictureFormatOf(content)) pictureHeadOf(*format, content);
+}
+
+// What a helper that a file has taken over may send, from its first byte on, and then its end.
+void helperAnswer(const fs::path& file) {
+    constexpr std::uint64_t kSide = 4, kMost = 4 * kSide * kSide;
+    const std::string content = readTextFile(file);
+    int sockets[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) return;
+    HelperSocket program(sockets[0]);
+    const bool said =
+        write(sockets[1], content.data(), content.size()) == static_cast<ssize_t>(content.size());
+    shutdown(sockets[1], SHUT_WR);
+    HelperAnswer answer;
+    const auto until = HelperSocket::Time::clock::now() + std::chrono::minutes(1);
+    const HelperSocket::Fate fate = program.ask("", kMost, until, answer);
+    close(sockets[1]);
+    if (!said || fate != HelperSocket::Fate::Whole || answer.kind != HelperAnswer::Kind::Given) return;
+    const auto pixels = pixelsOf(answer.text, kSide * kSide);
+    if (pixels && pixels->bytes.size() * 8 != kSide * kSide * static_cast<std::uint64_t>(pixels->bits))
+        std::abort();
+    const auto picture = decodedPictureOf(answer.text, {kSide, 1, 2});
+    if (picture &&
+        picture->samples.size() !=
+            static_cast<std::uint64_t>(3 * picture->width * picture->height * picture->sampleBytes))
+        std::abort();
+}
+
 void set(Bytes input, std::size_t at, std::uint64_t value) {
     if (input.size() >= at + sizeof value) std::memcpy(input.data() + at, &value, sizeof value);
 }
@@ -74,8 +112,10 @@ constexpr Reader kReaders[] = {
     {"path-text", "flight.path", [](const fs::path& file) { readPath(file); }},
     {"path-gltf", "flight.gltf", [](const fs::path& file) { readPath(file); }},
     {"landmark", "landmark.glb", [](const fs::path& file) { readMesh(file); }},
-    {"probe", "probe.hdr", [](const fs::path& file) { readRadianceImage(file); }},
+    {"probe", "probe.hdr", [](const fs::path& file) { readLinearImage(file); }},
     {"picture", "picture.png", [](const fs::path& file) { readColorImage(file); }},
+    {"picture-head", "picture.png", pictureHead},
+    {"helper-answer", "answer.bin", helperAnswer},
     {"transfer", "transfer.txt", [](const fs::path& file) { readTransferFunction(file); }},
     {"medium", "medium.txt", [](const fs::path& file) { readMediumTransfer(file); }},
     {"phase", "phase.txt", [](const fs::path& file) { findPhaseFunction(file.string()); }},

@@ -12,10 +12,12 @@
 
 #include "colon/centreline/centreline.h"
 #include "colon/scene/colon_cache.h"
+#include "colon/study/gdcm/picture_request.h"
 #include "colon/study/study.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/progress.h"
+#include "engine/camera/gltf_file.h"
 #include "engine/camera/recorded_path.h"
 #include "engine/image/image_file.h"
 #include "engine/light/bake/bake_file.h"
@@ -23,6 +25,7 @@
 #include "terrain/light/terrain_light.h"
 #include "tests/fuzz/readers.h"
 #include "tests/support/dicom_files.h"
+#include "tests/support/lying_helper.h"
 
 namespace {
 namespace fs = std::filesystem;
@@ -153,6 +156,46 @@ void writeColon(const fs::path& folder) {
     fs::remove_all(cacheFolder());
 }
 
+// Pictures by themselves and on a mesh, and what helpers answer for them.
+void writePictures(const fs::path& folder) {
+    const Plane<PackedColor> picture(5, 3);
+    for (const char* extension : {".png", ".jpg", ".tif", ".bmp", ".webp"}) {
+        const std::vector<unsigned char> bytes = encodeColorImage(picture, extension);
+        for (const char* reader : {"picture", "picture-head"})
+            writeTextFile(folder / reader / (std::string("seed") + extension), {bytes.begin(), bytes.end()});
+        tinygltf::Model model;
+        model.asset.version = "2.0";
+        tinygltf::Primitive primitive;
+        primitive.mode = TINYGLTF_MODE_TRIANGLES;
+        primitive.material = 0;
+        primitive.attributes["POSITION"] =
+            addFloats(model, std::array{0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}, 3, true);
+        primitive.attributes["TEXCOORD_0"] =
+            addFloats(model, std::array{0.f, 0.f, 1.f, 0.f, 0.f, 1.f}, 2, false);
+        model.images.resize(1);
+        model.images[0].bufferView = addBytes(model, bytes);
+        model.images[0].mimeType = "image/png";
+        model.textures.resize(1);
+        model.textures[0].source = 0;
+        model.materials.resize(1);
+        model.materials[0].pbrMetallicRoughness.baseColorTexture.index = 0;
+        model.meshes.resize(1);
+        model.meshes[0].primitives.push_back(primitive);
+        model.nodes.resize(1);
+        model.nodes[0].mesh = 0;
+        model.scenes.resize(1);
+        model.scenes[0].nodes = {0};
+        model.defaultScene = 0;
+        writeGltf(folder / "landmark/textured.glb", model);
+        fs::rename(folder / "landmark/textured.glb",
+                   folder / "landmark" / (std::string("textured") + extension));
+    }
+    const PictureAnswer pixels{16, 0};
+    writeTextFile(folder / "helper-answer/dicom",
+                  test::helperMessage(std::string(32, 'a') + test::bytesOfStructure(pixels)));
+    writeTextFile(folder / "helper-answer/refused", test::helperMessage("is damaged", 1));
+}
+
 void writeSeeds(const fs::path& folder) {
     for (const fuzz::Reader& reader : fuzz::readers()) fs::create_directories(folder / reader.name);
     writePaths(folder);
@@ -161,7 +204,7 @@ void writeSeeds(const fs::path& folder) {
     writeTextFile(folder / "track/seed", kTrack);
     writeTextFile(folder / "probe/seed",
                   std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n") + std::string(32, '\x80'));
-    writeColorImage(folder / "picture/seed.png", Plane<PackedColor>(5, 3));
+    writePictures(folder);
     for (const char* end : {"text/seed.txt", "vtp/seed.vtp", "vtk/seed.vtk"})
         writeCentreline(folder / (std::string("line-") + end), smallLine());
     writeMask(folder / "nrrd/seed.nrrd", smallMask(), "");

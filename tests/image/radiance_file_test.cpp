@@ -1,6 +1,4 @@
 // Radiance pictures: against OpenCV's reader, each way of packing a row, and damaged files.
-#include "engine/image/radiance_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "engine/base/error.h"
+#include "engine/image/image_file.h"
 
 namespace stereonav {
 namespace {
@@ -28,7 +27,7 @@ protected:
     std::string errorOf(const std::string& content) {
         write(content);
         try {
-            readRadianceImage(mFile);
+            readLinearImage(mFile);
         } catch (const Error& error) {
             EXPECT_THAT(error.what(), AllOf(HasSubstr(mFile.string() + ":"), Not(HasSubstr("\n"))));
             return error.what();
@@ -58,7 +57,7 @@ TEST_F(RadianceFile, ReadsWhatOpenCvReads) {
                                          std::exp2(static_cast<float>(y - 18)), x % 2 ? 1e-3f : 0.0f};
     ASSERT_TRUE(cv::imwrite(mFile.string(), image));
     const cv::Mat other = cv::imread(mFile.string(), cv::IMREAD_UNCHANGED);
-    const LinearImage mine = readRadianceImage(mFile);
+    const LinearImage mine = readLinearImage(mFile);
     ASSERT_EQ(mine.width, 150);
     ASSERT_EQ(mine.height, 37);
     for (int y = 0; y < 37; ++y)
@@ -71,26 +70,26 @@ TEST_F(RadianceFile, ReadsWhatOpenCvReads) {
 
 TEST_F(RadianceFile, FlatAndOldRuns) {
     write(header(3, 1) + bytes({128, 64, 0, 129, 255, 1, 2, 128, 9, 9, 9, 0}));
-    LinearImage image = readRadianceImage(mFile);
+    LinearImage image = readLinearImage(mFile);
     EXPECT_EQ(image.pixels[0], glm::vec3(1.0f, 0.5f, 0.0f));
     EXPECT_EQ(image.pixels[1], glm::vec3(255, 1, 2) / 256.0f);
     EXPECT_EQ(image.pixels[2], glm::vec3(0));
     write(header(5, 1) + bytes({128, 0, 0, 129, 1, 1, 1, 3, 0, 128, 0, 129}));
-    image = readRadianceImage(mFile);
+    image = readLinearImage(mFile);
     for (int x = 0; x < 4; ++x) EXPECT_EQ(image.pixels[x], glm::vec3(1, 0, 0)) << x;
     EXPECT_EQ(image.pixels[4], glm::vec3(0, 1, 0));
     // The second repeat in a row counts 256 times: 1 + 2 + 256.
     write(header(259, 1) + bytes({128, 0, 0, 129, 1, 1, 1, 2, 1, 1, 1, 1}));
-    image = readRadianceImage(mFile);
+    image = readLinearImage(mFile);
     for (int x = 0; x < 259; ++x) EXPECT_EQ(image.pixels[x], glm::vec3(1, 0, 0)) << x;
 }
 
 TEST_F(RadianceFile, DamagedFilesAreRefused) {
     const std::string row = bytes({2, 2, 0, 8, 136, 128, 136, 64, 136, 32, 136, 129});
     write(header(8, 1) + row);
-    EXPECT_EQ(readRadianceImage(mFile).pixels.back(), glm::vec3(1.0f, 0.5f, 0.25f));
+    EXPECT_EQ(readLinearImage(mFile).pixels.back(), glm::vec3(1.0f, 0.5f, 0.25f));
     EXPECT_THAT(errorOf(""), HasSubstr("the file is empty"));
-    EXPECT_THAT(errorOf("clouds"), HasSubstr("header: expected a Radiance picture"));
+    EXPECT_THAT(errorOf("clouds"), HasSubstr("is not a picture"));
     EXPECT_THAT(errorOf("#?RADIANCE\nFORMAT"), HasSubstr("header: is cut off"));
     EXPECT_THAT(errorOf("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 8\n" + row), HasSubstr("xyze"));
     EXPECT_THAT(errorOf(header(8, 2) + row), HasSubstr("row 2: the picture is cut off"));

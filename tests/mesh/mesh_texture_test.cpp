@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,8 +18,11 @@
 namespace stereonav {
 namespace {
 
-// A triangle under a picture of 4 x 2 pixels, whose sampler says that of its directions; -1: it has none.
-tinygltf::Model picturedTriangle(int wrapS, int wrapT) {
+// A triangle under a picture of 4 x 2 pixels, or what else is given for one, whose sampler says that of its
+// directions; -1: it has none.
+tinygltf::Model picturedTriangle(
+    int wrapS, int wrapT,
+    const std::vector<unsigned char>& picture = encodeColorImage(Plane<PackedColor>(4, 2), ".png")) {
     tinygltf::Model model;
     model.asset.version = "2.0";
     tinygltf::Primitive primitive;
@@ -28,7 +32,7 @@ tinygltf::Model picturedTriangle(int wrapS, int wrapT) {
     primitive.attributes["POSITION"] = addFloats(model, positions, 3, true);
     primitive.attributes["TEXCOORD_0"] = addFloats(model, uvs, 2, false);
     model.images.emplace_back();
-    model.images[0].bufferView = addBytes(model, encodeColorImage(Plane<PackedColor>(4, 2), ".png"));
+    model.images[0].bufferView = addBytes(model, picture);
     model.images[0].mimeType = "image/png";
     model.textures.emplace_back();
     model.textures[0].source = 0;
@@ -77,6 +81,26 @@ TEST(MeshTexture, AWrapThatGltfDoesNotKnowIsRefusedByItsNumber) {
         EXPECT_THAT(test::errorOf([&] { readMesh(folder / "a.glb"); }),
                     testing::AllOf(testing::HasSubstr("a.glb:sampler 0: expected a wrap of 10497, 33071 or"),
                                    testing::HasSubstr("got 10496")));
+    }
+}
+
+// glTF says of it that it is PNG. What its bytes are is told by them, and the library that reads the glTF
+// unpacks none of it.
+TEST(MeshTexture, WhatIsNoPictureIsRefusedByItsPlace) {
+    const TemporaryFolder folder;
+    std::string dicom(128, '\0');
+    dicom += "DICM";
+    const std::vector<unsigned char> png = encodeColorImage(Plane<PackedColor>(4, 2), ".png");
+    const std::pair<std::vector<unsigned char>, const char*> kPictures[] = {
+        {{dicom.begin(), dicom.end()}, "is not a picture of a format that is read here"},
+        {{'P', '6', '\n', '1', ' ', '1'}, "is not a picture of a format that is read here"},
+        {{png.begin(), png.begin() + 40}, "is cut off"},
+        {{png.begin(), png.begin() + 20}, "is cut off"}};
+    for (const auto& [picture, problem] : kPictures) {
+        writeGltf(folder / "a.glb", picturedTriangle(-1, -1, picture));
+        EXPECT_THAT(test::errorOf([&] { readMesh(folder / "a.glb"); }),
+                    testing::AllOf(testing::HasSubstr("a.glb:image 0: "), testing::HasSubstr(problem),
+                                   testing::Not(testing::HasSubstr("\n"))));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <mutex>
 #include <span>
 
 #include "app/view/panel/panel_texture.h"
@@ -50,6 +51,8 @@ void prepare(StartPicture& picture) {
     if (picture.texture.any() || picture.failed) return;
     if (!picture.decoding.valid()) {
         picture.decoding = std::async(std::launch::async, [file = picture.file] {
+            static std::mutex oneAfterTheOther;  // one helper does for all
+            const std::lock_guard lock(oneAfterTheOther);
             return decodeColorImage(file, "the start page", "");
         });
         return;

@@ -1,0 +1,33 @@
+// The one door for picture files: which formats are read here, told by their first bytes alone. What is none
+// of them is refused before a library sees it, and no other decoder than the format's own is ever asked.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace stereonav {
+
+enum class PictureFormat : std::int32_t { Png, Jpeg, Tiff, Bmp, WebP, Radiance };
+
+// Nothing where it is none of these. content: the file's bytes.
+std::optional<PictureFormat> pictureFormatOf(std::string_view content);
+
+// For messages: "give a PNG, ... file".
+inline constexpr const char* kGiveAPicture = "give a PNG, JPEG, TIFF, BMP, WebP or Radiance .hdr file";
+
+// Larger pictures are not read.
+inline constexpr int kMostPictureSide = 65536;
+inline constexpr long long kMostPicturePixels = 1ll << 28;
+bool isPictureSize(long long width, long long height);
+
+// What a file says of its picture before anything is unpacked.
+struct PictureHead {
+    long long width = 0, height = 0;
+    int sampleBytes = 1;  // of a channel: 1, 2, or 4 of floats
+};
+// Of the first picture in the file; nothing where its head is cut off or makes no sense. Sizes are as the
+// file has them, however large. Of all formats but Radiance, whose reader is our own.
+std::optional<PictureHead> pictureHeadOf(PictureFormat format, std::string_view content);
+
+}  // namespace stereonav
