@@ -26,6 +26,25 @@ set(STEREONAV_TEST_CHECKS "")
 if("${STEREONAV_SANITIZE}" MATCHES undefined)
   set(STEREONAV_TEST_CHECKS -fno-sanitize=null,alignment,object-size,vptr)
 endif()
+# What Debian's policy hardens programs with (dpkg-buildflags, hardening=+all), and checks of the standard library's own
+# preconditions: a mistake over a stranger's file ends the program instead of running on. Sanitizers check more than that.
+set(STEREONAV_HARDENED OFF)
+if(NOT STEREONAV_SANITIZE AND NOT STEREONAV_FUZZ)
+  set(STEREONAV_HARDENED ON)
+  include(CheckCXXCompilerFlag)
+  set(optimized $<OR:$<CONFIG:Release>,$<CONFIG:RelWithDebInfo>,$<CONFIG:MinSizeRel>>)
+  target_compile_definitions(stereonav_options INTERFACE _GLIBCXX_ASSERTIONS)
+  target_compile_options(stereonav_options INTERFACE -fstack-protector-strong -fstack-clash-protection -Wformat -Werror=format-security
+    $<${optimized}:-U_FORTIFY_SOURCE> $<${optimized}:-D_FORTIFY_SOURCE=2>)
+  foreach(flag -fcf-protection -mbranch-protection=standard)  # x86, arm64
+    string(MAKE_C_IDENTIFIER "STEREONAV_HAS${flag}" has)
+    check_cxx_compiler_flag(${flag} ${has})
+    if(${has})
+      target_compile_options(stereonav_options INTERFACE ${flag})
+    endif()
+  endforeach()
+  target_link_options(stereonav_options INTERFACE -Wl,-z,relro -Wl,-z,now)
+endif()
 if(STEREONAV_FUZZ)  # all that is ours counts its edges
   target_compile_options(stereonav_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
