@@ -97,12 +97,16 @@ std::optional<json> readKeptJson(const fs::path& file, bool (*isRight)(const jso
     try {
         text = readKept(file);
         if (!text) return std::nullopt;
-        checkJson(*text, file.string(), "move it away: a new one is made");
-        read = json::parse(*text, nullptr, false);
     } catch (const Error& error) {  // a folder in its place, no right to read it, too large
         problem = error.what();
         setAside(file);
         return std::nullopt;
+    }
+    try {
+        checkJson(*text, file.string(), "");
+        read = json::parse(*text, nullptr, false);
+    } catch (const Error&) {  // deeper than anything that was kept
+        read = json(json::value_t::discarded);
     }
     if (!read.is_discarded() && isRight(read)) return read;
     const fs::path aside = setAside(file);

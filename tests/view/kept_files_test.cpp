@@ -139,7 +139,7 @@ TEST(Bookmarks, ADeepFileIsSetAside) {
     putText(file, "{\"stereonav_places\":" + deep + ",\"places\":" + deep + "}");
     Bookmarks marks("terrain", folder / "places");
     EXPECT_THAT(marks.list(), IsEmpty());
-    EXPECT_THAT(marks.takeProblem(), HasSubstr("at most 100 deep"));
+    EXPECT_THAT(marks.takeProblem(), HasSubstr("is damaged and was left out"));
     EXPECT_TRUE(fs::exists(file.string() + ".damaged"));
 }
 
