@@ -18,9 +18,13 @@
 namespace stereonav {
 namespace {
 
-constexpr std::size_t kLargestFile = 1 << 20;  // bytes
-constexpr int kDeepestNesting = 32;            // brackets: the parser recurses
-constexpr std::size_t kLongestLine = 4096;     // bytes: so are the parts of a dotted key
+constexpr std::size_t kLargestFile = 256 << 10;  // bytes: the parser takes the square of the sections
+constexpr int kDeepestNesting = 32;              // brackets: the parser recurses
+constexpr std::size_t kLongestLine = 4096;       // bytes: so are the parts of a dotted key
+
+// To tell a value's line all before it is counted: of more problems the lines are not told.
+constexpr std::size_t kMostTold = 20;
+constexpr std::size_t kLongestKey = 60;  // bytes: no key that there is comes near
 
 int lineOf(const toml::value& value) {
     return static_cast<int>(value.location().line());
@@ -65,7 +69,8 @@ bool isNumberIn(const toml::value& value, const NumberRange& range, double& numb
 // The parser recurses into brackets; hostile files are refused before it sees them.
 void checkShape(const std::string& content, const std::string& file) {
     if (content.size() > kLargestFile)
-        throw Error(file, "", fmt::format("expected a scene of at most 1 MiB, got {} bytes", content.size()),
+        throw Error(file, "",
+                    fmt::format("expected a scene of at most 256 KiB, got {} bytes", content.size()),
                     "name a scene file");
     int line = 1, depth = 0;
     std::size_t length = 0;
@@ -120,6 +125,11 @@ struct UnknownKey {
     std::string text;
 };
 
+struct Unknown {
+    std::vector<UnknownKey> told;
+    std::size_t more = 0;
+};
+
 }  // namespace
 
 struct TomlDocument::State {
@@ -138,6 +148,7 @@ struct TomlDocument::State {
     // What is wrong with a key that nobody asked for, and what may have been meant.
     std::string unknownText(const std::string& key, const std::string& sectionName) const {
         const std::string where = sectionName.empty() ? "" : fmt::format(" in [{}]", sectionName);
+        if (key.size() > kLongestKey) return fmt::format("\"{}...\"{}", key.substr(0, kLongestKey), where);
         for (const auto& [other, keys] : known)
             if (other != sectionName && keys.count(key) > 0)
                 return fmt::format("\"{}\"{} (belongs in [{}])", key, where, other);
@@ -151,28 +162,35 @@ struct TomlDocument::State {
         return names;
     }
 
-    void collectUnknown(const toml::value& table, const std::string& name,
-                        std::vector<UnknownKey>& found) const {
+    void addUnknown(const std::string& key, const toml::value& value, const std::string& section,
+                    Unknown& found) const {
+        if (found.told.size() < kMostTold)
+            found.told.push_back({lineOf(value), unknownText(key, section)});
+        else
+            ++found.more;
+    }
+
+    void collectUnknown(const toml::value& table, const std::string& name, Unknown& found) const {
         if (!table.is_table()) return;
         for (const auto& [key, value] : table.as_table())
-            if (known.at(name).count(key) == 0) found.push_back({lineOf(value), unknownText(key, name)});
+            if (known.at(name).count(key) == 0) addUnknown(key, value, name, found);
     }
 
     // only: of this section; "": of all.
-    std::vector<UnknownKey> unknownKeys(const std::string& only) const {
-        std::vector<UnknownKey> found;
+    Unknown unknownKeys(const std::string& only) const {
+        Unknown found;
         for (const auto& [key, value] : root.as_table()) {
             if (!only.empty() && key != only) continue;
             if (misshapen.count(key) > 0)
                 continue;
             else if (known.count(key) == 0)
-                found.push_back({lineOf(value), unknownText(key, "")});
+                addUnknown(key, value, "", found);
             else if (value.is_array())
                 for (const auto& table : value.as_array()) collectUnknown(table, key, found);
             else
                 collectUnknown(value, key, found);
         }
-        std::sort(found.begin(), found.end(), [](const UnknownKey& a, const UnknownKey& b) {
+        std::sort(found.told.begin(), found.told.end(), [](const UnknownKey& a, const UnknownKey& b) {
             return std::tie(a.line, a.text) < std::tie(b.line, b.text);
         });
         return found;
@@ -240,11 +258,12 @@ void TomlDocument::finishSection(const std::string& name) const {
 }
 
 void TomlDocument::State::finish(const std::string& only) const {
-    const auto unknown = unknownKeys(only);
+    const auto [unknown, more] = unknownKeys(only);
     if (!unknown.empty()) {
         std::string text = unknown.size() == 1 ? "unknown key " : "unknown keys ";
         for (std::size_t k = 0; k < unknown.size(); ++k)
             text += (k ? fmt::format(", line {}: ", unknown[k].line) : "") + unknown[k].text;
+        if (more > 0) text += fmt::format(", and {} more", more);
         throw Error(file, std::to_string(unknown.front().line), text, "correct or remove them");
     }
     if (problems.empty()) return;
@@ -272,6 +291,7 @@ bool TomlSection::has(const std::string& key) const {
 }
 
 void TomlSection::note(const std::string& key, const std::string& problem, const std::string& advice) {
+    if (mDocument->problems.size() >= kMostTold) return;  // the first one is told
     int line = 0;
     if (mTable) {
         const auto& table = *static_cast<const toml::value*>(mTable);

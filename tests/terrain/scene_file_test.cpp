@@ -1,6 +1,7 @@
 // Scene files: every key arrives in its units, and everything wrong is one clear line with its place.
 #include "terrain/read/scene_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -247,7 +248,20 @@ TEST_F(SceneFileTest, HostileNestingAndSizesAreRefused) {
     for (int k = 0; k < 20000; ++k) lines += "[\n";
     EXPECT_THAT(errorOf(lines), HasSubstr("brackets are nested too deeply"));
     EXPECT_THAT(errorOf(std::string(5000, 'a') + " = 1\n"), HasSubstr("the line is too long"));
-    EXPECT_THAT(errorOf(std::string(2 << 20, '\n')), HasSubstr("expected a scene of at most 1 MiB"));
+    EXPECT_THAT(errorOf(std::string(2 << 20, '\n')), HasSubstr("expected a scene of at most 256 KiB"));
+}
+
+// A line of them is read by a person; to find each one's place all before it is counted.
+TEST_F(SceneFileTest, OfManyUnknownKeysSomeAreTold) {
+    std::string keys = "[terrain]\nbuiltin = true\n", landmarks = keys;
+    for (int n = 0; n < 15000; ++n) keys += fmt::format("a{} = 1\n", n);
+    const std::string message = errorOf(keys);
+    EXPECT_THAT(message, AllOf(HasSubstr("unknown keys \"a"), HasSubstr(", and 14980 more; correct")));
+    EXPECT_LT(message.size(), 2000u);
+    for (int n = 0; n < 10000; ++n) landmarks += "[[landmark]]\n";
+    EXPECT_THAT(errorOf(landmarks), HasSubstr("scene.toml:3: \"mesh\""));
+    EXPECT_THAT(errorOf("[terrain]\nbuiltin = true\n" + std::string(4000, 'k') + " = 1\n"),
+                AllOf(HasSubstr("kkk...\" in [terrain]"), Not(HasSubstr(std::string(100, 'k')))));
 }
 
 // Whatever is in the file, it is read or refused with an Error.
