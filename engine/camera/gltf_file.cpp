@@ -14,7 +14,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/base/memory.h"
+#include "engine/base/memory_parts.h"
 #include "engine/base/named_file.h"
 #include "engine/base/regular_file.h"
 #include "engine/camera/gltf_size.h"
@@ -79,7 +79,8 @@ bool keepImageBytes(tinygltf::Image* image, int index, std::string*, std::string
 // twice for "./" and the name, which is taken for the file's own folder alone.
 class NamedFiles {
 public:
-    explicit NamedFiles(std::filesystem::path file) : mFile(std::move(file)) {}
+    explicit NamedFiles(std::filesystem::path file)
+        : mFile(std::move(file)), mMemory(mFile.string(), "split the model") {}
 
     tinygltf::FsCallbacks callbacks() {
         return {
@@ -104,15 +105,16 @@ private:
                         "put both into one folder, and name it without a path");
         return place->string();
     }
-    std::vector<unsigned char> bytesOf(const std::string& path) const {
+    std::vector<unsigned char> bytesOf(const std::string& path) {
         RegularFile in(path);
-        checkMemory(path, static_cast<double>(in.size()), "split the model");
+        mMemory.take(static_cast<double>(in.size()));
         std::vector<unsigned char> bytes(in.size());
         bytes.resize(in.read(bytes.data(), bytes.size()));
         return bytes;
     }
 
     std::filesystem::path mFile;
+    MemoryParts mMemory;
 };
 
 std::vector<int> rootsOf(const GltfFile& file) {

@@ -13,7 +13,7 @@
 #include <map>
 
 #include "engine/base/error.h"
-#include "engine/base/memory.h"
+#include "engine/base/memory_parts.h"
 #include "engine/camera/gltf_file.h"
 #include "engine/image/image_file.h"
 
@@ -24,6 +24,7 @@ constexpr const char* kMeshAdvice = "export the mesh again";
 constexpr std::size_t kMaxVertices = 1u << 30;
 constexpr std::size_t kTellEach = 1u << 16;  // vertices
 constexpr std::size_t kTellEachPart = 64;
+constexpr double kTexelBytes = sizeof(PackedColor) * 4.0 / 3;  // with its coarser levels
 
 // Which of a vertex's texture coordinates count, and how they are placed (KHR_texture_transform).
 struct TexturePlaces {
@@ -60,7 +61,10 @@ TexturePlaces texturePlacesOf(const tinygltf::TextureInfo& texture) {
 
 class MeshReader {
 public:
-    MeshReader(const GltfFile& file, Progress& progress) : mFile(file), mProgress(progress) {}
+    MeshReader(const GltfFile& file, Progress& progress)
+        : mFile(file),
+          mProgress(progress),
+          mPictures(file.name, "leave pictures out, or make them smaller") {}
 
     TriangleMesh read() {
         readMaterials();
@@ -99,7 +103,8 @@ private:
     const GltfFile& mFile;
     Progress& mProgress;
     TriangleMesh mMesh;
-    std::map<int, int> mTextures;               // of the mesh, by the image that they are of
+    std::map<int, int> mTextures;  // of the mesh, by the image that they are of
+    MemoryParts mPictures;
     std::vector<TexturePlaces> mTexturePlaces;  // of each material's base colour texture
 };
 
@@ -200,8 +205,9 @@ int MeshReader::readImage(int source, const std::string& place) {
     const std::span<const unsigned char> bytes = image.bufferView >= 0
                                                      ? bufferViewBytes(mFile, image.bufferView, place)
                                                      : std::span(mFile.imageBytes[source]);
-    mMesh.textures.emplace_back(decodeColorImage(bytes, mFile.name, fmt::format("image {}", source)),
-                                glm::dvec2(0), glm::dvec2(1));
+    const Plane<PackedColor> picture = decodeColorImage(bytes, mFile.name, fmt::format("image {}", source));
+    mPictures.take(kTexelBytes * picture.width() * picture.height());
+    mMesh.textures.emplace_back(picture, glm::dvec2(0), glm::dvec2(1));
     return known->second;
 }
 

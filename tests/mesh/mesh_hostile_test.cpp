@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 
 #include "engine/camera/gltf_file.h"
@@ -10,6 +11,7 @@
 #include "engine/mesh/mesh_file.h"
 #include "tests/camera/temporary_folder.h"
 #include "tests/support/error_of.h"
+#include "tests/support/held_memory.h"
 
 namespace stereonav {
 namespace {
@@ -41,22 +43,22 @@ TEST(HostileMesh, PrimitivesAreCountedAsOftenAsNodesShowThem) {
     EXPECT_THAT(errorFor(3), HasSubstr("expected a mesh with triangles, found none"));
 }
 
-TEST(HostileMesh, APictureIsDecodedOnceForAllThatShowIt) {
-    const TemporaryFolder folder;
+// A square picture many times, and a material with a texture of its own for each primitive.
+tinygltf::Model pictured(int pictures, int side, int materials) {
     tinygltf::Model model;
     model.asset.version = "2.0";
     const std::vector<float> positions{0, 0, 0, 4, 0, 0, 0, 0, -2}, uvs{0, 1, 1, 1, 0, 0};
     const int places = addFloats(model, positions, 3, true), texturePlaces = addFloats(model, uvs, 2, false);
-    for (int image = 0; image < 2; ++image) {
+    const int bytes = addBytes(model, encodeColorImage(Plane<PackedColor>(side, side), ".png"));
+    for (int image = 0; image < pictures; ++image) {
         model.images.emplace_back();
-        model.images[image].bufferView =
-            addBytes(model, encodeColorImage(Plane<PackedColor>(4 + image, 2), ".png"));
+        model.images[image].bufferView = bytes;
         model.images[image].mimeType = "image/png";
     }
     model.meshes.emplace_back();
-    for (int n = 0; n < 6; ++n) {
+    for (int n = 0; n < materials; ++n) {
         model.textures.emplace_back();
-        model.textures[n].source = n % 2;
+        model.textures[n].source = n % pictures;
         model.materials.emplace_back();
         model.materials[n].pbrMetallicRoughness.baseColorTexture.index = n;
         tinygltf::Primitive primitive;
@@ -70,10 +72,26 @@ TEST(HostileMesh, APictureIsDecodedOnceForAllThatShowIt) {
     model.nodes[0].mesh = 0;
     model.scenes.emplace_back();
     model.scenes[0].nodes = {0};
-    writeGltf(folder / "a.glb", model);
+    return model;
+}
+
+TEST(HostileMesh, APictureIsDecodedOnceForAllThatShowIt) {
+    const TemporaryFolder folder;
+    writeGltf(folder / "a.glb", pictured(2, 4, 6));
     const TriangleMesh mesh = readMesh(folder / "a.glb");
     EXPECT_EQ(mesh.textures.size(), 2u);
     for (int n = 0; n < 6; ++n) EXPECT_EQ(mesh.materials.at(n).texture, n % 2);
+}
+
+// None of them is worth asking for alone.
+TEST(HostileMesh, ManySmallPicturesAreAskedForTogether) {
+    const TemporaryFolder folder;
+    writeGltf(folder / "a.glb", pictured(120, 300, 120));  // half a megabyte each
+    setenv("STEREONAV_MEMORY", fmt::format("{:.0f}", test::bytesHeld() + 20e6).c_str(), 1);
+    const std::string error = test::errorOf([&] { readMesh(folder / "a.glb"); });
+    unsetenv("STEREONAV_MEMORY");
+    EXPECT_THAT(error, HasSubstr("a.glb: needs 4 MB of memory"));
+    EXPECT_EQ(readMesh(folder / "a.glb").textures.size(), 120u);
 }
 
 }  // namespace
