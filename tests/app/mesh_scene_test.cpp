@@ -70,11 +70,6 @@ TEST_F(MeshScene, ATextureThatIsNoPictureIsOneLine) {
         EXPECT_EQ(linesIn(done.err), 1) << done.err;
         EXPECT_NE(done.err.find("hills.glb:image 0: is not a picture"), std::string::npos) << done.err;
     }
-    const Outcome sky =
-        run({"render", "--sky", input("sky.png", dicom), "--size", "64x48", "--out", "a.png"});
-    EXPECT_EQ(sky.status, 1);
-    EXPECT_EQ(linesIn(sky.err), 1) << sky.err;
-    EXPECT_NE(sky.err.find("sky.png: is not a picture"), std::string::npos) << sky.err;
     EXPECT_TRUE(std::filesystem::is_empty(place()));
 }
 

@@ -1,38 +1,29 @@
 // What a helper can not do, whoever has taken it over.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "engine/base/helper_program.h"
 #include "engine/base/sanitizers.h"
 
 namespace stereonav {
 namespace {
 
-class HelperSandbox : public testing::TestWithParam<const char*> {
-protected:
-    void SetUp() override {
-        if (kAddressSanitizer || kThreadSanitizer)
-            GTEST_SKIP() << "sanitizers open files and map memory as they like";
-    }
-};
+constexpr const char* kWaysOut[] = {"open", "create", "stat", "remove", "socket", "unix",
+                                    "fork", "exec",   "kill", "trace",  "limits", "limits of its owner",
+                                    "code"};
 
-TEST_P(HelperSandbox, HasNoSuchWayOut) {
+TEST(HelperSandbox, HasNoWayOut) {
+    if (kAddressSanitizer || kThreadSanitizer)
+        GTEST_SKIP() << "sanitizers open files and map memory as they like";
     HelperProgram helper("test_helper", "by this test");
-    const HelperAnswer answer = helper.ask(std::string("try ") + GetParam(), {1000});
-    EXPECT_EQ(answer.kind, HelperAnswer::Kind::Given) << answer.text;
-    EXPECT_EQ(answer.text, "Operation not permitted");
+    for (const std::string way : kWaysOut) {
+        const HelperAnswer answer = helper.ask("try " + way, {1000});
+        EXPECT_EQ(answer.kind, HelperAnswer::Kind::Given) << way << ": " << answer.text;
+        EXPECT_EQ(answer.text, "Operation not permitted") << way;
+    }
     EXPECT_EQ(helper.ask("echo a", {1000}).text, "a") << "it goes on";
 }
-
-std::string nameOfWay(const testing::TestParamInfo<const char*>& way) {
-    std::string name = way.param;
-    for (char& c : name) c = c == ' ' ? '_' : c;
-    return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Ways, HelperSandbox,
-                         testing::Values("open", "create", "stat", "remove", "socket", "unix", "fork", "exec",
-                                         "kill", "trace", "limits", "limits of its owner", "code"),
-                         nameOfWay);
 
 }  // namespace
 }  // namespace stereonav

@@ -11,12 +11,15 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <string>
 
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
 #include "engine/math/luminance.h"
 #include "probe_pictures.h"
 #include "sphere_quadrature.h"
+#include "tests/camera/temporary_folder.h"
+#include "tests/support/error_of.h"
 
 namespace stereonav {
 namespace {
@@ -316,6 +319,17 @@ TEST(LightProbe, APictureIsSeenFromInside) {
 
 TEST(LightProbe, AFileThatIsMissing) {
     EXPECT_THROW(readLightProbe("/nowhere/probe.hdr"), Error);
+}
+
+// DICOM by its name in its place; the library behind pictures knows that, too.
+TEST(LightProbe, AFileThatIsNoPicture) {
+    const TemporaryFolder folder;
+    for (const char* name : {"sky.hdr", "sky.png"}) {
+        std::ofstream(folder / name, std::ios::binary)
+            << std::string(128, '\0') << "DICM" << std::string(99, 'a');
+        EXPECT_THAT(test::errorOf([&] { readLightProbe(folder / name); }),
+                    AllOf(HasSubstr(std::string(name) + ": is not a picture"), Not(HasSubstr("\n"))));
+    }
 }
 
 }  // namespace
