@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "engine/base/memory_limit.h"
 
 namespace stereonav {
 namespace fs = std::filesystem;
@@ -68,7 +69,12 @@ double taken() {
     return 1024 * valueIn("/proc/self/status", "RssAnon:", 0);
 }
 
-std::atomic<double> limitOfAll = 0;  // 0: none
+// This program's own, or in a module that of the program.
+std::atomic<std::atomic<double>*>& limitUsed() {
+    static std::atomic<double> own = 0;
+    static std::atomic<std::atomic<double>*> used = &own;
+    return used;
+}
 
 double leftOf(double limit) {
     return std::max(0.0, limit - taken());
@@ -76,7 +82,7 @@ double leftOf(double limit) {
 
 // Of the user's own limits.
 double leftOfWish() {
-    const double limit = limitOfAll, left = limit > 0 ? leftOf(limit) : kUnlimited;
+    const double limit = memoryLimit(), left = limit > 0 ? leftOf(limit) : kUnlimited;
     const char* text = std::getenv("STEREONAV_MEMORY");
     if (!text) return left;
     char* end = nullptr;
@@ -88,8 +94,16 @@ double leftOfWish() {
 
 }  // namespace
 
+std::atomic<double>& memoryLimit() {
+    return *limitUsed().load();
+}
+
+void shareMemoryLimit(std::atomic<double>& program) {
+    limitUsed() = &program;
+}
+
 void limitMemory(double bytes) {
-    limitOfAll = bytes;
+    memoryLimit() = bytes;
 }
 
 double availableMemory(const fs::path& root) {

@@ -17,6 +17,7 @@
 #include "engine/base/error.h"
 #include "engine/base/lone_loops.h"
 #include "engine/base/loop_watch.h"
+#include "engine/base/memory_limit.h"
 #include "engine/base/stop.h"
 
 namespace stereonav {
@@ -28,6 +29,7 @@ struct Arena {
     std::unique_ptr<tbb::global_control> limit;
     std::shared_ptr<tbb::task_arena> tasks;
     void* const stop = stopOfThisProgram();
+    std::atomic<double>& memory = memoryLimit();
     LoopLook look;                          // loop_watch.h
     bool counts = false;                    // whether a loop of the first thread is counted
     int pieces = 1;                         // of it
@@ -90,6 +92,7 @@ void shareLoops(void* program) {
     auto* const arena = static_cast<Arena*>(program);
     Arena::used() = arena;
     shareStop(arena->stop);
+    shareMemoryLimit(arena->memory);
 }
 
 void watchLoops(LoopLook look) {
