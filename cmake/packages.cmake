@@ -20,6 +20,7 @@ find_library(STB_LIBRARY stb REQUIRED)
 find_file(STEREONAV_FONT DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truetype/dejavu dejavu TTF REQUIRED)
 if(STEREONAV_TERRAIN)
   find_package(GDAL CONFIG REQUIRED)
+  pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)  # the one that GDAL reads netCDF with
   find_package(toml11 CONFIG REQUIRED)
 endif()
 if(STEREONAV_DISPLAY)

@@ -35,6 +35,8 @@ public:
         virtual bool mustBeReadAgain() = 0;
         virtual void checkHeights(double verticalScale) const = 0;
         virtual std::uint64_t identity() const = 0;
+        virtual double bytesOfFiles() const = 0;
+        virtual double bytesOfBlock() const = 0;
         virtual bool isPacked() const = 0;
         virtual bool readSpread(double time_ms, double most_ms, const FillBetween& fill) = 0;
     };
@@ -87,6 +89,11 @@ public:
     // Names the content: path, size and time of change of each file that it is made of, overviews and the
     // sources of virtual rasters among them.
     std::uint64_t identity() const { return mReader->identity(); }
+    // Of all these files, on disk.
+    double bytesOfFiles() const { return mReader->bytesOfFiles(); }
+
+    // Of memory, that a block takes while it is read.
+    double bytesOfBlock() const { return mReader->bytesOfBlock(); }
 
 private:
     std::unique_ptr<Reader> mReader;

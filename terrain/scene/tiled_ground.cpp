@@ -45,11 +45,25 @@ void checkRoom(const std::filesystem::path& dem, const std::filesystem::path& pl
                 "make room, or name another place for the cache with XDG_CACHE_HOME");
 }
 
+// Ground that its file holds in a few bytes, or not at all: said before it takes room.
+void noteSize(const std::filesystem::path& dem, const DemRows& rows, const std::filesystem::path& place,
+              const glm::ivec2& size, Progress& progress) {
+    constexpr double kWorthAWord = 16e6, kOften = 16;
+    const auto bytes = static_cast<double>(TileFilePlan(size).byteCount());
+    const double there = rows.bytesOfFiles();
+    if (bytes <= kWorthAWord || bytes <= kOften * there) return;
+    progress.note(fmt::format(
+        "{}: holds {} x {} samples in {:.3g} MB, and takes {} of disk in {}, until it is removed there",
+        dem.string(), size.x, size.y, there / 1e6, memoryText(bytes), place.parent_path().string()));
+}
+
 // Anew; twice where only all samples tell which of them are missing.
 void makeStore(const std::filesystem::path& dem, DemRows& rows, const TileSource& source,
                const std::filesystem::path& place, Progress& progress) {
     checkRoom(dem, place, source.size);
-    checkMemory("tiles of the ground", bytesOfMaking(source.size, source.rows), "give more memory");
+    checkMemory(dem.string(), bytesOfMaking(source.size, source.rows) + rows.bytesOfBlock(),
+                "give more memory");
+    noteSize(dem, rows, place, source.size, progress);
     writeFileAtomically(
         place,
         [&](const std::filesystem::path& temporary) {

@@ -68,7 +68,7 @@ bool needsDoubles(GDALDataType type) {
 // ends.
 std::string wrapped(const FolderFile& file, GDALDataset& dataset, const char* type) {
     static std::atomic<int> count = 0;
-    const std::string name = fmt::format("/vsimem/stereonav_part_{}.vrt", count++);
+    const std::string name = fmt::format("{}{}.vrt", kOwnVirtualRasters, count++);
     ProgramWords words;
     words.add("-of").add("VRT").add("-b").add(std::to_string(file.band.number)).add("-ot").add(type);
     if (file.band.nodata) words.add("-a_nodata").add(fmt::format("{:.17g}", *file.band.nodata));
@@ -151,7 +151,7 @@ OpenedDem openFolder(const std::filesystem::path& folder, const GdalMessages& me
     for (FolderFile& file : files) {
         opened.files.push_back(file.file);
         const std::filesystem::path whole = std::filesystem::absolute(file.file);
-        const GdalDataset dataset = openRaster(whole, messages, kExpected, kAdvice);
+        const GdalDataset dataset = openRaster(whole, messages, kExpected, kAdvice, &opened.notes);
         if (customary && !file.band.nodata) file.band.nodata = kCustomaryMissing;
         names.add(wrapped(file, *dataset, doubles ? "Float64" : "Float32"));
     }
@@ -166,7 +166,7 @@ OpenedDem openFolder(const std::filesystem::path& folder, const GdalMessages& me
         throwMisfit(folder, "", "its files do not make one ground" + messages.reason(folder),
                     "join them with gdalwarp, and name what that gives");
     meanAsTheFiles(*opened.dataset, files.front(), messages);
-    opened.notes = std::move(choice.notes);
+    opened.notes.insert(opened.notes.begin(), choice.notes.begin(), choice.notes.end());
     return opened;
 }
 
@@ -188,7 +188,8 @@ bool isWhole(GDALDataset& dataset, const GdalMessages& messages) {
 std::filesystem::path damagedFileIn(const std::filesystem::path& folder) {
     for (const std::filesystem::path& file : elevationFilesIn(folder)) {
         const GdalMessages messages;
-        const GdalDataset dataset(GDALDataset::Open(file.string().c_str(), GDAL_OF_RASTER, rasterDrivers()));
+        const GdalDataset dataset(
+            GDALDataset::Open(nameForGdal(file).c_str(), GDAL_OF_RASTER, rasterDrivers()));
         if (!dataset || !isWhole(*dataset, messages)) return file;
     }
     return {};
@@ -221,7 +222,7 @@ OpenedDem openDem(const std::filesystem::path& place, const GdalMessages& messag
     std::error_code failed;
     if (std::filesystem::is_directory(place, failed)) return openFolder(place, messages);
     OpenedDem opened;
-    opened.dataset = openRaster(place, messages, kExpected, kAdvice);
+    opened.dataset = openRaster(place, messages, kExpected, kAdvice, &opened.notes);
     return opened;
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
+#include "terrain/read/gdal/block_memory.h"
 #include "terrain/read/gdal/coded_tile.h"
 #include "terrain/read/gdal/dem_open.h"
 #include "terrain/read/gdal/dem_placement.h"
@@ -20,23 +21,23 @@
 namespace stereonav {
 namespace {
 
-// Bytes at once: while the samples are read (a run of rows in double precision, GDAL's blocks), are
-// resampled, and afterwards.
-double bytesFor(double width, double height, double resampled, const BytesForSamples& after) {
+// Bytes at once: while the samples are read (a run of rows in double precision, GDAL's blocks, of which one
+// takes `block`), are resampled, and afterwards.
+double bytesFor(double width, double height, double resampled, double block, const BytesForSamples& after) {
     constexpr double kHeight = sizeof(float), kRun = 256 * (sizeof(double) + 1), kTaken = 1.0 / 8;
     const double read = kHeight * width * height, target = resampled > 0 ? resampled : width * height;
-    const double reading = read + width * kRun + std::min(read, 1.0 * kGdalBlocks);
+    const double reading = read + width * kRun + std::max(block, std::min(read, 1.0 * kGdalBlocks));
     const double resampling = resampled > 0 ? read + (kHeight + kTaken) * resampled : 0;
     return std::max({reading, resampling, after ? after(target) : kHeight * target});
 }
 
 void checkMemoryFor(const std::filesystem::path& file, const Georeference& source,
-                    const DemPlacement& placement, const BytesForSamples& after) {
+                    const DemPlacement& placement, double block, const BytesForSamples& after) {
     const double grid = 1.0 * placement.grid.width * placement.grid.height,
                  perSample = placement.asTheyAre ? 0 : grid / (1.0 * source.width * source.height);
     const auto needed = [&](double share) {
         const double width = share * source.width, height = share * source.height;
-        return bytesFor(width, height, perSample * width * height, after);
+        return bytesFor(width, height, perSample * width * height, block, after);
     };
     const double there = availableMemoryFor(needed(1));
     if (needed(1) <= there) return;
@@ -110,7 +111,7 @@ DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progres
     DemGrid dem;
     describeSource(*dataset, opened, file, dem);
     const DemPlacement placement = placementOf(dem.source, file, kReadAtOnce);
-    checkMemoryFor(file, dem.source, placement, after);
+    checkMemoryFor(file, dem.source, placement, bytesOfBlock(*dataset, dataset->GetDriverName()), after);
     Progress reading(progress, 0, placement.asTheyAre ? 1 : 0.5), placing(progress, 0.5, 1);
     DemSamples read = readSamples(*dataset, messages, file, verticalScale, reading);
     std::vector<float> samples = std::move(read.heights);

@@ -10,6 +10,7 @@
 #include "engine/base/stop.h"
 #include "terrain/raster/elevation_folder.h"
 #include "terrain/read/dem_rows.h"
+#include "terrain/read/gdal/block_memory.h"
 #include "terrain/read/gdal/coded_tile.h"
 #include "terrain/read/gdal/dem_open.h"
 #include "terrain/read/gdal/dem_placement.h"
@@ -130,8 +131,42 @@ public:
 
     std::uint64_t identity() const override {
         const GdalMessages messages;
+        Hash hash;
+        // How a folder's files are mixed counts too, and which, where some are left aside.
+        if (!mFiles.empty()) hash.add(std::string_view("-9999 is not mixed"));
+        if (!mFiles.empty() && mFiles.size() < elevationFilesIn(mFile).size())
+            for (const std::filesystem::path& file : mFiles) hash.add(std::string_view(file.native()));
+        if (mSamples && mSamples->band().scale < 0) hash.add(std::string_view("depths are below 0"));
+        for (const std::filesystem::path& file : filesRead()) {
+            std::error_code code;
+            hash.add(std::string_view(file.native()));
+            hash.add(static_cast<std::int64_t>(std::filesystem::file_size(file, code)));
+            const auto time = std::filesystem::last_write_time(file, code);
+            hash.add(static_cast<std::int64_t>(time.time_since_epoch().count()));
+        }
+        return hash.value();
+    }
+
+    double bytesOfFiles() const override {
+        const GdalMessages messages;
+        double bytes = 0;
+        for (const std::filesystem::path& file : filesRead()) {
+            std::error_code code;
+            const auto more = std::filesystem::file_size(file, code);
+            if (!code) bytes += static_cast<double>(more);
+        }
+        return bytes;
+    }
+
+    double bytesOfBlock() const override {
+        return mDataset ? stereonav::bytesOfBlock(*mDataset, mDataset->GetDriverName()) : 0;
+    }
+
+private:
+    // All that it is made of, each once.
+    std::vector<std::filesystem::path> filesRead() const {
         std::vector<std::filesystem::path> files = elevationFilesIn(mFile);
-        if (files.empty()) files = filesOfVirtualRaster(mFile);
+        if (files.empty()) files = filesOfVirtualRaster(mFile).all;
         char** list = mDataset->GetFileList();
         for (char** name = list; name && *name; ++name) files.emplace_back(*name);
         CSLDestroy(list);
@@ -143,23 +178,9 @@ public:
         }
         std::sort(files.begin(), files.end());
         files.erase(std::unique(files.begin(), files.end()), files.end());
-        Hash hash;
-        // How a folder's files are mixed counts too, and which, where some are left aside.
-        if (!mFiles.empty()) hash.add(std::string_view("-9999 is not mixed"));
-        if (!mFiles.empty() && mFiles.size() < elevationFilesIn(mFile).size())
-            for (const std::filesystem::path& file : mFiles) hash.add(std::string_view(file.native()));
-        if (mSamples && mSamples->band().scale < 0) hash.add(std::string_view("depths are below 0"));
-        for (const std::filesystem::path& file : files) {
-            std::error_code code;
-            hash.add(std::string_view(file.native()));
-            hash.add(static_cast<std::int64_t>(std::filesystem::file_size(file, code)));
-            const auto time = std::filesystem::last_write_time(file, code);
-            hash.add(static_cast<std::int64_t>(time.time_since_epoch().count()));
-        }
-        return hash.value();
+        return files;
     }
 
-private:
     void readWhole() {
         Progress progress;
         mDem = readDem(mFile, 1, progress);

@@ -20,6 +20,7 @@ constexpr const char* kReadAgain = "fetch or export the file again";
 
 [[noreturn]] void throwCutOff(const std::filesystem::path& file, int row, int rows,
                               const GdalMessages& messages) {
+    messages.throwIfRefused(file);
     const std::string reason = messages.reason(file);
     if (const std::filesystem::path part = damagedFileIn(file); !part.empty())
         throw Error(part.string(), "", "the file is cut off or damaged" + reason, kReadAgain);

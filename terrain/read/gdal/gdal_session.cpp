@@ -8,13 +8,17 @@
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
 #include <cctype>
 #include <mutex>
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "terrain/raster/elevation_folder.h"
 #include "terrain/read/gdal/control_points.h"
+#include "terrain/read/gdal/guarded_drivers.h"
+#include "terrain/read/gdal/local_files.h"
 #include "terrain/read/gdal/netcdf_size.h"
 #include "terrain/read/gdal/raster_words.h"
 #include "terrain/read/gdal/vrt_check.h"
@@ -22,13 +26,19 @@
 namespace stereonav {
 namespace {
 
+// Else a twentieth of the machine's memory, some of which the heap keeps after a file is closed.
+void boundBlocks() {
+    constexpr double kShare = 0.25, kLeast = 4 << 20;
+    const bool wished = CPLGetConfigOption("GDAL_CACHEMAX", nullptr) != nullptr;
+    const auto most = static_cast<double>(wished ? GDALGetCacheMax64() : kGdalBlocks);
+    GDALSetCacheMax64(static_cast<GIntBig>(std::min(most, std::max(kLeast, kShare * availableMemory()))));
+}
+
 // Only formats that hold their data themselves: none that fetches another file or address is there even for
 // what a virtual raster names. MBTiles are read through SQLite.
 void registerDriversOnce() {
     static std::once_flag once;
     std::call_once(once, [] {
-        // Else a twentieth of the machine's memory, some of which the heap keeps after a file is closed.
-        if (!CPLGetConfigOption("GDAL_CACHEMAX", nullptr)) GDALSetCacheMax64(kGdalBlocks);
         for (void (*const add)() : {GDALRegister_GTiff,
                                     GDALRegister_SRTMHGT,
                                     GDALRegister_USGSDEM,
@@ -56,6 +66,11 @@ void registerDriversOnce() {
                                     GDALRegister_netCDF,
                                     GDALRegister_VRT})
             add();
+        guardDrivers(rasterDrivers());
+        constexpr const char* kDatabases[] = {"SQLite", nullptr};
+        guardDrivers(kDatabases);
+        keepGdalToLocalFiles();
+        boundBlocks();
     });
 }
 
@@ -117,8 +132,9 @@ GdalMessages::~GdalMessages() {
     CPLPopErrorHandler();
 }
 
-void GdalMessages::keep(CPLErr level, CPLErrorNum, const char* text) {
+void GdalMessages::keep(CPLErr level, CPLErrorNum number, const char* text) {
     auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
+    if (number == kRefused && self->mRefused.empty()) self->mRefused = text;
     constexpr std::size_t kLongest = 400;
     if (level >= CE_Failure && self->mFirstError.empty())
         self->mFirstError = std::string(text).substr(0, kLongest);
@@ -126,28 +142,43 @@ void GdalMessages::keep(CPLErr level, CPLErrorNum, const char* text) {
 
 std::string GdalMessages::reason(const std::filesystem::path& file) const {
     std::string text = mFirstError;
-    const std::string name = file.string();
-    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name)) {
-        std::size_t length = name.size();
-        while (at + length < text.size() &&
-               std::string_view(":, ").find(text[at + length]) != std::string_view::npos)
-            ++length;
-        text.erase(at, length);
-    }
+    for (const std::string& name : {nameForGdal(file), file.string()})
+        for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name)) {
+            std::size_t length = name.size();
+            while (at + length < text.size() &&
+                   std::string_view(":, ").find(text[at + length]) != std::string_view::npos)
+                ++length;
+            text.erase(at, length);
+        }
     return text.empty() ? text : " (" + text + ")";
 }
 
+void GdalMessages::throwIfRefused(const std::filesystem::path& file) const {
+    if (mRefused.empty()) return;
+    const std::string name = nameForGdal(file);
+    if (!mRefused.starts_with(name)) throw Error(file.string(), "", mRefused, "");
+    throw Error("", "", file.string() + mRefused.substr(name.size()), "");
+}
+
+std::string nameForGdal(const std::filesystem::path& file) {
+    std::error_code code;
+    const std::filesystem::path whole = std::filesystem::absolute(file, code);
+    return (code ? file : whole).string();
+}
+
 GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& messages,
-                       const std::string& expected, const std::string& advice) {
+                       const std::string& expected, const std::string& advice,
+                       std::vector<std::string>* notes) {
     checkFileForGdal(file, advice);
-    checkVirtualRaster(file);
+    const std::string note = outsideNote(file, filesOfVirtualRaster(file));
+    if (notes && !note.empty()) notes->push_back(note);
     std::error_code failed;
     if (const auto bytes = classicNetCdfSize(file);
         bytes && *bytes > std::filesystem::file_size(file, failed))
         throw Error(file.string(), "", "the file is cut off or damaged", "fetch or export the file again");
     // The driver unpacks zip itself, and no other archive.
     const bool gzipped = isPackedHeights(file) && std::tolower(file.native().back()) == 'z';
-    GdalDataset dataset = opened((gzipped ? "/vsigzip/" : "") + file.string());
+    GdalDataset dataset = opened((gzipped ? "/vsigzip/" : "") + nameForGdal(file));
     if (dataset && dataset->GetRasterCount() > 0) return dataset;
     char** const several = dataset ? dataset->GetMetadata("SUBDATASETS") : nullptr;
     if (dataset && std::string_view(dataset->GetDriverName()) == "netCDF")
@@ -156,6 +187,7 @@ GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& me
     if (CSLCount(several) > 2)  // a name and a description each
         throw Error(file.string(), "", "expected " + expected + ", found several rasters in one file",
                     "take one of them out, for example with gdal_translate, and name that");
+    if (!dataset) messages.throwIfRefused(file);
     std::string reason = messages.reason(file);
     if (reason.find("not recognized") != std::string::npos) reason.clear();
     throw Error(file.string(), "", "expected " + expected + ", found something else" + reason, advice);

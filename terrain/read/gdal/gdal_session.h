@@ -7,14 +7,15 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "terrain/raster/georeference.h"
 #include "terrain/read/dem_reader.h"
 
 namespace stereonav {
 
-// Bytes of blocks of files that GDAL keeps, unless the user says otherwise (GDAL_CACHEMAX). Files are read in
-// runs of rows: a row of blocks is enough.
+// Bytes of blocks of files that GDAL keeps, unless the user says otherwise (GDAL_CACHEMAX); at most a quarter
+// of the memory that can be had. Files are read in runs of rows: a row of blocks is enough.
 constexpr int kGdalBlocks = 64 << 20;
 
 // While it lives, GDAL's messages of this thread are kept here and nothing is printed.
@@ -28,11 +29,13 @@ public:
     bool hasError() const { return !mFirstError.empty(); }
     // " (what went wrong)", without the file's own name; "" when there was no error.
     std::string reason(const std::filesystem::path& file) const;
-    void clear() { mFirstError.clear(); }
+    // Where something that the file names was refused (guarded_drivers.h): throws Error that says so.
+    void throwIfRefused(const std::filesystem::path& file) const;
+    void clear() { mFirstError.clear(), mRefused.clear(); }
 
 private:
     static void CPL_STDCALL keep(CPLErr level, CPLErrorNum number, const char* text);
-    std::string mFirstError;
+    std::string mFirstError, mRefused;
 };
 
 struct CloseDataset {
@@ -43,10 +46,15 @@ using GdalDataset = std::unique_ptr<GDALDataset, CloseDataset>;
 // Throws Error unless it is a file with content on this machine.
 void checkFileForGdal(const std::filesystem::path& file, const std::string& advice);
 
+// The name that GDAL is given: whole, so that no driver takes it for words of its own.
+std::string nameForGdal(const std::filesystem::path& file);
+
 // A raster this program can read, checked to be a file with content. `expected` completes the
-// sentence "expected ..." and `advice` says what to give instead. Throws Error.
+// sentence "expected ..." and `advice` says what to give instead. notes: gets what a person should know of
+// it, a line each. Throws Error.
 GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& messages,
-                       const std::string& expected, const std::string& advice);
+                       const std::string& expected, const std::string& advice,
+                       std::vector<std::string>* notes = nullptr);
 
 // Where the raster lies, by its transform or its control points; `known` is set to whether the file says so
 // (else a unit a pixel, no system). The system is that of the plan, without heights. Throws Error for control

@@ -105,6 +105,7 @@ GroundPicture readPicture(GDALDataset& dataset, GdalMessages& messages, const st
     parts.color.resize(width, height);
     const WindowReader reader(dataset, window, width, height);
     const auto fail = [&] {
+        messages.throwIfRefused(file);
         throw Error(file.string(), "", "the picture is cut off or damaged" + messages.reason(file),
                     "fetch or export the file again");
     };
@@ -137,12 +138,14 @@ GroundPicture readPicture(GDALDataset& dataset, GdalMessages& messages, const st
 class GdalPicture final : public RasterPicture {
 public:
     GdalPicture(const std::filesystem::path& file, const std::string& expected, const std::string& advice)
-        : mFile(file), mDataset(openRaster(file, mMessages, expected, advice)) {}
+        : mFile(file), mDataset(openRaster(file, mMessages, expected, advice, &mNotes)) {}
 
     Georeference georeference(bool& known) override { return georeferenceOf(*mDataset, mFile, known); }
     PictureTone tone() override {
         checkIsPicture(*mDataset, mFile);
-        return pictureToneOf(*mDataset, pictureBandsOf(*mDataset, mFile), mFile);
+        PictureTone tone = pictureToneOf(*mDataset, pictureBandsOf(*mDataset, mFile), mFile);
+        tone.notes.insert(tone.notes.begin(), mNotes.begin(), mNotes.end());
+        return tone;
     }
     PictureTone wholeTone() override { return wholeToneOf(*mDataset->GetRasterBand(1)); }
     GroundPicture read(const PixelWindow& window, const glm::dvec2& shrink,
@@ -153,6 +156,7 @@ public:
 private:
     std::filesystem::path mFile;
     GdalMessages mMessages;
+    std::vector<std::string> mNotes;
     GdalDataset mDataset;
 };
 

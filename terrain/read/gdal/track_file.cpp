@@ -90,7 +90,8 @@ TrackFile readTrackFile(const std::filesystem::path& file) {
     registerTrackDrivers();
     checkFileForGdal(file, "name a track or a drawn line");
     GdalDataset dataset(GDALDataset::Open(
-        file.string().c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kTrackDrivers));
+        nameForGdal(file).c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kTrackDrivers));
+    if (!dataset) messages.throwIfRefused(file);
     if (!dataset)
         throw Error(file.string(), "", std::string("expected ") + kTrackFormats + ", found something else",
                     "tracks end in .gpx, drawn lines in .geojson or .json");
@@ -112,6 +113,7 @@ TrackFile readTrackFile(const std::filesystem::path& file) {
             addParts(*own, name, features++, 0, places, read);
         }
     }
+    messages.throwIfRefused(file);
     if (messages.hasError())
         throw Error(file.string(), "", "is damaged" + messages.reason(file), "write it again");
     if (read.lines.empty() && read.places.empty())

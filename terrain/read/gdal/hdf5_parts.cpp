@@ -1,0 +1,71 @@
+#include "terrain/read/gdal/hdf5_parts.h"
+
+#include <hdf5.h>
+
+#include "engine/base/error.h"
+
+namespace stereonav {
+namespace {
+
+// What HDF5 has open; its messages are not printed meanwhile.
+class Hdf5Id {
+public:
+    Hdf5Id(hid_t id, herr_t (*close)(hid_t)) : mId(id), mClose(close) {}
+    ~Hdf5Id() {
+        if (mId >= 0) mClose(mId);
+    }
+    Hdf5Id(const Hdf5Id&) = delete;
+    Hdf5Id& operator=(const Hdf5Id&) = delete;
+    operator hid_t() const { return mId; }
+
+private:
+    hid_t mId;
+    herr_t (*mClose)(hid_t);
+};
+
+class QuietHdf5 {
+public:
+    QuietHdf5() {
+        H5Eget_auto2(H5E_DEFAULT, &mPrint, &mData);
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }
+    ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, mPrint, mData); }
+    QuietHdf5(const QuietHdf5&) = delete;
+    QuietHdf5& operator=(const QuietHdf5&) = delete;
+
+private:
+    H5E_auto2_t mPrint = nullptr;
+    void* mData = nullptr;
+};
+
+bool liesElsewhere(hid_t place, const char* name) {
+    const Hdf5Id object(H5Oopen(place, name, H5P_DEFAULT), H5Oclose);
+    if (object < 0 || H5Iget_type(object) != H5I_DATASET) return false;
+    const Hdf5Id made(H5Dget_create_plist(object), H5Pclose);
+    return H5Pget_external_count(made) > 0 || H5Pget_layout(made) == H5D_VIRTUAL;
+}
+
+// 1 ends the visit.
+herr_t lookAtLink(hid_t place, const char* name, const H5L_info_t* link, void* found) {
+    const bool within = link->type == H5L_TYPE_HARD || link->type == H5L_TYPE_SOFT;
+    if (within && (link->type == H5L_TYPE_SOFT || !liesElsewhere(place, name))) return 0;
+    *static_cast<std::string*>(found) = name;
+    return 1;
+}
+
+}  // namespace
+
+void checkHdf5Parts(const std::string& name) {
+    const std::size_t from = name.starts_with('/') ? 0 : name.find('"') + 1;
+    const std::string file = name.substr(from, name.find('"', from) - from);
+    const QuietHdf5 quiet;
+    if (H5Fis_hdf5(file.c_str()) <= 0) return;
+    const Hdf5Id open(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    std::string found;
+    if (open < 0 || H5Lvisit(open, H5_INDEX_NAME, H5_ITER_NATIVE, lookAtLink, &found) < 0)
+        throw Error(file, "", "the file is cut off or damaged", "fetch or export the file again");
+    if (!found.empty())
+        throw Error(file, found, "leads to another file", "write all into one file, for example with nccopy");
+}
+
+}  // namespace stereonav
