@@ -107,6 +107,20 @@ void mendColonCache(Bytes input) {
     set(input, 32, hashOf(input.subspan(kHeader)));
 }
 
+// The raster that a virtual one names, or that metadata lies beside.
+fs::path gridBeside(const fs::path& file) {
+    const fs::path grid = file.parent_path() / "grid.asc";
+    if (!fs::exists(grid))
+        writeTextFile(grid,
+                      "ncols 3\nnrows 2\nxllcorner 500000\nyllcorner 4000000\ncellsize 30\n1 2 3\n4 5 6\n");
+    return grid;
+}
+
+void heights(const fs::path& file) {
+    Progress progress;
+    readDem(file, 1.0, progress);
+}
+
 constexpr Reader kReaders[] = {
     {"scene", "scene.toml", [](const fs::path& file) { readSceneFile(file); }},
     {"path-text", "flight.path", [](const fs::path& file) { readPath(file); }},
@@ -128,14 +142,17 @@ constexpr Reader kReaders[] = {
     {"nifti-gz", "study.nii.gz", study},
     {"metaimage", "study.mha", study},
     {"dicom", "study.dcm", study},
-    {"raster", "ground.tif",
+    {"raster", "ground.tif", heights},
+    {"raster-vrt", "ground.vrt",
      [](const fs::path& file) {
-         Progress progress;
-         readDem(file, 1.0, progress);
+         gridBeside(file);
+         heights(file);
      }},
     {"findings", "findings.json", [](const fs::path& file) { readFindings(file); }},
     {"report", "report.json", [](const fs::path& file) { readEarlierReport(file); }},
+    {"raster-aux", "grid.asc.aux.xml", [](const fs::path& file) { heights(gridBeside(file)); }},
     {"track", "track.gpx", [](const fs::path& file) { readTrackFile(file); }},
+    {"lines", "lines.geojson", [](const fs::path& file) { readTrackFile(file); }},
     {"bake", "light.bake", bake, mendBake},
     {"ground-light", "light.tlight", [](const fs::path& file) { loadTerrainLight(file, nullptr); }},
     {"colon-cache", "stereonav/colon-v7-0000000000000001.bin", colonCache, mendColonCache},

@@ -89,6 +89,30 @@ constexpr const char* kTrack =
     "<trkseg><trkpt lat=\"46\" lon=\"8\"><ele>500</ele></trkpt><trkpt lat=\"46.1\" lon=\"8\"/></trkseg>"
     "<trkseg/><trkseg><trkpt lat=\"46.2\" lon=\"8\"/></trkseg></trk></gpx>";
 
+constexpr const char* kLines =
+    R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)"
+    R"("features":[{"type":"Feature","properties":{"name":"t"},"geometry":{"type":"LineString",)"
+    R"("coordinates":[[15,36.1],[15.001,36.101]]}},{"type":"Feature","properties":{},"geometry":{"type":)"
+    R"("GeometryCollection","geometries":[{"type":"Point","coordinates":[15,36]}]}}]})";
+
+constexpr const char* kVirtualRaster =
+    "<VRTDataset rasterXSize=\"3\" rasterYSize=\"2\"><SRS>EPSG:32633</SRS>"
+    "<GeoTransform>500000,30,0,4000060,0,-30</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\">"
+    "<ComplexSource><SourceFilename relativeToVRT=\"1\">grid.asc</SourceFilename><SourceBand>1</SourceBand>"
+    "<SrcRect xOff=\"0\" yOff=\"0\" xSize=\"3\" ySize=\"2\"/><DstRect xOff=\"0\" yOff=\"0\" xSize=\"3\" "
+    "ySize=\"2\"/>"
+    "<ScaleRatio>2</ScaleRatio></ComplexSource></VRTRasterBand></VRTDataset>";
+constexpr const char* kRawBand =
+    "<VRTDataset rasterXSize=\"3\" rasterYSize=\"2\"><VRTRasterBand dataType=\"Byte\" band=\"1\" "
+    "subClass=\"VRTRawRasterBand\"><SourceFilename relativeToVRT=\"1\">grid.asc</SourceFilename>"
+    "<ImageOffset>4</ImageOffset><PixelOffset>1</PixelOffset><LineOffset>3</LineOffset>"
+    "</VRTRasterBand></VRTDataset>";
+constexpr const char* kMetadata =
+    "<PAMDataset><SRS>EPSG:32633</SRS><GeoTransform>500000,30,0,4000060,0,-30</GeoTransform>"
+    "<Metadata domain=\"OVERVIEWS\"><MDI key=\"OVERVIEW_FILE\">:::BASE:::grid.asc</MDI></Metadata>"
+    "<PAMRasterBand band=\"1\"><NoDataValue>4</NoDataValue><UnitType>ft</UnitType><Scale>2</Scale>"
+    "</PAMRasterBand></PAMDataset>";
+
 // Two segments in one layer, a third in another, as 3D Slicer writes them.
 constexpr const char* kSegments =
     "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 2 2 2\nspace: left-posterior-superior\n"
@@ -202,6 +226,10 @@ void writeSeeds(const fs::path& folder) {
     writeTextFile(folder / "landmark/seed", kTriangle);
     writeTextFile(folder / "landmark/sparse", kSparse);
     writeTextFile(folder / "track/seed", kTrack);
+    writeTextFile(folder / "lines/seed", kLines);
+    writeTextFile(folder / "raster-vrt/seed", kVirtualRaster);
+    writeTextFile(folder / "raster-vrt/raw", kRawBand);
+    writeTextFile(folder / "raster-aux/seed", kMetadata);
     writeTextFile(folder / "probe/seed",
                   std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n") + std::string(32, '\x80'));
     writePictures(folder);
