@@ -27,10 +27,10 @@ function(stereonav_part name)
 endfunction()
 
 stereonav_part(terrain OPTION STEREONAV_TERRAIN LINK terrain
-  SOURCES scene/terrain_loading.cpp scene/shown_terrain.cpp scene/medium_terrain.cpp scene/medium_of_terrain.cpp scene/terrain_type.cpp
-    scene/glance_terrain.cpp     command/bake_finer.cpp command/bake_terrain.cpp command/info_terrain.cpp command/mesh_command.cpp
-    scene/survey_*.cpp scene/ground_paint*.cpp command/viewshed_command.cpp command/measure_command.cpp
-    command/profile_command.cpp command/sun_command.cpp output/profile_chart.cpp)
+  SOURCES scene/terrain_*.cpp scene/ground_*.cpp scene/survey_*.cpp scene/shown_terrain.cpp scene/medium_terrain.cpp
+    scene/medium_of_terrain.cpp scene/glance_terrain.cpp
+    command/bake_finer.cpp command/bake_terrain.cpp command/info_terrain.cpp command/mesh_command.cpp command/viewshed_command.cpp
+    command/measure_command.cpp command/profile_command.cpp command/sun_command.cpp output/profile_chart.cpp)
 if(NOT STEREONAV_TERRAIN)
   # the sky over media, too; the options in scene files
   target_sources(program PRIVATE ${CMAKE_SOURCE_DIR}/terrain/light/sky_map.cpp ${CMAKE_SOURCE_DIR}/terrain/read/toml_document.cpp)
