@@ -28,6 +28,7 @@ public:
 
     const std::string& what() const { return mWhat; }
     bool running() const { return mProcess > 0; }
+    int processId() const { return mProcess; }
     // What was done before the wish to end came is not cancelled.
     bool cancelled() const { return mCancelled && (running() || mStatus != 0); }
     bool failed() const { return !running() && mStatus != 0 && !mCancelled; }

@@ -2,9 +2,9 @@
 #include "app/view/job.h"
 
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <future>
@@ -106,10 +106,11 @@ TEST(Job, EndsWithItsOwner) {
                            std::vector<std::string>{"play", "terrain", "--frames=1000000", "--hash"},
                            STEREONAV_PROGRAM);
     ASSERT_NO_FATAL_FAILURE(awaitProgress(*job));
+    const int process = job->processId();
     const std::future<void> end = std::async(std::launch::async, [&] { job.reset(); });
     EXPECT_TRUE(
         test::waitFor([&] { return end.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
-    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "no child is left";
+    EXPECT_EQ(kill(process, 0), -1) << "no child is left";
 }
 
 }  // namespace
