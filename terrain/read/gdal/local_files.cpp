@@ -87,11 +87,12 @@ bool isLocalPrefix(std::string_view prefix) {
 }
 
 void replaceFileSystems() {
-    static std::vector<VSIFilesystemHandler*> replaced;  // GDAL has no way to hand them back
+    // GDAL has no way to hand them back, and some are one under two names.
+    static auto* const replaced = new std::vector<VSIFilesystemHandler*>;
     char** const prefixes = VSIGetFileSystemsPrefixes();
     for (char** prefix = prefixes; prefix && *prefix; ++prefix) {
         if (**prefix == '\0' || isLocalPrefix(*prefix)) continue;
-        replaced.push_back(VSIFileManager::GetHandler(*prefix));
+        replaced->push_back(VSIFileManager::GetHandler(*prefix));
         VSIFileManager::InstallHandler(*prefix, new NoFiles);
     }
     CSLDestroy(prefixes);
