@@ -18,6 +18,7 @@
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/terrain_loading.h"
+#include "engine/base/cache.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/peers/peers.h"
@@ -108,7 +109,7 @@ int bakeTerrain(const BakeOptions& options) {
     if (finer > 0) settings.stride = asTheFirst(peers, strideWithinMemory(ground, settings).value_or(1));
     const std::filesystem::path file =
         options.out.empty() ? terrainLightCache(ground) : std::filesystem::path(options.out);
-    result.add("scene", options.scene.scene.empty() ? "terrain" : options.scene.scene);
+    result.addScene(options.scene.scene.empty() ? "terrain" : options.scene.scene);
     result.add("what", std::string(options.what == BakeKind::Openness ? "openness" : "transfer"));
     std::optional<TerrainLight> light;
     if (peers.first()) {
@@ -122,6 +123,7 @@ int bakeTerrain(const BakeOptions& options) {
             if (!light) return 1;
             const double seconds = watch.elapsed_ms() / 1000;
             saveTerrainLight(file, *light);
+            noteSource(file, options.scene.scene.empty() ? "terrain" : options.scene.scene);
             removeFinerOfOthers(file, light->key);
             bar.clear();
             tellBaked(*light, file, seconds, result);

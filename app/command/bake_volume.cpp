@@ -13,6 +13,7 @@
 #include "app/scene/colon_loading.h"
 #include "app/scene/light_loading.h"
 #include "app/scene/scene_loading.h"
+#include "engine/base/cache.h"
 #include "engine/base/error.h"
 #include "engine/base/stop.h"
 #include "engine/base/stopwatch.h"
@@ -71,7 +72,7 @@ void tellOf(CommandResult& result, const std::string& scene, const VolumeBakePla
         result.say("  nothing was to be done\n");
     result.say(fmt::format("  {}: {:.1f} MB\n", file.string(),
                            static_cast<double>(std::filesystem::file_size(file)) / 1e6));
-    result.add("scene", scene);
+    result.addScene(scene);
     result.add("what", std::string(nameOf(sums.shape().kind)));
     result.addFile("light", file);
     result.add("baked_before", done <= 0);
@@ -114,6 +115,7 @@ int bakeVolume(const BakeOptions& options) {
     const BakeEnd end = runBake(sums, sourceOf(lighter), goalOf(options), progress, keeping, &peers);
     const double seconds = watch.elapsed_ms() / 1000, done = samplesIn(sums) - before;
     if (done > 0 || !std::filesystem::exists(file)) writeBakeFile(file, identity, sums);
+    noteSource(file, options.scene.scene);
     bar.clear();
     peers.throwIfFailed();
     tellOf(result, options.scene.scene, plan, sums, done, seconds, file);

@@ -12,8 +12,8 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/base/cache.h"
 #include "engine/base/error.h"
-#include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/thread_priority.h"
 
@@ -105,7 +105,7 @@ Job::~Job() {
 std::filesystem::path placeOfBake(const std::vector<std::string>& words) {
     Hash hash;
     for (const std::string& word : words) hash.add(word).add(std::string_view("\n"));
-    return cacheFolder() / fmt::format("window_{:016x}.light", hash.value());
+    return keptFile(fmt::format("window_{:016x}.light", hash.value()));
 }
 
 JobFile::JobFile(std::filesystem::path path) : mPath(std::move(path)), mUnfinished(mPath.c_str()) {}

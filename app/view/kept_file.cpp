@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/new_file.h"
+#include "engine/base/own_folder.h"
 #include "engine/text/json_check.h"
 
 namespace stereonav {
@@ -16,12 +16,15 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-fs::path folderFrom(const char* variable, const char* besideHome) {
-    // Elsewhere than from the root its value does not count.
-    if (const char* xdg = std::getenv(variable); xdg && *xdg == '/') return fs::path(xdg) / "stereonav";
-    if (const char* home = std::getenv("HOME"); home && *home == '/')
-        return fs::path(home) / besideHome / "stereonav";
-    return {};
+constexpr const char* kMoveKept = "name other places with XDG_DATA_HOME, XDG_STATE_HOME and XDG_CONFIG_HOME";
+
+// Calls act(folder, advice) with each folder of the program's own that the file lies in.
+void eachOwnFolder(const fs::path& file, void (*act)(const fs::path&, const std::string&)) {
+    const fs::path folder = file.parent_path();
+    for (const fs::path& top : {dataFolder(), stateFolder(), configFolder()})
+        if (!top.empty() && top != folder && folder.native().starts_with(top.native() + "/"))
+            act(top, kMoveKept);
+    act(folder, kMoveKept);
 }
 
 std::string utf8(const std::string& text) {
@@ -47,20 +50,21 @@ bool isUtf8(const std::string& text) {
 }
 
 fs::path dataFolder() {
-    return folderFrom("XDG_DATA_HOME", ".local/share");
+    return ownFolder("XDG_DATA_HOME", ".local/share");
 }
 
 fs::path stateFolder() {
-    return folderFrom("XDG_STATE_HOME", ".local/state");
+    return ownFolder("XDG_STATE_HOME", ".local/state");
 }
 
 fs::path configFolder() {
-    return folderFrom("XDG_CONFIG_HOME", ".config");
+    return ownFolder("XDG_CONFIG_HOME", ".config");
 }
 
 std::optional<std::string> readKept(const fs::path& file) {
     std::error_code code;
     if (file.empty() || fs::status(file, code).type() == fs::file_type::not_found) return std::nullopt;
+    eachOwnFolder(file, checkOwnFolder);
     checkFileToRead(file);
     if (const std::uintmax_t size = fs::file_size(file, code); !code && size > kMostKeptBytes)
         throw Error(file.string(), "", "expected at most 16 MB, got more", "move it away: a new one is made");
@@ -71,10 +75,8 @@ void writeKept(const fs::path& file, const std::string& bytes) {
     if (file.empty())
         throw Error("", "", "there is no folder to keep it in",
                     "set HOME, or the XDG folders, to a full path");
-    std::error_code code;
-    if (fs::create_directories(file.parent_path(), code))
-        fs::permissions(file.parent_path(), fs::perms::owner_all, code);
-    PendingFile pending(file, Over::Anything);  // it was read, and is the program's own
+    eachOwnFolder(file, makeOwnFolder);
+    PendingFile pending(file, Over::Anything, Readers::UserAlone);  // it was read, and is the program's own
     std::ofstream out(pending.temporary(), std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     out.close();
@@ -83,6 +85,11 @@ void writeKept(const fs::path& file, const std::string& bytes) {
 }
 
 fs::path setAside(const fs::path& file) {
+    try {
+        eachOwnFolder(file, checkOwnFolder);
+    } catch (const Error&) {
+        return {};  // nothing is changed in folders of others
+    }
     fs::path aside = file;
     aside += ".damaged";
     aside = freePlace(aside);

@@ -7,6 +7,7 @@
 
 #include "app/options/scene_types.h"
 #include "app/view/viewer.h"
+#include "engine/base/cache.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/image/stereo_picture_file.h"
@@ -70,15 +71,14 @@ void Viewer::makeMovie(const MovieWish& movie) {
         settings["size"] = {fmt::format("{}x{}", movie.width, movie.height)};
         settings["mode"] = {modeOfFiles()};
         std::vector<std::string> words = commandWords(command::kPlay, settings);
-        std::error_code code;
         // Whole, so that it is told where the movie is.
         const std::filesystem::path wanted = std::filesystem::absolute(movie.file).lexically_normal();
         const bool video = wanted.has_extension();
         auto held =
             std::make_unique<HeldPlace>(wanted, video ? HeldPlace::Kind::File : HeldPlace::Kind::Folder);
         const std::filesystem::path place = held->path();
-        mJobPath = std::make_unique<JobFile>(freePlace(std::filesystem::temp_directory_path(code) /
-                                                       fmt::format("stereonav_{}.gltf", getpid())));
+        // Named as temporaries are, so that it goes though the window crashes (removeLeftovers()).
+        mJobPath = std::make_unique<JobFile>(keptFile(fmt::format(".flight.{}.window.part.gltf", getpid())));
         writePath(mJobPath->path(), mSession->path());
         words.push_back("--path=" + mJobPath->path().string());
         words.push_back((video ? "--video=" : "--out=") + place.string());

@@ -256,10 +256,11 @@ FoundColon unpacked(std::span<const char> bytes) {
     return found;
 }
 
-fs::path cacheFile(std::uint64_t key) {
+}  // namespace
+
+fs::path colonCacheFile(std::uint64_t key) {
     return keptFile(fmt::format("colon-v{}-{:016x}.bin", kVersion, key));
 }
-}  // namespace
 
 std::uint64_t builtInColonKey(const BuiltInColonSetting& setting) {
     Hash hash;
@@ -287,7 +288,7 @@ std::uint64_t colonCacheKey(std::uint64_t study, const ColonOptions& options) {
 
 std::optional<FoundColon> readColonCache(std::uint64_t key, bool& damaged) {
     damaged = false;
-    const fs::path file = cacheFile(key);
+    const fs::path file = colonCacheFile(key);
     std::error_code code;
     const std::uintmax_t size = fs::file_size(file, code);
     if (code) return std::nullopt;
@@ -343,9 +344,9 @@ bool writeColonCache(std::uint64_t key, const FoundColon& found) {
         out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         out.close();
         if (!out)
-            throw Error(cacheFile(key).string(), "", "can not be written", "check the room on the disk");
+            throw Error(colonCacheFile(key).string(), "", "can not be written", "check the room on the disk");
     };
-    return keep(cacheFile(key), [&](const fs::path& file) { writeFileAtomically(file, write); });
+    return keep(colonCacheFile(key), [&](const fs::path& file) { writeFileAtomically(file, write); });
 }
 
 }  // namespace stereonav

@@ -35,6 +35,9 @@ std::uint64_t builtInColonKey(const BuiltInColonSetting& setting);
 // Of everything that finding depends on: the study (its content's key) and the settings.
 std::uint64_t colonCacheKey(std::uint64_t study, const ColonOptions& options);
 
+// Where it lies.
+std::filesystem::path colonCacheFile(std::uint64_t key);
+
 // Nothing where there is none, or it is damaged or not of this key: `damaged` tells which.
 std::optional<FoundColon> readColonCache(std::uint64_t key, bool& damaged);
 

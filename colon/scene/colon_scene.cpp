@@ -16,6 +16,7 @@
 #include "colon/scene/saved_lumen.h"
 #include "colon/scene/transfer_presets.h"
 #include "colon/segmentation/lumen_pieces.h"
+#include "engine/base/cache.h"
 #include "engine/base/error.h"
 #include "engine/volume/distance_transform.h"
 
@@ -55,7 +56,7 @@ LumenField lumenOfGrey(Study& study, const ColonOptions& options, std::vector<st
         options.keepsStudy
             ? segmentColon(study.grey, options.segmentation, finding, std::move(study.air))
             : segmentColon(std::move(study.grey), options.segmentation, finding, std::move(study.air));
-    if (keeps) notes.push_back(saveLumen(lumen, key));
+    if (keeps) notes.push_back(saveLumen(lumen, key, options.study));
     return lumen;
 }
 
@@ -334,6 +335,7 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
         if (std::optional<FoundColon> kept = readColonCache(key, damaged)) {
             const bool reads = options.keepsStudy && !kept->ofMask;
             Progress making(progress, 0, reads ? 0.5 : 1), reading(progress, 0.5, 1);
+            noteSource(colonCacheFile(key), builtIn ? "colon" : options.study);
             ColonScene scene = sceneOf(std::move(*kept), options, making);
             scene.name = name;
             if (reads) scene.study = readOrMake(options, 0, scene.polyps, reading).grey;
@@ -361,7 +363,8 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
     Progress finding(progress, 0.5, 0.9), making(progress, 0.9, 1);
     FoundColon found = inTheNameOf(options, [&] { return findColon(study, options, finding); });
     found.polyps = std::move(polyps);
-    if (options.cache) writeColonCache(key, found);
+    if (options.cache && writeColonCache(key, found))
+        noteSource(colonCacheFile(key), builtIn ? "colon" : options.study);
     ColonScene scene = sceneOf(std::move(found), options, making);
     scene.name = name;
     scene.study = std::move(study.grey);  // nothing of a mask

@@ -110,7 +110,7 @@ fs::path lumenBeside(const fs::path& study) {
     return whole.parent_path() / (name.string() + "_lumen.nrrd");
 }
 
-std::string saveLumen(const LumenField& found, std::uint64_t key) {
+std::string saveLumen(const LumenField& found, std::uint64_t key, const fs::path& study) {
     const fs::path file = fileInCache(key);
     const MaskVolume& lumen = found.lumen;
     HeaderFields fields = {{kKeyField, hexOf(key)}, {kHashField, hashOf(lumen.frame, lumen.values.data())}};
@@ -119,6 +119,7 @@ std::string saveLumen(const LumenField& found, std::uint64_t key) {
     const bool kept = keep(file, [&](const fs::path& place) {
         writeMask(place, lumen, "the lumen of a colon, segments numbered from the rectum", fields);
     });
+    if (kept && !study.empty()) noteSource(file, study);
     if (kept) return "lumen kept as " + file.string();
     return "the lumen could not be kept: " + file.string() + " can not be written";
 }

@@ -24,8 +24,8 @@ void addChoices(const PieceChoices& choices, Hash& hash);
 std::filesystem::path lumenBeside(const std::filesystem::path& study);
 
 // Keeps the segments' numbers (compressed NRRD, with the key, a hash of the voxels and the lumen's notes in
-// its header) in the cache. Says in one line where, or that it could not be kept.
-std::string saveLumen(const LumenField& found, std::uint64_t key);
+// its header) in the cache, noted as the study's. Says in one line where, or that it could not be kept.
+std::string saveLumen(const LumenField& found, std::uint64_t key, const std::filesystem::path& study = {});
 
 struct SavedLumen {
     std::optional<LumenField> lumen;

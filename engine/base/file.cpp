@@ -8,11 +8,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/files_read.h"
 #include "engine/base/memory.h"
+#include "engine/base/own_folder.h"
 #include "engine/base/regular_file.h"
 
 namespace stereonav {
@@ -55,11 +57,28 @@ fs::path folderOf(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-fs::path besides(const fs::path& file) {
+// Makes an empty file beside it, which nobody else may read. Its name can not be foreseen, and is not one
+// that was there: what others put in its way is neither followed nor emptied. "" where that does not go:
+// errno.
+fs::path madeBesides(const fs::path& file) {
+    const std::string end = ".part" + file.extension().string();
     fs::path temporary = file;
     temporary.replace_filename("." + file.stem().string().substr(0, kLongestStem) + "." +
-                               std::to_string(getpid()) + ".part" + file.extension().string());
-    return temporary;
+                               std::to_string(getpid()) + ".XXXXXX" + end);
+    std::string name = temporary.string();
+    const int made = mkostemps(name.data(), static_cast<int>(end.size()), O_CLOEXEC);
+    if (made < 0) return {};
+    close(made);
+    return name;
+}
+
+// Permissions of new files. The system tells the umask only by changing it, which other threads would feel.
+mode_t usualMode() {
+    constexpr mode_t kAll = 0666, kPrivate = 0600;
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("Umask:")) return kAll & ~std::strtoul(line.c_str() + 6, nullptr, 8);
+    return kPrivate;
 }
 
 Error unreadable(const fs::path& path, int reason) {
@@ -102,6 +121,10 @@ public:
         }
         return all;
     }
+    // Some systems have no permissions.
+    void allow(mode_t mode) const {
+        if (fchmod(mFile, mode) != 0 && errno != EPERM && errno != ENOTSUP) throw unwritable(mPlace, errno);
+    }
     // Until all of it is on the disk: some systems take bytes first and find room for them later.
     void flush() const {
         if (fsync(mFile) != 0 && errno != EINVAL && errno != EROFS) throw unwritable(mPlace, errno);
@@ -139,24 +162,22 @@ void intoStream(const fs::path& place, const Put& put) {
     out.finish();
 }
 
+bool isInCache(const fs::path& file) {
+    return folderOf(file) == cachePlace();
+}
+
 // Throws Error unless a file can be made, or what is there be replaced.
 void checkFolder(const fs::path& path, const fs::path& target) {
     std::error_code code;
     const fs::path folder = folderOf(target);
-    if (folder == cacheFolder()) {
-        if (fs::create_directories(folder, code))
-            fs::permissions(folder, fs::perms::owner_all, code);  // what lies there tells of patients
-        else if (code)
-            throw Error(path.string(), "",
-                        "can not be written: its folder can not be made (" + code.message() + ")",
-                        "name another place for the cache with XDG_CACHE_HOME");
-    }
+    if (isInCache(target)) makeOwnFolder(folder, kMoveCache);
     if (!fs::exists(folder, code))
         throw Error(path.string(), "", "can not be written: there is no folder \"" + folder.string() + "\"",
                     "make it, or name another place");
     if (!fs::is_directory(folder, code))
         throw Error(path.string(), "", "can not be written: \"" + folder.string() + "\" is no folder",
                     "name another place");
+    if (fs::is_symlink(target, code)) return;  // which is replaced
     if (fs::is_directory(target, code))
         throw Error(path.string(), "", "can not be written: it is a folder", "name a file");
     if (fs::exists(target, code) && access(target.c_str(), W_OK) != 0) throw unwritable(path, errno);
@@ -217,26 +238,26 @@ void checkPlaceForFile(const fs::path& path) {
         if (access(path.c_str(), W_OK) != 0) throw unwritable(path, errno);
         return;
     }
-    const fs::path target = endOfLinks(path), probe = besides(target);
+    const fs::path target = isInCache(path) ? path : endOfLinks(path);
     checkFolder(path, target);
-    try {
-        OpenFile(path, probe, O_WRONLY | O_CREAT | O_TRUNC);
-    } catch (const Error&) {
+    const fs::path probe = madeBesides(target);
+    if (probe.empty())
         throw Error(path.string(), "",
                     "can not be written: \"" + folderOf(target).string() + "\" takes no new file",
                     kCheckPlace);
-    }
     std::error_code code;
     fs::remove(probe, code);
 }
 
-PendingFile::PendingFile(const fs::path& place, Over over) : mPlace(place), mOver(over) {
-    if (!isStandardOutput(place) && !isStream(place)) {
-        mTarget = endOfLinks(place);
+PendingFile::PendingFile(const fs::path& place, Over over, Readers readers)
+    : mPlace(place), mOver(over), mReaders(readers) {
+    if (isInCache(place)) mOver = Over::Anything, mReaders = Readers::UserAlone;
+    if (mReaders == Readers::UserAlone || (!isStandardOutput(place) && !isStream(place))) {
+        mTarget = mReaders == Readers::UserAlone ? place : endOfLinks(place);
         checkFolder(place, mTarget);
-        if (folderOf(mTarget) == cacheFolder()) mOver = Over::Anything;
         checkNotRead();
-        mTemporary = besides(mTarget);
+        mTemporary = madeBesides(mTarget);
+        if (mTemporary.empty()) throw unwritable(place, errno);
         mUnfinished.emplace(mTemporary.c_str());
         return;
     }
@@ -244,9 +265,14 @@ PendingFile::PendingFile(const fs::path& place, Over over) : mPlace(place), mOve
     std::string folder = (fs::temp_directory_path(code) / "stereonav-XXXXXX").string();
     if (!mkdtemp(folder.data())) throw unwritable(folder, errno);
     mOwnFolder = folder;
-    mTemporary = mOwnFolder / ("part" + place.extension().string());
-    mUnfinished.emplace(mTemporary.c_str());
     mUnfinishedFolder.emplace(mOwnFolder.c_str());
+    mTemporary = madeBesides(mOwnFolder / ("part" + place.extension().string()));
+    if (mTemporary.empty()) {
+        const int reason = errno;
+        fs::remove_all(mOwnFolder, code);
+        throw unwritable(place, reason);
+    }
+    mUnfinished.emplace(mTemporary.c_str());
 }
 
 PendingFile::~PendingFile() {
@@ -263,17 +289,22 @@ void PendingFile::finish(Flush flush) {
     if (!mOwnFolder.empty()) return intoPlace();
     checkNotRead();
     std::error_code code;
-    if (const fs::file_status was = fs::status(mTarget, code); fs::is_regular_file(was))
-        fs::permissions(mTemporary, was.permissions(), code);
-    if (flush == Flush::ToDisk) {
-        OpenFile written(mPlace, mTemporary, O_RDWR);
-        written.flush();
+    {
+        OpenFile written(mPlace, mTemporary, O_RDWR | O_NOFOLLOW);
+        written.allow(modeInPlace());
+        if (flush == Flush::ToDisk) written.flush();
         written.finish();
     }
     fs::rename(mTemporary, mTarget, code);
     if (code) throw unwritable(mPlace, code.value());
     forgetFileRead(mTarget);
     if (flush == Flush::ToDisk) flushFolder(folderOf(mTarget));
+}
+
+unsigned PendingFile::modeInPlace() const {
+    if (mReaders == Readers::UserAlone) return S_IRUSR | S_IWUSR;
+    struct stat was {};
+    return stat(mTarget.c_str(), &was) == 0 && S_ISREG(was.st_mode) ? was.st_mode & 0777 : usualMode();
 }
 
 void PendingFile::intoPlace() {
@@ -296,6 +327,8 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
     } catch (const fs::filesystem_error& error) {
         throw unwritable(path, error.code().value());
     }
+    std::error_code code;
+    if (fs::file_size(file.temporary(), code) == 0 && !code) throw unwritable(path, 0);
     file.finish();
 }
 
@@ -303,18 +336,10 @@ void writeTextFile(const fs::path& path, const std::string& content, Flush flush
     if (isStandardOutput(path) || isStream(path))
         return intoStream(path, [&](const auto& write) { write(content.data(), content.size()); });
     PendingFile file(path, over);
-    OpenFile out(path, file.temporary(), O_WRONLY | O_CREAT | O_TRUNC);
+    OpenFile out(path, file.temporary(), O_WRONLY | O_NOFOLLOW);
     out.write(content.data(), content.size());
     out.finish();
     file.finish(flush);
-}
-
-fs::path cacheFolder() {
-    // Elsewhere than from the root its value does not count (XDG base directory specification).
-    if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg == '/')
-        return fs::path(xdg) / "stereonav";
-    if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "stereonav";
-    return fs::temp_directory_path() / "stereonav-cache";
 }
 
 }  // namespace stereonav

@@ -40,39 +40,45 @@ enum class Over { NothingRead, Anything };
 // Whether a file is put in its place when it is on the disk, or when the system has it: where there are many,
 // waiting for each takes longer than making it, and all are made again after a power cut.
 enum class Flush { ToDisk, ToSystem };
+// Who may read a new file. UserAlone is for what the program keeps (own_folder.h): a link in its place is
+// replaced, and so are the permissions of before. What lies in cacheFolder() is such.
+enum class Readers { AsUsual, UserAlone };
 
 // A file that is made under another name of the same extension, temporary(), until finish() puts it into its
-// place. What the place is:
+// place. The temporary is there from the start, empty, under a name that nobody can foresee, and until the
+// end nobody else may read it. What the place is:
 // - a file, or nothing yet in a folder that is there: the temporary lies beside it and is renamed into it,
-// with
-//   the permissions of the one it replaces;
+//   with the permissions of the one it replaces;
 // - a link: the same for what it points to;
 // - a pipe, a device or standard output: the bytes are written into it at the end.
 // A missing folder is an error, but for cacheFolder(), which is made; so is a file that this run has read.
 class PendingFile {
 public:
     // Throws Error, as checkPlaceForFile() does.
-    explicit PendingFile(const std::filesystem::path& place, Over over = Over::NothingRead);
+    explicit PendingFile(const std::filesystem::path& place, Over over = Over::NothingRead,
+                         Readers readers = Readers::AsUsual);
     ~PendingFile();  // removes what was not finished
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;
 
     const std::filesystem::path& temporary() const { return mTemporary; }
-    // Throws Error where there is no temporary, or it does not get into its place.
+    // Throws Error where the temporary is gone, or it does not get into its place.
     void finish(Flush flush = Flush::ToDisk);
 
 private:
     void checkNotRead() const;
-    void intoPlace();  // of a stream
+    void intoPlace();              // of a stream
+    unsigned modeInPlace() const;  // permissions
 
     std::filesystem::path mPlace, mTarget, mTemporary;
     std::filesystem::path mOwnFolder;  // of the temporary of a stream; "" where it lies beside its place
     Over mOver;
+    Readers mReaders;
     std::optional<UnfinishedFile> mUnfinished, mUnfinishedFolder;
 };
 
 // Calls write(temporary) with the temporary of a PendingFile, then finishes it. On any exception the place is
-// as it was. Throws Error when it can not be written.
+// as it was. Throws Error when it can not be written, or nothing was.
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path&)>& write,
                          Over over = Over::NothingRead);
@@ -80,7 +86,8 @@ void writeFileAtomically(const std::filesystem::path& path,
 void writeTextFile(const std::filesystem::path& path, const std::string& content, Flush flush = Flush::ToDisk,
                    Over over = Over::NothingRead);
 
-// Where computed things are kept between runs: $XDG_CACHE_HOME/stereonav or ~/.cache/stereonav.
+// Where computed things are kept between runs: $XDG_CACHE_HOME/stereonav or ~/.cache/stereonav, for the user
+// alone. Throws Error where the folder there is another user's (own_folder.h).
 std::filesystem::path cacheFolder();
 
 }  // namespace stereonav

@@ -6,13 +6,17 @@
 #include <cerrno>
 #include <utility>
 
+#include "engine/base/own_folder.h"
+
 namespace stereonav {
 
 PlacedFile::PlacedFile(const std::filesystem::path& file, For what) {
     const int how = what == For::Reading   ? O_RDONLY
                     : what == For::Writing ? O_RDWR | O_CREAT | O_TRUNC
                                            : O_RDWR | O_CREAT;
-    mDescriptor = open(file.c_str(), how | O_CLOEXEC, 0666);
+    const int follow = what == For::Reading ? 0 : O_NOFOLLOW;
+    const bool own = file.parent_path() == cachePlace();
+    mDescriptor = open(file.c_str(), how | follow | O_CLOEXEC, own ? 0600 : 0666);
     if (mDescriptor < 0) mError = errno;
 }
 

@@ -11,8 +11,8 @@ class PlacedFile {
 public:
     enum class For {
         Reading,
-        Writing,  // what was there is lost
-        GoingOn,  // what was there stays
+        Writing,  // what was there is lost; a link is not followed, which is an error
+        GoingOn,  // what was there stays; the same
     };
 
     PlacedFile() = default;

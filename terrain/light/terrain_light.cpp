@@ -12,8 +12,8 @@
 #include <optional>
 #include <span>
 
+#include "engine/base/cache.h"
 #include "engine/base/error.h"
-#include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/memory.h"
 #include "engine/base/parallel.h"
@@ -402,7 +402,7 @@ double transferUnit(int n) {
 }
 
 std::filesystem::path terrainLightCache(const Heightfield& ground) {
-    return cacheFolder() / fmt::format("terrain_light_{:016x}.light", hashOf(ground).value());
+    return keptFile(fmt::format("terrain_light_{:016x}.light", hashOf(ground).value()));
 }
 
 std::uint64_t terrainLightKey(const Heightfield& ground, const TerrainLightSettings& s) {

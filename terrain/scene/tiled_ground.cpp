@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/cache.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
@@ -28,7 +29,7 @@ namespace {
 constexpr const char* kMaking = "making tiles";
 
 std::filesystem::path tilesPlace(std::uint64_t content) {
-    return cacheFolder() / fmt::format("ground_{:016x}.tiles", content);
+    return keptFile(fmt::format("ground_{:016x}.tiles", content));
 }
 
 void checkRoom(const std::filesystem::path& dem, const std::filesystem::path& place, const glm::ivec2& size) {
@@ -74,6 +75,8 @@ void makeStore(const std::filesystem::path& dem, DemRows& rows, const TileSource
             rows.checkHeights(1);  // before it is kept: who opens it later reads no row
         },
         Over::Anything);
+    makeRoom(place);
+    noteSource(place, dem);
     progress.report(1, kMaking);
 }
 
@@ -109,6 +112,8 @@ std::shared_ptr<const TileStore> storeOrMade(const std::filesystem::path& dem, D
                                              const StorePlan& plan, Progress& progress) {
     progress.report(0, kMaking);
     if (auto store = storeThere(plan)) {
+        noteUse(plan.place);
+        noteSource(plan.place, dem);
         progress.report(1, kMaking);
         return store;
     }
@@ -191,7 +196,10 @@ DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& pr
         progress.report(1, kMaking);
         return dem;
     }
-    if (made) store = storeOrMade(file.dem, rows, plan, progress);
+    if (made)
+        store = storeOrMade(file.dem, rows, plan, progress);
+    else
+        noteUse(plan.place), noteSource(plan.place, file.dem);
     TiledGround tiled;
     tiled.levels = levelsOf(file, store, dem.spacing);
     tiled.level = levelInMemory(*tiled.levels);

@@ -2,10 +2,14 @@
 #include "engine/base/cache.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -68,6 +72,59 @@ TEST_F(CacheTest, WhatWasBakedStays) {
     EXPECT_TRUE(keepFor("b.bin", 10, 0, 100));
     for (const char* name : {"a.bin", "b.bin", "light.bake", "terrain.light"})
         EXPECT_TRUE(there(name)) << name;
+}
+
+TEST_F(CacheTest, TilesCountInTheLimit) {
+    EXPECT_TRUE(keepFor("ground_1.tiles", 600, 3));
+    EXPECT_TRUE(keepFor("a.bin", 300, 2, 1000));
+    EXPECT_TRUE(there("ground_1.tiles"));
+    EXPECT_TRUE(keepFor("b.bin", 300, 0, 1000));
+    EXPECT_FALSE(there("ground_1.tiles"));
+    EXPECT_TRUE(there("a.bin"));
+}
+
+TEST_F(CacheTest, KnowsWhatAFileWasMadeOf) {
+    writeTextFile(mFolder / "study.nrrd", "x");
+    fs::create_symlink(mFolder / "study.nrrd", mFolder / "link.nrrd");
+    EXPECT_TRUE(keepFor("a.bin", 300, 1));
+    EXPECT_TRUE(keepFor("b.bin", 300, 2));
+    noteSource(keptFile("a.bin"), mFolder / "link.nrrd");
+    noteSource(keptFile("gone.bin"), mFolder / "study.nrrd");
+    noteSource(mFolder / "study.nrrd", mFolder / "study.nrrd");
+    EXPECT_FALSE(fs::exists(mFolder / "study.nrrd.of")) << "it is written beside what is no kept file";
+    const std::vector<Kept> all = allKept(cacheFolder());
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all[0].file, keptFile("a.bin"));
+    EXPECT_EQ(all[0].source, fs::canonical(mFolder / "study.nrrd"));
+    EXPECT_EQ(all[0].bytes, 300u);
+    EXPECT_EQ(all[1].source, "");
+    EXPECT_TRUE(removeKept(keptFile("a.bin")));
+    EXPECT_EQ(std::distance(fs::directory_iterator(cacheFolder()), fs::directory_iterator()), 1);
+}
+
+// Of a process that is gone, as those of before it were named and as they are; what is being written stays.
+TEST_F(CacheTest, WhatCrashedRunsLeftGoes) {
+    EXPECT_TRUE(keepFor("a.bin", 300, 1));
+    const pid_t child = fork();
+    if (child == 0) _exit(0);
+    ASSERT_EQ(waitpid(child, nullptr, 0), child);
+    const std::string gone = std::to_string(child), here = std::to_string(getpid());
+    const std::string stay[] = {"." + here + ".part.bin",
+                                ".a." + here + ".part.bin",
+                                ".a." + here + ".0Zz9aB.part.bin",
+                                ".a." + here + ".123456.part.bin",
+                                ".a.part.bin",
+                                "a." + gone + ".part.bin"};
+    const std::string go[] = {".a." + gone + ".part.bin", ".a." + gone + ".0Zz9aB.part.bin",
+                              ".a.part." + gone + ".0Zz9aB.part.tiles"};
+    for (const auto& name : stay) writeTextFile(keptFile(name), "half");
+    for (const auto& name : go) writeTextFile(keptFile(name), "half");
+    EXPECT_EQ(removeLeftovers(cacheFolder()), 3);
+    for (const auto& name : stay) EXPECT_TRUE(there(name)) << name;
+    for (const auto& name : go) EXPECT_FALSE(there(name)) << name;
+    writeTextFile(keptFile(go[0]), "half");
+    EXPECT_TRUE(keepFor("b.bin", 300, 1));
+    EXPECT_FALSE(there(go[0])) << "it would stay until somebody asks";
 }
 
 TEST_F(CacheTest, AFolderThatCanNotBeWrittenIsNoError) {

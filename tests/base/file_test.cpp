@@ -16,6 +16,7 @@
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "engine/base/error.h"
 #include "engine/base/files_read.h"
@@ -97,6 +98,106 @@ TEST_F(FileTest, KeepsThePermissionsOfWhatItReplaces) {
     fs::permissions(in("a.txt"), fs::perms(0640));
     writeTextFile(in("a.txt"), "new");
     EXPECT_EQ(fs::status(in("a.txt")).permissions(), fs::perms(0640));
+}
+
+// While one lives new files get what this leaves.
+class Umask {
+public:
+    explicit Umask(mode_t mask) : mBefore(umask(mask)) {}
+    ~Umask() { umask(mBefore); }
+
+private:
+    mode_t mBefore;
+};
+
+TEST_F(FileTest, NewFilesHaveWhatTheUmaskLeaves) {
+    for (const auto& [mask, left] : {std::pair{0022, 0644}, {0002, 0664}, {0077, 0600}, {0000, 0666}}) {
+        const Umask now(static_cast<mode_t>(mask));
+        writeTextFile(in("a.txt"), "new");
+        EXPECT_EQ(fs::status(in("a.txt")).permissions(), fs::perms(left)) << std::oct << mask;
+        fs::remove(in("a.txt"));
+    }
+}
+
+TEST_F(FileTest, UntilItIsInItsPlaceNobodyElseReadsIt) {
+    const Umask open(0);
+    writeTextFile(in("a.txt"), "old");
+    for (const int mode : {0600, 0640, 0644, 0666}) {
+        fs::permissions(in("a.txt"), fs::perms(mode));
+        writeFileAtomically(in("a.txt"), [&](const fs::path& temporary) {
+            EXPECT_EQ(fs::status(temporary).permissions(), fs::perms(0600)) << "before it is written";
+            std::ofstream(temporary) << "new";
+            EXPECT_EQ(fs::status(temporary).permissions(), fs::perms(0600));
+        });
+        EXPECT_EQ(fs::status(in("a.txt")).permissions(), fs::perms(mode));
+    }
+}
+
+// Somebody else's link or file at the name that a temporary had until now, which could be foreseen, and at
+// any name of one that was seen.
+TEST_F(FileTest, NothingGoesThroughWhatWasPlantedForATemporary) {
+    writeTextFile(in("victim"), "as it was");
+    const std::string process = std::to_string(getpid());
+    for (const std::string& name : {".a." + process + ".part.txt", ".a." + process + ".part"})
+        fs::create_symlink(in("victim"), in(name));
+    std::vector<fs::path> names;
+    for (int n = 0; n < 3; ++n)
+        writeFileAtomically(in("a.txt"), [&](const fs::path& temporary) {
+            names.push_back(temporary);
+            EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(temporary)));
+            std::ofstream(temporary) << "new";
+        });
+    for (const fs::path& name : names) fs::create_symlink(in("victim"), name);
+    writeTextFile(in("a.txt"), "newer");
+    checkPlaceForFile(in("a.txt"));
+    EXPECT_EQ(readTextFile(in("a.txt")), "newer");
+    EXPECT_EQ(readTextFile(in("victim")), "as it was");
+    EXPECT_NE(names[0], names[1]) << "it can be foreseen";
+    EXPECT_EQ(entries(), 2 + 2 + 3) << "what is planted stays, and nothing else does";
+}
+
+TEST_F(FileTest, TwoOfOnePlaceDoNotMeet) {
+    PendingFile first(in("a.txt")), second(in("a.txt"));
+    EXPECT_NE(first.temporary(), second.temporary());
+    std::ofstream(first.temporary()) << "first";
+    std::ofstream(second.temporary()) << "second";
+    first.finish();
+    second.finish();
+    EXPECT_EQ(readTextFile(in("a.txt")), "second");
+}
+
+TEST_F(FileTest, ATemporaryThatBecameALinkIsNotPutIntoItsPlace) {
+    writeTextFile(in("victim"), "as it was");
+    EXPECT_THROW(writeFileAtomically(in("a.txt"),
+                                     [&](const fs::path& temporary) {
+                                         fs::remove(temporary);
+                                         fs::create_symlink(in("victim"), temporary);
+                                     }),
+                 Error);
+    EXPECT_FALSE(fs::exists(fs::symlink_status(in("a.txt"))));
+    EXPECT_EQ(readTextFile(in("victim")), "as it was");
+}
+
+// What the program keeps for itself: a planted link in its place is replaced, not followed.
+TEST_F(FileTest, ForTheUserAloneALinkIsReplaced) {
+    const Umask open(0);
+    writeTextFile(in("victim"), "as it was");
+    fs::create_directory(in("folder"));
+    for (const char* to : {"victim", "folder", "nowhere"}) {
+        fs::create_symlink(in(to), in("a.txt"));
+        PendingFile file(in("a.txt"), Over::Anything, Readers::UserAlone);
+        std::ofstream(file.temporary()) << "kept";
+        file.finish();
+        EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(in("a.txt")))) << to;
+        EXPECT_EQ(fs::status(in("a.txt")).permissions(), fs::perms(0600));
+        fs::remove(in("a.txt"));
+    }
+    writeTextFile(in("a.txt"), "of before");
+    PendingFile file(in("a.txt"), Over::Anything, Readers::UserAlone);
+    std::ofstream(file.temporary()) << "kept";
+    file.finish();
+    EXPECT_EQ(fs::status(in("a.txt")).permissions(), fs::perms(0600)) << "the mode of before stayed";
+    EXPECT_EQ(readTextFile(in("victim")), "as it was");
 }
 
 TEST_F(FileTest, LinksAreWrittenThrough) {

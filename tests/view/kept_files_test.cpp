@@ -2,10 +2,13 @@
 // can be kept.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -395,6 +398,51 @@ TEST(Thumbnails, AreTheMiddleAveragedInLinearLight) {
             for (int x = 0; x < kThumbnailWidth; ++x)
                 ASSERT_NEAR(unpackColor(plain.at(x, y)).x, 0.25, 0.002) << width << "x" << height;
     }
+}
+
+// Names of files tell of patients: whatever was there before, and whatever the umask.
+TEST(KeptFiles, AreTheUsersAlone) {
+    const TemporaryFolder folder;
+    const fs::path state = folder / "state";
+    putText(state / "recent.json", "{}");
+    fs::create_directory(state / "thumbnails");
+    for (const char* open : {"", "thumbnails", "recent.json"}) fs::permissions(state / open, fs::perms(0777));
+    putText(folder / "victim", "as it was");
+    const mode_t before = umask(0);
+    const Plane<PackedColor> picture = plainPicture(160, 90, glm::vec3(0.5f));
+    RecentFiles(state).add("/studies/name", "colon", &picture);
+    Bookmarks("terrain", folder / "data/places").add(markNamed("peak"));
+    writeKept(folder / "data/findings/1.json", "{}");
+    umask(before);
+    for (const auto& entry : fs::recursive_directory_iterator(folder / "")) {
+        if (entry.path().filename() == "victim" || entry.path().filename() == "data") continue;
+        EXPECT_EQ(entry.status().permissions(), entry.is_directory() ? fs::perms(0700) : fs::perms(0600))
+            << entry.path();
+    }
+}
+
+TEST(KeptFiles, GoThroughNoLink) {
+    const TemporaryFolder folder;
+    putText(folder / "victim", "as it was");
+    fs::create_directory(folder / "state");
+    fs::create_symlink(folder / "victim", folder / "state/recent.json");
+    RecentFiles recent(folder / "state");
+    recent.add("/studies/name", "colon");
+    EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder / "state/recent.json")));
+    EXPECT_EQ(contentOf(folder / "victim"), "as it was");
+}
+
+TEST(KeptFiles, OfAnotherUsersFolderAreNeitherReadNorWritten) {
+    if (geteuid() != 0) GTEST_SKIP() << "only root can make a folder of another user";
+    const TemporaryFolder folder;
+    putText(folder / "state/recent.json", "not what is expected");
+    ASSERT_EQ(chown((folder / "state").c_str(), 65534, 65534), 0);
+    RecentFiles recent(folder / "state");
+    EXPECT_THAT(recent.takeProblem(), HasSubstr("another user"));
+    recent.add("/studies/name", "colon");
+    EXPECT_THAT(recent.takeProblem(), HasSubstr("another user"));
+    EXPECT_EQ(contentOf(folder / "state/recent.json"), "not what is expected");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / "state"), fs::directory_iterator()), 1);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // Findings in the window, as a person makes them: one on a polyp is measured, outlined in both eyes and kept,
 // also where the program is killed right after; a place without one says so.
+#include <sys/stat.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -22,10 +24,26 @@ std::filesystem::path writePolyp(const std::filesystem::path& folder) {
                                 });
 }
 
+// All that a session keeps, by the modes that others see.
+void expectTheUsersAlone(const std::filesystem::path& folder) {
+    using std::filesystem::perms;
+    int files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        files += entry.is_regular_file();
+        EXPECT_EQ(entry.status().permissions(), entry.is_directory() ? perms(0700) : perms(0600))
+            << entry.path();
+    }
+    EXPECT_GT(files, 0) << folder;
+}
+
 TEST_F(FindingsWindow, AreMeasuredMarkedAndKept) {
     const std::filesystem::path study = writePolyp(mFolder);
-    ASSERT_EQ(drive("drive_findings.sh", "'" + study.string() + "'"), 0)
-        << textOf("problems.txt") << textOf("log.txt");
+    const mode_t before = umask(0);
+    const int driven = drive("drive_findings.sh", "'" + study.string() + "'");
+    umask(before);
+    ASSERT_EQ(driven, 0) << textOf("problems.txt") << textOf("log.txt");
+    for (const char* kept : {".local/share/stereonav", ".local/state/stereonav", "cache/stereonav"})
+        expectTheUsersAlone(mFolder / kept);
     EXPECT_EQ(textOf("status.txt"), "0\n") << textOf("log.txt");
     const json first = json::parse(textOf("kept_first.json"), nullptr, false);
     ASSERT_TRUE(first.is_object()) << textOf("kept_first.json");

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "engine/base/cache.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
@@ -276,7 +277,7 @@ std::uint64_t contentHashNear(const GreyVolume& volume, const MaskVolume& region
 }
 
 fs::path bakeCacheFile(std::uint64_t key) {
-    return cacheFolder() / fmt::format("light-v{}-{:016x}.bake", kVersion, key);
+    return keptFile(fmt::format("light-v{}-{:016x}.bake", kVersion, key));
 }
 
 std::optional<BakeFile> readBakeFile(const fs::path& file, std::optional<std::uint64_t> key,

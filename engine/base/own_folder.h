@@ -1,0 +1,29 @@
+// Folders of the program's own. What it keeps there tells of patients, so they are the user's alone: rights
+// of others are taken away, and folders of others are refused.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace stereonav {
+
+// "stereonav" in the folder that `variable` names ("XDG_CACHE_HOME"), or in `besideHome` in the user's home.
+// Elsewhere than from the root a value does not count (XDG base directory specification). "": there is no
+// home.
+std::filesystem::path ownFolder(const char* variable, const char* besideHome);
+
+// The place of cacheFolder(), whatever lies there: to compare with. Without a home it is in the folder for
+// temporary files, and named by the user's number.
+std::filesystem::path cachePlace();
+
+// Takes the rights of others on the folder away. Throws Error where it is another user's, or a link that
+// another user made, or the rights stay. What is no folder passes: who goes on with it hears of that.
+// advice: how to name another folder.
+void checkOwnFolder(const std::filesystem::path& folder, const std::string& advice);
+
+// The same, and makes it with what is missing above it. Throws Error where that does not go.
+void makeOwnFolder(const std::filesystem::path& folder, const std::string& advice);
+
+constexpr const char* kMoveCache = "name another place for the cache with XDG_CACHE_HOME";
+
+}  // namespace stereonav
