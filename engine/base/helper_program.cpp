@@ -127,19 +127,18 @@ HelperProgram::~HelperProgram() {
 
 std::string HelperProgram::end() {
     if (mProcess > 0) kill(mProcess, SIGKILL);
-    return waitForEnd();
+    return waitForEnd(0);
 }
 
-// One that has closed its end is about to end; one that does not is made to.
-std::string HelperProgram::waitForEnd() {
-    constexpr int kLooks = 100;
+// One that has closed its end is about to end; one that does not, for so many looks, is made to.
+std::string HelperProgram::waitForEnd(int looks) {
     constexpr std::chrono::milliseconds kLookEvery(10);
     int status = 0;
     for (int look = 0; mProcess > 0; ++look) {
-        if (look == kLooks) kill(mProcess, SIGKILL);
-        const pid_t ended = waitpid(mProcess, &status, look < kLooks ? WNOHANG : 0);
+        if (look == looks) kill(mProcess, SIGKILL);
+        const pid_t ended = waitpid(mProcess, &status, look < looks ? WNOHANG : 0);
         if (ended == mProcess || (ended < 0 && errno != EINTR)) break;
-        if (look < kLooks) std::this_thread::sleep_for(kLookEvery);
+        if (look < looks) std::this_thread::sleep_for(kLookEvery);
     }
     mProcess = -1;
     return howItEnded(status);

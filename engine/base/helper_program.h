@@ -53,7 +53,7 @@ private:
     HelperProgram(const std::filesystem::path& file, const std::string& purpose, int);  // without a word
     void limit(const HelperLimits& limits) const;
     std::string end();
-    std::string waitForEnd();
+    std::string waitForEnd(int looks = 100);
 
     int mProcess = -1;
     std::optional<HelperSocket> mSocket;
