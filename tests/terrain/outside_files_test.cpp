@@ -176,6 +176,17 @@ TEST_F(OutsideFiles, NetCdfIsOneFile) {
         H5Pclose(made);
     });
     EXPECT_THAT(errorOf([&] { readGround(laid); }), refusal);
+    // The name of the other file lies beyond the heap that holds names.
+    std::fstream damaged(outside("x"), std::ios::in | std::ios::out | std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(damaged)), {});
+    const std::size_t list = bytes.find(std::string("\x01\0\0\0\x01\0\x01\0", 8));
+    ASSERT_NE(list, std::string::npos) << "no list of one other file";
+    damaged.clear();
+    damaged.seekp(static_cast<std::streamoff>(list) + 23);
+    damaged.put('\x08');
+    damaged.close();
+    EXPECT_THAT(errorOf([&] { readGround(mFolder / "here/outside.nc"); }),
+                AllOf(HasSubstr("outside.nc: the file is cut off or damaged"), Not(HasSubstr("\n"))));
     // As a variable that metadata name for coarser samples.
     outside(away("secret").string());
     here("ground.tif.aux.xml",
