@@ -74,6 +74,8 @@ herr_t lookAtLink(hid_t place, const char* name, const H5L_info_t* link, void* f
 void checkHdf5Parts(const std::string& name) {
     const std::size_t from = name.starts_with('/') ? 0 : name.find('"') + 1;
     const std::string file = name.substr(from, name.find('"', from) - from);
+    // Before anything of it is opened: else it speaks at the program's end of what a damaged file left open.
+    [[maybe_unused]] static const herr_t atTheEnd = H5dont_atexit();
     const QuietHdf5 quiet;
     if (H5Fis_hdf5(file.c_str()) <= 0) return;
     const Hdf5Id open(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
