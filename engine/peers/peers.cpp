@@ -13,6 +13,7 @@
 #include "engine/peers/launch.h"
 #include "engine/peers/naps.h"
 #include "engine/peers/piece_desk.h"
+#include "engine/text/printed.h"
 
 namespace stereonav {
 namespace {
@@ -156,7 +157,7 @@ void Peers::fail(const std::string& line) {
             mLink->next();
         }
     }
-    if (!line.empty()) std::fprintf(stderr, "stereonav: %s\n", line.c_str());
+    if (!line.empty()) printNote(line);
     std::fflush(nullptr);
     mLink->abort();
     std::abort();  // the compiler does not see that a virtual call never returns

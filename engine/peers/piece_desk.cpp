@@ -1,10 +1,9 @@
 #include "engine/peers/piece_desk.h"
 
-#include <cstdio>
-
 #include "engine/base/stop.h"
 #include "engine/base/stopwatch.h"
 #include "engine/peers/naps.h"
+#include "engine/text/printed.h"
 
 namespace stereonav {
 namespace {
@@ -65,7 +64,7 @@ void PieceDesk::run() {
 
 void PieceDesk::giveUpIfNobodyListens() {
     if (!mFailed || mHeard || now_s() < mFailed_s + kListening_s) return;
-    std::fprintf(stderr, "stereonav: %s\n", failure().value_or("").c_str());
+    printNote(failure().value_or(""));
     mLink.abort();
 }
 

@@ -1,5 +1,7 @@
 #include "engine/text/utf8.h"
 
+#include <algorithm>
+
 namespace stereonav {
 namespace {
 
@@ -26,11 +28,20 @@ Letter letterAt(std::string_view text, std::size_t at) {
     char32_t code = first.bits;
     for (std::size_t n = 1; n < first.bytes; ++n) {
         const auto byte = static_cast<unsigned char>(text[at + n]);
-        if ((byte & 0xc0) != 0x80) return {kNoLetter, 1};
+        if (!isInsideLetter(text[at + n])) return {kNoLetter, 1};
         code = code << 6 | (byte & 0x3fu);
     }
     if (code < first.least || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return {kNoLetter, 1};
     return {code, first.bytes};
+}
+
+std::string_view firstBytes(std::string_view text, std::size_t most) {
+    constexpr std::size_t kLongestLetter = 4;
+    std::size_t end = std::min(most, text.size());
+    for (std::size_t n = 1; end < text.size() && n < kLongestLetter && end > 0 && isInsideLetter(text[end]);
+         ++n)
+        --end;
+    return text.substr(0, end);
 }
 
 std::string firstLetters(const std::string& text, std::size_t most) {

@@ -1,0 +1,33 @@
+#include "engine/text/printed.h"
+
+#include <string>
+
+#include "engine/text/printable.h"
+
+namespace stereonav {
+namespace {
+
+// In one piece: processes may share where it goes.
+void put(std::FILE* to, const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), to);
+}
+
+}  // namespace
+
+void printLine(std::FILE* to, std::string_view line) {
+    put(to, printable(line, kLongestLine) + "\n");
+}
+
+void printLines(std::FILE* to, std::string_view lines) {
+    put(to, printableLines(lines));
+}
+
+void printDocument(std::string_view document) {
+    put(stdout, std::string(document) + "\n");
+}
+
+void printNote(std::string_view note) {
+    printLine(stderr, "stereonav: " + std::string(note));
+}
+
+}  // namespace stereonav
