@@ -2,24 +2,12 @@
 #include <cstdio>
 #include <exception>
 #include <new>
-#include <string>
 
 #include "app/command/process_facts.h"
 #include "app/command/together.h"
 #include "app/options/arguments.h"
 #include "engine/base/error.h"
 #include "engine/base/stop.h"
-
-namespace {
-
-// Text out of a damaged file may hold anything: no byte of it breaks the line or moves the cursor.
-std::string printable(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
-    return text;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
     stereonav::noteStart();
@@ -37,6 +25,6 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return stereonav::endWith("there is not enough memory; free some, or ask for less");
     } catch (const std::exception& error) {
-        return stereonav::endWith(printable(error.what()));
+        return stereonav::endWith(error.what());
     }
 }

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <span>
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/base/stopwatch.h"
 #include "engine/peers/peers.h"
+#include "engine/text/printed.h"
 #include "terrain/light/fine_bake.h"
 #include "terrain/light/light_tiles.h"
 
@@ -107,8 +107,7 @@ bool bakeFiner(const TerrainScene& terrain, std::optional<TerrainLight> light,
         } catch (const Cancelled&) {
             if (!peers.first() || !std::filesystem::exists(partOf(place))) throw;
             bar.clear();
-            std::fprintf(stderr,
-                         "stereonav: stopped; what is done is kept, and the next run goes on from there\n");
+            printNote("stopped; what is done is kept, and the next run goes on from there");
             return false;
         }
     }

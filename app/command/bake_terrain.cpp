@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -22,6 +21,7 @@
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/peers/peers.h"
+#include "engine/text/printed.h"
 #include "terrain/ground/ground_rays.h"
 #include "terrain/light/terrain_bake_part.h"
 #include "terrain/light/terrain_light.h"
@@ -57,7 +57,7 @@ std::optional<TerrainLight> lightBefore(const std::filesystem::path& file, const
     } catch (const DiskError&) {
         throw;
     } catch (const Error& error) {
-        if (!quiet) std::fprintf(stderr, "stereonav: %s: made anew\n", error.what());
+        if (!quiet) printNote(error.what() + std::string(": made anew"));
     }
     return std::nullopt;
 }
@@ -70,8 +70,7 @@ std::optional<TerrainLight> bakeOrKeep(const Heightfield& ground, const TerrainL
     } catch (const Cancelled&) {
         if (!std::filesystem::exists(terrainBakePart(terrainLightKey(ground, settings)))) throw;
         bar.clear();
-        std::fprintf(stderr,
-                     "stereonav: stopped; what is done is kept, and the next run goes on from there\n");
+        printNote("stopped; what is done is kept, and the next run goes on from there");
         return std::nullopt;
     }
 }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
@@ -19,6 +18,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/light/bake/bake_job.h"
 #include "engine/peers/peers.h"
+#include "engine/text/printed.h"
 
 namespace stereonav {
 namespace {
@@ -40,7 +40,7 @@ BakeSums begin(const std::filesystem::path& file, std::uint64_t key, VolumeBakeP
     if (auto kept = readBakeFile(file, key, problem)) return std::move(kept->sums);
     if (!problem.empty() && tell) {
         bar.clear();
-        std::fprintf(stderr, "stereonav: %s: %s; it is baked anew\n", file.c_str(), problem.c_str());
+        printNote(fmt::format("{}: {}; it is baked anew", file.string(), problem));
     }
     return BakeSums(plan.inputs.texels, std::move(plan.bricks), plan.inputs.shape, lighter.bytesToCome());
 }
@@ -122,8 +122,7 @@ int bakeVolume(const BakeOptions& options) {
     result.add("stopped", end == BakeEnd::Cancelled);
     result.finish();
     if (end == BakeEnd::Cancelled)
-        std::fprintf(stderr,
-                     "stereonav: stopped; what is done is kept, and the next run goes on from there\n");
+        printNote("stopped; what is done is kept, and the next run goes on from there");
     return end == BakeEnd::Cancelled ? 1 : 0;
 }
 

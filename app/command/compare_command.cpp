@@ -18,6 +18,7 @@
 #include "engine/image/image_file.h"
 #include "engine/metrics/difference_picture.h"
 #include "engine/metrics/method_comparison.h"
+#include "engine/text/printed.h"
 
 namespace stereonav {
 namespace {
@@ -167,7 +168,7 @@ int runCompare(const CompareOptions& options) {
     bar.clear();
     const bool otherwise =
         !(options.json.empty() && options.csv.empty() && options.plot.empty() && options.images.empty());
-    if (!options.quiet || !otherwise) std::fputs(tableOf(report).c_str(), messages);
+    if (!options.quiet || !otherwise) printLines(messages, tableOf(report));
     return 0;
 }
 

@@ -12,6 +12,9 @@
 
 #include "app/command/facts_json.h"
 #include "engine/metrics/error_plot.h"
+#include "engine/text/csv_text.h"
+#include "engine/text/json_text.h"
+#include "engine/text/printable.h"
 
 namespace stereonav {
 namespace {
@@ -64,15 +67,9 @@ int widthOf(const Field& field) {
 // The figures of a scene, in one line under a plot or a table.
 std::string captionOf(const ComparisonReport& report) {
     return fmt::format("{}, {}x{}, {} frames, {} thread{}, {}, {}",
-                       std::filesystem::path(report.scene).filename().string(), report.width, report.height,
-                       report.frames, report.threads, report.threads == 1 ? "" : "s", report.simd,
-                       report.machine);
-}
-
-std::string csvText(const std::string& text) {
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + "\"";
+                       printable(std::filesystem::path(report.scene).filename().string()), report.width,
+                       report.height, report.frames, report.threads, report.threads == 1 ? "" : "s",
+                       report.simd, printable(report.machine));
 }
 
 }  // namespace
@@ -125,8 +122,7 @@ std::string jsonOf(const ComparisonReport& report) {
         for (const Field& field : kFields) entry[field.name] = field.value(method);
         json["methods"].push_back(entry);
     }
-    // names of files may hold bytes that are no UTF-8
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return jsonText(json, 2) + "\n";
 }
 
 std::string csvOf(const ComparisonReport& report) {

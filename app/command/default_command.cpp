@@ -5,6 +5,7 @@
 #include "app/options/option_table.h"
 #include "app/output/output_place.h"
 #include "engine/display/window.h"
+#include "engine/text/printed.h"
 
 namespace stereonav {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 // The flight as a video and twelve pictures in out/, then the table of compare.
 int playAndCompare() {
     checkOutputFolder("out/", "out");
-    std::printf("there is no display: the built-in flight goes to out/\n");
+    printLine(stdout, "there is no display: the built-in flight goes to out/");
     PlayOptions pictures;
     pictures.size = {640, 360};
     pictures.out = "out";

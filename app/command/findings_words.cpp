@@ -9,21 +9,15 @@
 #include "app/command/facts_json.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/text/csv_text.h"
 #include "engine/text/json_check.h"
+#include "engine/text/json_text.h"
 
 namespace stereonav {
 namespace {
 
 constexpr const char* kDocument = "stereonav findings";
 constexpr const char* kNameAnother = "name a file that findings wrote";
-
-// A field of a table: quoted where it has to be (RFC 4180).
-std::string field(const std::string& text) {
-    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + "\"";
-}
 
 void addPolyp(const Finding& finding, Facts& facts) {
     const MeasuredPolyp& polyp = *finding.polyp;
@@ -117,7 +111,7 @@ std::string csvOf(const std::vector<Finding>& findings) {
                          : ",,,";
         text += fmt::format("{:.1f},{},", 1e3 * f.along, f.segment);
         if (f.truth) text += fmt::format("{:.2f}", 1e3 * f.truth->diameter);
-        text += "," + field(f.problem) + "," + field(f.comment) + "\n";
+        text += "," + csvText(f.problem) + "," + csvText(f.comment) + "\n";
     }
     return text;
 }
@@ -169,7 +163,7 @@ std::string findingsDocument(const std::string& study, const std::vector<Finding
     const Facts document{factForJson("document", std::string(kDocument)), factForJson("study", study),
                          factForJson("notice", std::string(kNoMedicalDevice)),
                          factForJson("findings", std::move(list))};
-    return jsonOf(document).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return jsonText(jsonOf(document), 2) + "\n";
 }
 
 void writeFindings(const std::filesystem::path& file, const std::string& study,

@@ -7,6 +7,7 @@
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
+#include "engine/text/printed.h"
 
 namespace stereonav {
 int runInfo(const InfoOptions& options) {
@@ -28,8 +29,8 @@ int runInfo(const InfoOptions& options) {
         printJson(facts);
         return 0;
     }
-    const std::string text = scene.name + "\n" + linesOf(facts);
-    std::fputs(text.c_str(), stdout);
+    printLine(stdout, scene.name);
+    printLines(stdout, linesOf(facts));
     return 0;
 }
 

@@ -11,6 +11,9 @@
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/image/image_file.h"
+#include "engine/text/json_text.h"
+#include "engine/text/printable.h"
+#include "engine/text/printed.h"
 
 namespace stereonav {
 namespace {
@@ -37,9 +40,9 @@ Json jsonOf(const std::vector<SeriesLook>& looks, const std::string& folder) {
     return list;
 }
 
-std::string textOf(const SeriesLook& look, std::size_t number, const std::string& folder) {
-    return fmt::format("  {:<3} {} slices of {} x {}  {}  \"{}\"  {}\n", number, look.info.slices,
-                       look.columns, look.rows, look.modality, look.info.description,
+std::string lineOf(const SeriesLook& look, std::size_t number, const std::string& folder) {
+    return fmt::format("  {:<3} {} slices of {} x {}  {}  \"{}\"  {}", number, look.info.slices, look.columns,
+                       look.rows, look.modality, printable(look.info.description),
                        look.problem.empty() ? pictureFile(folder, number).string() : look.problem);
 }
 
@@ -55,12 +58,11 @@ int listSeriesOf(const InfoOptions& options) {
         if (looks[n].problem.empty()) writeColorImage(pictureFile(options.series, n + 1), looks[n].picture);
     if (options.telling.json) {
         const Json json{{"scene", options.scene.scene}, {"series", jsonOf(looks, options.series)}};
-        std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+        printDocument(jsonText(json, 2));
         return 0;
     }
-    std::string text = options.scene.scene + "\n";
-    for (std::size_t n = 0; n < looks.size(); ++n) text += textOf(looks[n], n + 1, options.series);
-    std::fputs(text.c_str(), stdout);
+    printLine(stdout, options.scene.scene);
+    for (std::size_t n = 0; n < looks.size(); ++n) printLine(stdout, lineOf(looks[n], n + 1, options.series));
     return 0;
 }
 

@@ -14,6 +14,8 @@
 #include "app/scene/survey_line.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/text/csv_text.h"
+#include "engine/text/json_text.h"
 
 namespace stereonav {
 namespace {
@@ -68,15 +70,7 @@ std::string geoJsonOf(const SurveyGround& survey, const std::vector<MeasuredLine
         features.push_back(
             {{"type", "Feature"}, {"properties", properties}, {"geometry", geometryOf(survey, one.line)}});
     }
-    return nlohmann::ordered_json{{"type", "FeatureCollection"}, {"features", features}}.dump(1) + "\n";
-}
-
-// A text in quotes where it holds what parts a table.
-std::string tableText(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + "\"";
+    return jsonText(nlohmann::ordered_json{{"type", "FeatureCollection"}, {"features", features}}, 1) + "\n";
 }
 
 std::string csvOf(const std::vector<MeasuredLine>& all) {
@@ -85,7 +79,7 @@ std::string csvOf(const std::vector<MeasuredLine>& all) {
     for (const MeasuredLine& one : all) {
         ++number;
         for (const GroundFigure& figure : one.figures)
-            text += fmt::format("{},{},{},{:.10g},{:.3g},{}\n", number, tableText(one.line.name), figure.key,
+            text += fmt::format("{},{},{},{:.10g},{:.3g},{}\n", number, csvText(one.line.name), figure.key,
                                 figure.value, figure.error, figure.unit);
     }
     return text;
@@ -97,14 +91,13 @@ void tell(const std::vector<MeasuredLine>& all, CommandResult& result) {
         Facts facts{factForJson("name", one.line.name),
                     factForJson("kind", std::string(one.line.closed ? "area" : "line")),
                     factForJson("places", static_cast<std::int64_t>(one.line.world.size()))};
-        std::string words = one.line.name.empty() ? "" : one.line.name + "\n";
+        if (!one.line.name.empty()) result.answer(one.line.name);
         for (const GroundFigure& figure : one.figures) {
             facts.push_back(factForJson(figure.key, figure.value));
             facts.push_back(factForJson(std::string(figure.key) + "_error", figure.error));
-            words += fmt::format("  {:<22}{:.7g} {}{}\n", figure.label, figure.value, figure.unit,
-                                 errorText(figure));
+            result.answer(fmt::format("  {:<22}{:.7g} {}{}\n", figure.label, figure.value, figure.unit,
+                                      errorText(figure)));
         }
-        result.answer(words);
         groups.push_back(std::move(facts));
     }
     result.add("measures", std::move(groups));

@@ -11,6 +11,7 @@
 #include "engine/peers/launch.h"
 #include "engine/peers/naps.h"
 #include "engine/peers/peers.h"
+#include "engine/text/printed.h"
 
 namespace stereonav {
 namespace {
@@ -56,13 +57,13 @@ void leaveOthers() {
 
 int endWith(const std::string& line) {
     if (!peersOfThisRun().alone()) peersOfThisRun().fail(line);
-    if (!leftToTheFirst()) std::fprintf(stderr, "stereonav: %s\n", line.c_str());
+    if (!leftToTheFirst()) printNote(line);
     return 1;
 }
 
 int endStopped() {
     if (!peersOfThisRun().alone()) peersOfThisRun().fail(peersOfThisRun().first() ? "stopped" : "");
-    if (!joining() || launchOfThisProcess().rank == 0) std::fprintf(stderr, "stereonav: stopped\n");
+    if (!joining() || launchOfThisProcess().rank == 0) printNote("stopped");
     return 1;
 }
 

@@ -18,6 +18,7 @@
 #include "app/options/parsed_options.h"
 #include "app/scene/scene_type.h"
 #include "engine/base/error.h"
+#include "engine/text/printed.h"
 #include "engine/text/similar.h"
 
 namespace stereonav {
@@ -130,7 +131,7 @@ Error refusalOf(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int print(const std::string& text) {
-    std::fputs(text.c_str(), stdout);
+    printLines(stdout, text);
     return 0;
 }
 

@@ -1,11 +1,14 @@
 #include "app/options/number_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
 
 #include "engine/base/error.h"
+#include "engine/text/utf8.h"
 
 namespace stereonav {
 namespace {
@@ -80,8 +83,8 @@ std::vector<double> numbersFromText(std::string_view text) {
 }
 
 std::string shownText(std::string_view text) {
-    const bool cut = text.size() > kLongestShown;
-    return "\"" + std::string(text.substr(0, kLongestShown)) + (cut ? "...\"" : "\"");
+    const std::string_view shown = firstBytes(text, kLongestShown);
+    return fmt::format("\"{}{}\"", shown, shown.size() < text.size() ? "..." : "");
 }
 
 double numberIn(const std::string& option, const NumberRange& range, const std::string& advice,

@@ -5,6 +5,8 @@
 
 #include "app/command/facts_json.h"
 #include "engine/base/file.h"
+#include "engine/text/json_text.h"
+#include "engine/text/printed.h"
 
 namespace stereonav {
 namespace {
@@ -14,9 +16,8 @@ std::vector<NamedPlace> withDocument(const Telling& telling, std::vector<NamedPl
     return outputs;
 }
 
-// Names of files may hold bytes that are no UTF-8.
 std::string documentOf(const Facts& facts) {
-    return jsonOf(facts).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return jsonText(jsonOf(facts), 2);
 }
 
 }  // namespace
@@ -27,12 +28,14 @@ CommandResult::CommandResult(const char* command, const Telling& telling,
     add("command", std::string(command));
 }
 
-void CommandResult::say(const std::string& words) const {
-    if (!mTelling.quiet) answer(words);
+void CommandResult::say(std::string_view line) const {
+    if (!mTelling.quiet) answer(line);
 }
 
-void CommandResult::answer(const std::string& words) const {
-    if (!mTelling.json) std::fputs(words.c_str(), mLines);
+void CommandResult::answer(std::string_view line) const {
+    if (mTelling.json) return;
+    if (line.ends_with('\n')) line.remove_suffix(1);
+    printLine(mLines, line);
 }
 
 void CommandResult::add(std::string key, FactValue value) {
@@ -57,7 +60,7 @@ void CommandResult::writeTo(const std::filesystem::path& file) const {
 }
 
 void printJson(const Facts& facts) {
-    std::printf("%s\n", documentOf(facts).c_str());
+    printDocument(documentOf(facts));
 }
 
 }  // namespace stereonav

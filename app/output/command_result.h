@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/command/commands.h"
@@ -19,10 +20,10 @@ public:
     // Throws Error where two go to the same place, the document among them.
     CommandResult(const char* command, const Telling& telling, const std::vector<NamedPlace>& outputs);
 
-    // Words for people, with their line's end.
-    void say(const std::string& words) const;
-    // What was asked to be printed: for people also where they want no notes.
-    void answer(const std::string& words) const;
+    // A line for people, with its end.
+    void say(std::string_view line) const;
+    // A line of what was asked to be printed: for people also where they want no notes.
+    void answer(std::string_view line) const;
 
     // A field of the document: its name ends with its unit. No number is null.
     void add(std::string key, FactValue value);

@@ -9,6 +9,8 @@
 #include <cstdlib>
 
 #include "engine/base/loop_watch.h"
+#include "engine/text/printable.h"
+#include "engine/text/printed.h"
 
 namespace stereonav {
 namespace {
@@ -66,7 +68,7 @@ void ProgressBar::tell(const std::string& note) {
     if (!mTold.insert(note).second) return;
     if (mTerminal && mDrawn) std::fputs("\r\033[K", stderr);
     mDrawn = false;
-    std::fprintf(stderr, "stereonav: %s\n", note.c_str());
+    printNote(note);
 }
 
 // By the first thread alone.
@@ -89,9 +91,9 @@ void ProgressBar::draw(double now_ms) {
     if (since_ms >= kLong_ms && now_ms - mLoopStart_ms >= kLong_ms)
         what += fmt::format(", {:.0f} % of this step", std::floor(100 * mLoopShare));
     if (mTerminal)
-        std::fprintf(stderr, "\r\033[K%s", progressLine(mFraction, what, 30).c_str());
+        std::fputs(("\r\033[K" + printable(progressLine(mFraction, what, 30), kLongestLine)).c_str(), stderr);
     else
-        std::fprintf(stderr, "%3d %% %s\n", static_cast<int>(mFraction * 100.0), what.c_str());
+        printLine(stderr, fmt::format("{:3d} % {}", static_cast<int>(mFraction * 100.0), what));
     std::fflush(stderr);
     mDrawn = true;
 }

@@ -9,7 +9,9 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/text/csv_text.h"
 #include "engine/text/json_check.h"
+#include "engine/text/json_text.h"
 
 namespace stereonav {
 namespace {
@@ -28,12 +30,6 @@ ReportFigure::Kind kindFromName(const std::string& name) {
     return name == "time"    ? ReportFigure::Kind::Time
            : name == "error" ? ReportFigure::Kind::Error
                              : ReportFigure::Kind::Other;
-}
-
-std::string quoted(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return result + "\"";
 }
 
 Json papersJson(const std::vector<PaperRow>& rows) {
@@ -148,15 +144,15 @@ std::string figuresJson(const Report& report) {
                                    {"unit", f.unit},
                                    {"setting", f.setting}});
     if (!report.papers.empty()) json["papers"] = papersJson(report.papers);
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return jsonText(json, 1) + "\n";
 }
 
 std::string figuresCsv(const Report& report) {
     std::string csv = "id,kind,median,low,high,count,unit,setting\n";
     for (const ReportFigure& f : report.figures)
-        csv +=
-            fmt::format("{},{},{:.9g},{:.9g},{:.9g},{},{},{}\n", quoted(f.id), nameOf(f.kind), f.value.median,
-                        f.value.low, f.value.high, f.value.count, quoted(f.unit), quoted(f.setting));
+        csv += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{},{},{}\n", csvText(f.id), nameOf(f.kind),
+                           f.value.median, f.value.low, f.value.high, f.value.count, csvText(f.unit),
+                           csvText(f.setting));
     return csv;
 }
 

@@ -18,6 +18,7 @@
 #include "engine/base/named_file.h"
 #include "engine/base/regular_file.h"
 #include "engine/camera/gltf_size.h"
+#include "engine/text/json_text.h"
 
 namespace stereonav {
 namespace {
@@ -170,7 +171,7 @@ GltfFile readGltf(const std::filesystem::path& path) {
     if (!loaded) {
         while (!problem.empty() && std::isspace(static_cast<unsigned char>(problem.back())))
             problem.pop_back();
-        throw Error(file.name, "", "is not glTF 2.0 that can be read: " + problem,
+        throw Error(file.name, "", "is not glTF 2.0 that can be read: " + jsonProblem(problem),
                     "check that it is a complete .gltf or .glb file");
     }
     checkExtensions(file);

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/text/printable.h"
 
 namespace stereonav {
 namespace {
@@ -95,7 +96,7 @@ void Window::start(const std::string& title, int width, int height, bool visible
         throw displayError("there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
     if (!glfwInit()) throw displayError("the display can not be used: " + lastProblem());
     try {
-        open(title, width, height, visible, quadBuffer, first);
+        open(printable(title), width, height, visible, quadBuffer, first);
     } catch (...) {
         if (mHandle) glfwDestroyWindow(mHandle);
         if (openWindows == 0) glfwTerminate();
@@ -262,11 +263,11 @@ std::string Window::clipboard() const {
 }
 
 void Window::setClipboard(const std::string& text) {
-    glfwSetClipboardString(mHandle, text.c_str());
+    glfwSetClipboardString(mHandle, printableLines(text).c_str());
 }
 
 void Window::setTitle(const std::string& title) {
-    glfwSetWindowTitle(mHandle, title.c_str());
+    glfwSetWindowTitle(mHandle, printable(title).c_str());
 }
 
 void Window::close() {

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "engine/metrics/error_plot.h"
+#include "engine/text/printable.h"
 
 namespace stereonav {
 namespace {
@@ -211,7 +212,7 @@ std::string svgOf(const Chart& chart) {
 
 std::string escapedXml(std::string_view text) {
     std::string escaped;
-    for (const char c : text) switch (c) {
+    for (const char c : printableLines(text)) switch (c) {
             case '<':
                 escaped += "&lt;";
                 break;
@@ -228,8 +229,7 @@ std::string escapedXml(std::string_view text) {
                 escaped += "&#39;";
                 break;
             default:
-                // control characters have no place in XML
-                escaped += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
+                escaped += c;
         }
     return escaped;
 }

@@ -38,7 +38,7 @@ constexpr double kChartWidth = 420, kChartHeight = 320;
 // axis zeros lie on a line of their own, "0", below the rest.
 std::string svgOf(const Chart& chart);
 
-// With <, >, &, quotes and control characters made harmless in XML and HTML.
+// Printable (engine/text/printable.h), with <, >, & and quotes made harmless in XML and HTML.
 std::string escapedXml(std::string_view text);
 
 // What labels stand beside: for tests, and for svgOf.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/text/printable.h"
+
 namespace stereonav {
 namespace {
 
@@ -25,9 +27,10 @@ struct WordsOf {
     std::string operator()(const std::vector<Facts>& groups) const { return std::to_string(groups.size()); }
 };
 
+// Printable, since words of files stand in it.
 std::string textOf(const Fact& fact) {
-    if (!fact.text.empty()) return fact.text;
-    const std::string words = std::visit(WordsOf{}, fact.value);
+    if (!fact.text.empty()) return printable(fact.text, kLongestLine);
+    const std::string words = printable(std::visit(WordsOf{}, fact.value), kLongestLine);
     return fact.unit.empty() ? words : words + " " + fact.unit;
 }
 
@@ -36,8 +39,8 @@ template <typename Line, typename Heading>
 void walk(const Facts& facts, const Line& line, const Heading& heading) {
     for (const Fact& fact : facts) {
         const auto* const group = std::get_if<Facts>(&fact.value);
-        if (fact.label && group) heading(*fact.label);
-        if (fact.label && !group) line(*fact.label, textOf(fact));
+        if (fact.label && group) heading(printable(*fact.label));
+        if (fact.label && !group) line(printable(*fact.label), textOf(fact));
         if (group) walk(*group, line, heading);
         if (const auto* const groups = std::get_if<std::vector<Facts>>(&fact.value))
             for (const Facts& each : *groups) walk(each, line, heading);

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "engine/text/json_text.h"
+
 namespace stereonav {
 namespace {
 
@@ -40,7 +42,7 @@ std::string meshPlaceText(const MeshPlace& place) {
     json["to_crs"] =
         "x = offset[0] + X / metres_per_unit, y = offset[1] - Z / metres_per_unit, "
         "height in metres = Y / vertical_scale";
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return jsonText(json, 2) + "\n";
 }
 
 std::filesystem::path meshPlaceFile(const std::filesystem::path& mesh) {

@@ -14,6 +14,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/text/similar.h"
+#include "engine/text/utf8.h"
 
 namespace stereonav {
 namespace {
@@ -34,7 +35,8 @@ int lineOf(const toml::value& value) {
 std::string shown(const toml::value& value) {
     if (value.is_string()) {
         const std::string text = value.as_string().str;
-        return text.size() > 40 ? "\"" + text.substr(0, 40) + "...\"" : "\"" + text + "\"";
+        const std::string_view first = firstBytes(text, 40);
+        return fmt::format("\"{}{}\"", first, first.size() < text.size() ? "..." : "");
     }
     if (value.is_integer()) return std::to_string(value.as_integer());
     if (value.is_floating()) return fmt::format("{:g}", value.as_floating());

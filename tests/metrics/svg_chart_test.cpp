@@ -164,7 +164,7 @@ TEST(SvgChart, LabelsNeverMeet) {
 
 TEST(Xml, EscapesWhatMeansSomething) {
     EXPECT_EQ(escapedXml("<a b=\"c\" d='e'>&"), "&lt;a b=&quot;c&quot; d=&#39;e&#39;&gt;&amp;");
-    EXPECT_EQ(escapedXml(std::string("\x01x\x7f", 2)), " x");
+    EXPECT_EQ(escapedXml("\x01x\x7f\xff\u009b\n"), "\\x01x\\x7f\\xff\\xc2\\x9b\n");
     EXPECT_EQ(escapedXml("Höhe"), "Höhe");
 }
 

@@ -5,15 +5,10 @@
 
 #include "app/report/model.h"
 #include "app/report/papers/papers.h"
+#include "engine/text/csv_text.h"
 
 namespace stereonav {
 namespace {
-
-std::string quotedCell(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return result + "\"";
-}
 
 std::string csvNumber(const std::optional<double>& value) {
     return value ? fmt::format("{:.9g}", *value) : "";
@@ -86,12 +81,11 @@ std::string papersCsv(const std::vector<PaperRow>& rows) {
         const auto ours = [has](double value) {
             return csvNumber(has ? std::optional(value) : std::nullopt);
         };
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", quotedCell(row.paper),
-                           quotedCell(row.table), quotedCell(row.row), quotedCell(row.column),
-                           csvNumber(row.theirs), quotedCell(row.said), ours(row.ours.median),
-                           ours(row.ours.low), ours(row.ours.high), row.ours.count, quotedCell(row.none),
-                           quotedCell(row.unit), quotedCell(row.measured), quotedCell(row.how),
-                           quotedCell(row.why));
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csvText(row.paper),
+                           csvText(row.table), csvText(row.row), csvText(row.column), csvNumber(row.theirs),
+                           csvText(row.said), ours(row.ours.median), ours(row.ours.low), ours(row.ours.high),
+                           row.ours.count, csvText(row.none), csvText(row.unit), csvText(row.measured),
+                           csvText(row.how), csvText(row.why));
     }
     return csv;
 }
