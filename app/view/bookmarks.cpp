@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/image/png_writer.h"
+#include "engine/text/json_text.h"
 
 namespace stereonav {
 namespace {
@@ -148,7 +149,7 @@ void Bookmarks::write() {
         {"stereonav_places", kPlacesVersion}, {"scene", jsonOfPath(mScene)}, {"places", json::array()}};
     for (const Bookmark& mark : mList) file["places"].push_back(jsonOfMark(mark));
     try {
-        writeKept(mFile, file.dump(2) + "\n");
+        writeKept(mFile, jsonText(file, 2) + "\n");
         mUnkept = false;
     } catch (const Error& error) {
         mUnkept = true;

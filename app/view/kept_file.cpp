@@ -9,6 +9,8 @@
 #include "engine/base/new_file.h"
 #include "engine/base/own_folder.h"
 #include "engine/text/json_check.h"
+#include "engine/text/printable.h"
+#include "engine/text/utf8.h"
 
 namespace stereonav {
 namespace {
@@ -27,11 +29,6 @@ void eachOwnFolder(const fs::path& file, void (*act)(const fs::path&, const std:
     act(folder, kMoveKept);
 }
 
-std::string utf8(const std::string& text) {
-    const std::string quoted = json(text).dump(-1, ' ', false, json::error_handler_t::replace);
-    return json::parse(quoted).get<std::string>();
-}
-
 // One coordinate of the part of the picture that a thumbnail's pixel is the mean of.
 struct Span {
     int first, last;  // last: one beyond
@@ -45,8 +42,13 @@ Span spanOf(int k, int count, double from, double length, int most) {
 
 }  // namespace
 
-bool isUtf8(const std::string& text) {
-    return utf8(text) == text;
+bool isUtf8(std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const Letter letter = letterAt(text, at);
+        if (isNoLetter(letter)) return false;
+        at += letter.bytes;
+    }
+    return true;
 }
 
 fs::path dataFolder() {
@@ -123,15 +125,17 @@ std::optional<json> readKeptJson(const fs::path& file, bool (*isRight)(const jso
     return std::nullopt;
 }
 
-std::string keptText(const std::string& text, std::size_t mostBytes) {
-    std::string kept = utf8(text);
-    for (char& c : kept)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    if (kept.size() <= mostBytes) return kept;
-    std::size_t end = mostBytes;
-    while (end > 0 && (static_cast<unsigned char>(kept[end]) & 0xc0) == 0x80) --end;
-    kept.resize(end);
-    return kept;
+std::string keptText(std::string_view text, std::size_t mostBytes) {
+    std::string kept;
+    for (std::size_t at = 0; at < text.size() && kept.size() <= mostBytes;) {
+        const Letter letter = letterAt(text, at);
+        if (isNoLetter(letter))
+            kept += "\ufffd";
+        else
+            kept += isPrintable(letter.code) ? text.substr(at, letter.bytes) : " ";
+        at += letter.bytes;
+    }
+    return std::string(firstBytes(kept, mostBytes));
 }
 
 json jsonOfPath(const fs::path& path) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "engine/image/packed_color.h"
 #include "engine/image/plane.h"
@@ -36,10 +37,10 @@ std::filesystem::path setAside(const std::filesystem::path& file);
 std::optional<nlohmann::json> readKeptJson(const std::filesystem::path& file,
                                            bool (*isRight)(const nlohmann::json&), std::string& problem);
 
-bool isUtf8(const std::string& text);
+bool isUtf8(std::string_view text);
 // Text as JSON takes it: bytes that are no UTF-8 become U+FFFD, control characters blanks; at most so many
 // bytes, cut between characters.
-std::string keptText(const std::string& text, std::size_t mostBytes);
+std::string keptText(std::string_view text, std::size_t mostBytes);
 // A path whatever its bytes: text where it is UTF-8, else a list of bytes.
 nlohmann::json jsonOfPath(const std::filesystem::path& path);
 // None where it is no path.

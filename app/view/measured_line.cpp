@@ -9,6 +9,7 @@
 #include "app/output/length_text.h"
 #include "app/view/kept_file.h"
 #include "engine/base/error.h"
+#include "engine/text/json_text.h"
 #include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
@@ -151,11 +152,9 @@ void MeasuredLine::write() {
     nlohmann::json places = nlohmann::json::array();
     for (const glm::dvec3& place : mPlaces) places.push_back({place.x, place.y, place.z});
     try {
-        writeKept(
-            mFile,
-            nlohmann::json{{"stereonav_line", kMeasuredVersion}, {"closed", mClosed}, {"places_m", places}}
-                    .dump(1) +
-                "\n");
+        const nlohmann::json line{
+            {"stereonav_line", kMeasuredVersion}, {"closed", mClosed}, {"places_m", places}};
+        writeKept(mFile, jsonText(line, 1) + "\n");
     } catch (const Error& error) {
         mProblem = error.what();
     }

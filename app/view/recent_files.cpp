@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/image/png_writer.h"
+#include "engine/text/json_text.h"
 
 namespace stereonav {
 namespace {
@@ -66,7 +67,7 @@ void RecentFiles::write() {
     for (const RecentFile& recent : mList)
         file["files"].push_back({{"path", jsonOfPath(recent.path)}, {"kind", recent.kind}});
     try {
-        writeKept(mFolder.empty() ? fs::path() : mFolder / "recent.json", file.dump(2) + "\n");
+        writeKept(mFolder.empty() ? fs::path() : mFolder / "recent.json", jsonText(file, 2) + "\n");
         mUnkept = false;
     } catch (const Error& error) {
         mUnkept = true;

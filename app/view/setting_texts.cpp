@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "app/options/parsed_options.h"
+#include "engine/text/printable.h"
+#include "engine/text/utf8.h"
 
 namespace stereonav {
 namespace {
@@ -37,6 +39,18 @@ SettingTexts textsOf(const GivenOptions& given, bool ofFile) {
             settings[option.key].push_back(option.value.kind == ValueKind::Flag ? "" : value.text);
     }
     return settings;
+}
+
+// In bash's own form, which is text however the name is made: pasted control characters would act on the
+// terminal.
+std::string escapedShellWord(std::string_view text) {
+    std::string word = "$'";
+    for (std::size_t at = 0; at < text.size();) {
+        const std::string_view bytes = text.substr(at, letterAt(text, at).bytes);
+        at += bytes.size();
+        word += bytes == "'" || bytes == "\\" ? "\\" + std::string(bytes) : printable(bytes);
+    }
+    return word + "'";
 }
 
 }  // namespace
@@ -81,6 +95,7 @@ std::string shellWord(const std::string& text) {
                std::string_view("-_./:,+=@%").find(static_cast<char>(c)) != std::string_view::npos;
     };
     if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+    if (printable(text, text.npos) != text) return escapedShellWord(text);
     std::string word = "'";
     for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return word + "'";

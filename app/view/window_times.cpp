@@ -1,9 +1,13 @@
 #include "app/view/window_times.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+
+#include "engine/text/printed.h"
 
 namespace stereonav {
 namespace {
@@ -14,8 +18,8 @@ void print(const char* what, std::vector<double>& times) {
     const auto at = [&](double share) {
         return times[static_cast<std::size_t>(std::floor(share * static_cast<double>(times.size() - 1)))];
     };
-    std::fprintf(stderr, "%-7s %6zu times  median %7.2f ms  p99 %7.2f ms  longest %7.2f ms\n", what,
-                 times.size(), at(0.5), at(0.99), times.back());
+    printLine(stderr, fmt::format("{:<7} {:6} times  median {:7.2f} ms  p99 {:7.2f} ms  longest {:7.2f} ms",
+                                  what, times.size(), at(0.5), at(0.99), times.back()));
 }
 
 }  // namespace

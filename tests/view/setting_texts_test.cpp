@@ -32,7 +32,8 @@ TEST(SettingTexts, ACommandLineIsReadByAShell) {
     EXPECT_EQ(renderLineOf({{"sweep", {"cpu"}}, {"fov", {"40"}}}, "1,2,3,4,5,6", {640, 480}),
               "stereonav render --fov=40 --size=640x480 --pose=1,2,3,4,5,6 --out view.png");
     EXPECT_EQ(shellWord(""), "''");
-    EXPECT_EQ(shellWord("a\nb"), "'a\nb'");
+    EXPECT_EQ(shellWord("a\nb"), "$'a\\x0ab'");
+    EXPECT_EQ(shellWord("\x1b[201~\xff'\\"), "$'\\x1b[201~\\xff\\'\\\\'");
 }
 
 TEST(SavedScene, KeepsWhatAPersonWrote) {

@@ -14,6 +14,7 @@
 #include "engine/image/stereo_compose.h"
 #include "engine/math/number_range.h"
 #include "engine/scene/capabilities.h"
+#include "engine/text/printable.h"
 
 namespace stereonav {
 namespace {
@@ -154,6 +155,10 @@ std::string keyOf(const Option& option) {
     return found == keys.end() ? "" : found->second;
 }
 
+void plainText(const std::string& text) {
+    ImGui::TextUnformatted(printable(text).c_str());
+}
+
 void wrappedText(const std::string& text, float width) {
     if (width <= 0) width = ImGui::GetContentRegionAvail().x;
     const auto widthOf = [](std::string_view part) {
@@ -161,7 +166,7 @@ void wrappedText(const std::string& text, float width) {
     };
     // A word that is wider is broken where ImGui breaks it.
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
-    ImGui::TextUnformatted(withLineBreaks(text, width, widthOf).c_str());
+    ImGui::TextUnformatted(withLineBreaks(printableLines(text), width, widthOf).c_str());
     ImGui::PopTextWrapPos();
 }
 
@@ -174,7 +179,7 @@ void tooltip(const std::string& text) {
 
 void quietLine(const PanelHost& host, const std::string& text) {
     ImGui::PushStyleColor(ImGuiCol_Text, quietColor(host.look()));
-    ImGui::TextUnformatted(text.c_str());
+    plainText(text);
     ImGui::PopStyleColor();
 }
 

@@ -16,6 +16,8 @@ std::string labelOf(const Option& option);
 // The key that does it in the window, "" for none.
 std::string keyOf(const Option& option);
 
+// In one line, as all of these printable (engine/text/printable.h): names of files may be in it.
+void plainText(const std::string& text);
 // Wrapped at blanks, within so many units; 0: within the room that there is.
 void wrappedText(const std::string& text, float width = 0);
 // Text that explains, in one line; wrapped.

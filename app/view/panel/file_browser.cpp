@@ -129,7 +129,7 @@ void FileBrowser::drawEntries(PanelHost& host) {
             mName = entry.name;
         }
         ImGui::SameLine(0.4f * font);
-        ImGui::TextUnformatted(((entry.folder ? "\u25b8 " : "   ") + entry.name).c_str());
+        plainText((entry.folder ? "\u25b8 " : "   ") + entry.name);
         if (!entry.folder) {
             const std::string size = sizeText(entry.bytes);
             ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(size.c_str()).x -

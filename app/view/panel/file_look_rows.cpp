@@ -11,7 +11,7 @@ void drawFileLook(PanelHost& host, const FileLook& look, int mostLines, float wr
     if (!look.problem.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, warningColor(host.look()));
         ImGui::PushTextWrapPos(wrap);
-        ImGui::TextUnformatted(look.problem.c_str());
+        plainText(look.problem);
         ImGui::PopTextWrapPos();
         ImGui::PopStyleColor();
         return;
@@ -21,7 +21,7 @@ void drawFileLook(PanelHost& host, const FileLook& look, int mostLines, float wr
         if (lines++ == mostLines) break;
         quietLine(host, label);
         ImGui::SameLine(7 * ImGui::GetFontSize());
-        ImGui::TextUnformatted(words.c_str());
+        plainText(words);
     }
 }
 

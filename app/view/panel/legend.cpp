@@ -17,7 +17,7 @@ void drawEntry(const LegendEntry& entry, int id) {
     ImGui::ColorButton("##color", color, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
                        {1.6f * side, side});
     ImGui::SameLine();
-    ImGui::TextUnformatted(entry.text.c_str());
+    plainText(entry.text);
     ImGui::PopID();
 }
 

@@ -49,7 +49,7 @@ void PlacesPanel::drawPlace(PanelHost& host, Bookmarks& places, const Bookmark& 
             mRenaming.clear();
         }
     } else {
-        ImGui::TextUnformatted(place.name.c_str());
+        plainText(place.name);
     }
     if (ImGui::SmallButton("Go")) host.goToPlace(place);
     tooltip("Fly there.");

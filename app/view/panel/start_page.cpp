@@ -10,6 +10,7 @@
 #include "app/view/panel/start_pictures.h"
 #include "engine/base/error.h"
 #include "engine/image/image_file.h"
+#include "engine/text/printable.h"
 
 namespace stereonav {
 namespace {
@@ -60,7 +61,7 @@ bool StartPage::drawRecentFile(PanelHost& host, const RecentFile& file, float wi
     const float font = ImGui::GetFontSize(), height = 2.6f * font;
     const ImVec2 picture(height * kThumbnailWidth / kThumbnailHeight, height);
     const std::string name =
-        file.path.filename().empty() ? file.path.string() : file.path.filename().string();
+        printable(file.path.filename().empty() ? file.path.string() : file.path.filename().string());
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const bool clicked = ImGui::Selectable("##file", false, 0, {width, height});
     const bool hovered = ImGui::IsItemHovered();
@@ -78,13 +79,13 @@ bool StartPage::drawRecentFile(PanelHost& host, const RecentFile& file, float wi
     const float text = to.x + 0.6f * font;
     list.PushClipRect({text, from.y}, {from.x + width, to.y}, true);
     list.AddText({text, from.y + 0.2f * font}, ImGui::GetColorU32(ImGuiCol_Text), name.c_str());
-    const std::string where = file.path.parent_path().string();
+    const std::string where = printable(file.path.parent_path().string());
     list.AddText({text, from.y + 1.35f * font}, ImGui::GetColorU32(quietColor(host.look())), where.c_str());
     list.PopClipRect();
     if (hovered) {
         ImGui::BeginTooltip();
         ImGui::PushTextWrapPos(34 * font);
-        ImGui::TextUnformatted(file.path.string().c_str());
+        plainText(file.path.string());
         drawFileLook(host, host.lookAt(file.path), 8, 34 * font);
         ImGui::PopTextWrapPos();
         ImGui::EndTooltip();

@@ -32,7 +32,7 @@ public:
     }
     void text(const std::string& text, const std::string& tip = "") {
         if (text.empty() || !room(ImGui::CalcTextSize(text.c_str()).x)) return;
-        ImGui::TextUnformatted(text.c_str());
+        plainText(text);
         if (!tip.empty()) tooltip(tip);
     }
 

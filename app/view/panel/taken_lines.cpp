@@ -8,6 +8,7 @@
 
 #include "app/view/panel/controls.h"
 #include "engine/scene/live_paint.h"
+#include "engine/text/printable.h"
 #include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
@@ -34,7 +35,8 @@ void take(PanelHost& host, const TerrainScene& terrain, const std::vector<glm::d
 }
 
 std::string nameOf(const PaintedLine& line, std::size_t n) {
-    return line.name.empty() ? fmt::format("{} {}", line.closed ? "area" : "track", n + 1) : line.name;
+    return line.name.empty() ? fmt::format("{} {}", line.closed ? "area" : "track", n + 1)
+                             : printable(line.name);
 }
 
 }  // namespace
