@@ -13,7 +13,7 @@ namespace stereonav::test {
 namespace {
 
 using Json = nlohmann::json;
-using Words = SmallRuns::Words;
+using Words = std::vector<std::string>;
 
 class CommandTelling : public SmallRuns {};
 
