@@ -56,7 +56,7 @@ int runCentreline(const CentrelineOptions& options) {
     result.say(fmt::format("{}: {} points along {:.1f} mm in {} segment(s), radius {:.1f} to {:.1f} mm\n",
                            options.out, line.points.size(), line.length() * 1e3, colon->segments(),
                            least->radius * 1e3, most->radius * 1e3));
-    result.add("scene", scene->name);
+    result.addScene(scene->name);
     result.addFile("centreline", options.out);
     result.add("points", static_cast<std::int64_t>(line.points.size()));
     result.add("length_mm", line.length() * 1e3);

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command/facts_json.h"
+#include "app/output/handed_name.h"
 #include "engine/metrics/error_plot.h"
 #include "engine/text/csv_text.h"
 #include "engine/text/json_text.h"
@@ -101,12 +102,12 @@ std::string tableOf(const ComparisonReport& report) {
 
 std::string jsonOf(const ComparisonReport& report) {
     nlohmann::ordered_json json;
-    json["scene"] = report.scene;
+    json["scene"] = handedName(report.scene);
     json["size"] = {report.width, report.height};
     json["threads"] = report.threads;
     json["machine"] = report.machine;
     json["simd"] = report.simd;
-    json["path"] = report.path;
+    json["path"] = handedName(report.path);
     json["frames"] = report.frames;
     json["repeats"] = report.repeats;
     json["truth_rays"] = report.truthRays;
@@ -129,8 +130,9 @@ std::string csvOf(const ComparisonReport& report) {
     std::string csv = "scene,width,height,threads,frames,machine,name";
     for (const Field& field : kFields) csv += std::string(",") + field.name;
     for (const MethodFigures& method : report.methods) {
-        csv += fmt::format("\n{},{},{},{},{},{},{}", csvText(report.scene), report.width, report.height,
-                           report.threads, report.frames, csvText(report.machine), method.name);
+        csv +=
+            fmt::format("\n{},{},{},{},{},{},{}", csvText(handedName(report.scene)), report.width,
+                        report.height, report.threads, report.frames, csvText(report.machine), method.name);
         for (const Field& field : kFields) {
             const double value = field.value(method);
             csv += std::isnan(value) ? "," : fmt::format(",{:.9g}", value);

@@ -111,7 +111,7 @@ int runCoverage(const CoverageOptions& options) {
                     "patches of at least {:g} mm^2; {}\n",
                     scene->name, oneWay, 1e4 * wall->mesh.area(), twoWay, after, views, patches.size(),
                     options.patch_mm2, kNoMedicalDevice));
-    result.add("scene", scene->name);
+    result.addScene(scene->name);
     result.add("fov_deg", setting.verticalFov * 180 / std::numbers::pi);
     result.add("within_mm", options.within_mm);
     result.add("angle_deg", options.angle_deg);

@@ -151,7 +151,7 @@ int runFindings(const FindingsOptions& options) {
                     "give those that are polyps with --at x,y,z");
     result.say(fmt::format("{}: {} findings, {}; {}\n", options.scene.scene, findings.size(),
                            cradsWords(findings), kNoMedicalDevice));
-    result.add("scene", options.scene.scene);
+    result.addScene(options.scene.scene);
     result.add("notice", std::string(kNoMedicalDevice));
     tellFindings(result, findings);
     tellDistances(result, options, colon);

@@ -5,6 +5,7 @@
 #include "app/command/info_series.h"
 #include "app/command/process_facts.h"
 #include "app/output/command_result.h"
+#include "app/output/handed_name.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
 #include "engine/text/printed.h"
@@ -25,7 +26,7 @@ int runInfo(const InfoOptions& options) {
     facts.push_back(factForAll("plan", factsOfFrames(scene, plan), "frame plan"));
     facts.push_back(factForAll("process", factsOf(process), "process"));
     if (options.telling.json) {
-        facts.insert(facts.begin(), factForJson("scene", scene.name));
+        facts.insert(facts.begin(), factForJson("scene", handedName(scene.name)));
         printJson(facts);
         return 0;
     }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "app/output/command_result.h"
+#include "app/output/handed_name.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/ground_figures.h"
@@ -62,7 +63,7 @@ std::string geoJsonOf(const SurveyGround& survey, const std::vector<MeasuredLine
     nlohmann::ordered_json features = nlohmann::ordered_json::array();
     for (const MeasuredLine& one : all) {
         nlohmann::ordered_json properties{
-            {"name", one.line.name}, {"ground", survey.name}, {"crs", survey.crs}};
+            {"name", one.line.name}, {"ground", handedName(survey.name)}, {"crs", survey.crs}};
         for (const GroundFigure& figure : one.figures) {
             properties[figure.key] = figure.value;
             properties[std::string(figure.key) + "_error"] = figure.error;
@@ -127,7 +128,7 @@ int runMeasure(const MeasureOptions& options) {
     if (!options.csv.empty()) writeTextFile(options.csv, csvOf(all));
     if (!options.geojson.empty()) writeTextFile(options.geojson, geoJsonOf(survey, all));
     bar.clear();
-    result.add("scene", survey.name);
+    result.addScene(survey.name);
     result.add("crs", survey.crs);
     result.add("sample_spacing_m", FactNumbers{samples.spacing().x, samples.spacing().y});
     tell(all, result);

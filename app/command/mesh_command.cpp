@@ -67,7 +67,7 @@ int runMesh(const MeshOptions& options) {
         fmt::format("{}: {} triangles over {} vertices ({:.2f} % of the grid's), largest error {:.3g} m "
                     "of {:.3g} m\n",
                     options.out, mesh.triangles.size(), mesh.vertices.size(), share, mesh.maxError, error));
-    result.add("scene", scene->name);
+    result.addScene(scene->name);
     result.addFile("mesh", options.out);
     if (hasMeshPlaceFile(options.out)) result.addFile("place", meshPlaceFile(options.out));
     result.add("triangles", static_cast<std::int64_t>(mesh.triangles.size()));

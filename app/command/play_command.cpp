@@ -203,7 +203,7 @@ int runPlay(const PlayOptions& options) {
     bar.clear();
     tellPaintNotes(scene, result);
     tellOfFlight(result, options, flight, sink);
-    result.add("scene", scene.name);
+    result.addScene(scene.name);
     if (std::optional<Fact> earth = factOfCurvature(scene)) result.add(earth->key, std::move(earth->value));
     if (options.hash) {
         const std::string text = fmt::format("{:016x}", sink.hash());

@@ -71,7 +71,7 @@ int runProfile(const ProfileOptions& options) {
                     "{:.6g} m, descent {:.6g} m; {} places\n",
                     measure.plan, measure.along, measure.lowest, measure.highest, measure.climb,
                     measure.descent, points.size()));
-    result.add("scene", survey.name);
+    result.addScene(survey.name);
     result.add("crs", survey.crs);
     result.add("name", line.name);
     result.add("sample_spacing_m", FactNumbers{samples.spacing().x, samples.spacing().y});

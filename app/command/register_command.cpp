@@ -7,6 +7,7 @@
 #include "app/command/colon_commands.h"
 #include "app/command/colon_of.h"
 #include "app/output/command_result.h"
+#include "app/output/handed_name.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/colon_loading.h"
@@ -131,8 +132,8 @@ int runRegister(const RegisterOptions& options) {
     result.say(fmt::format("{}, {:.0f} mm, and {}, {:.0f} mm: mean cost of a pair {:.3f}; {}\n",
                            options.scene.scene, 1e3 * first.centreline.length(), options.with,
                            1e3 * second.centreline.length(), registration.cost(), kNoMedicalDevice));
-    result.add("scene", options.scene.scene);
-    result.add("other", options.with);
+    result.addScene(options.scene.scene);
+    result.add("other", handedName(options.with));
     result.add("length_mm", 1e3 * first.centreline.length());
     result.add("other_length_mm", 1e3 * second.centreline.length());
     result.add("cost", registration.cost());

@@ -104,7 +104,7 @@ int runRender(const RenderOptions& options) {
     const std::string size = writeStereoPicture(options.out, frame, options.mode);
     bar.clear();
     tellPaintNotes(scene, result);
-    result.add("scene", scene.name);
+    result.addScene(scene.name);
     if (std::optional<Fact> earth = factOfCurvature(scene)) result.add(earth->key, std::move(earth->value));
     result.addFile("picture", options.out);
     result.add("size", FactIntegers{options.size.width, options.size.height});

@@ -115,7 +115,7 @@ int runSun(const SunOptions& options) {
     const double latitude = place.earth.latitude, longitude = place.earth.longitude;
     const SunSeen seen = sunSeenAt(time, latitude, longitude);
     const auto rise = nextSunrise(time, latitude, longitude), set = nextSunset(time, latitude, longitude);
-    result.add("scene", survey.name);
+    result.addScene(survey.name);
     result.add("utc", utcText(time));
     result.add("place_deg", FactNumbers{latitude / kDegree, longitude / kDegree});
     result.add("azimuth_deg", seen.azimuth / kDegree);

@@ -186,7 +186,7 @@ int runUnfold(const UnfoldOptions& options) {
         "100 by {:.0f} % at most; {:.1f} % of the wall is hidden by folds; {}\n",
         options.out, flat.width(), flat.height(), options.pixel_mm, 100 * error.mean, 100 * error.most95,
         hides, kNoMedicalDevice));
-    result.add("scene", scene->name);
+    result.addScene(scene->name);
     result.addFile("picture", options.out);
     if (!options.distortion.empty()) result.addFile("map", options.distortion);
     result.add("size", FactIntegers{flat.width(), flat.height()});

@@ -110,7 +110,7 @@ int runViewshed(const ViewshedOptions& options) {
     const double ground = survey.heightAt(place, "--from"),
                  height = options.from.height_m.value_or(kUsualEye);
     const glm::dvec3 eye(place, ground + height);
-    result.add("scene", survey.name);
+    result.addScene(survey.name);
     result.add("crs", survey.crs);
     addPlace(result, "from", options.from, ground, height);
     result.add("curvature", options.curvature);

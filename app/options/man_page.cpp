@@ -56,8 +56,8 @@ constexpr std::array kStatuses{
 
 constexpr std::array kFiles{
     Entry{"~/.cache/stereonav",
-          "What was found in studies, and bakes without --out; at most 4 GB of what was found. It may be "
-          "deleted at any time."},
+          "What was found in studies, tiles of large ground, and bakes without --out, readable for the user "
+          "alone; at most 4 GB but for bakes. stereonav cache lists and clears it."},
     Entry{"out/", "What stereonav without a command writes where there is no display."},
     Entry{"stereonav_0001_sbsl.png, flight_0001.gltf",
           "Pictures and flights that keys of the window save, in the folder that --shots names."},
@@ -69,7 +69,8 @@ constexpr std::array kFiles{
 constexpr std::array kEnvironment{
     Entry{"XDG_CACHE_HOME, HOME",
           "The cache is $XDG_CACHE_HOME/stereonav where that is an absolute path, else "
-          "$HOME/.cache/stereonav."},
+          "$HOME/.cache/stereonav, and without a home stereonav-NUMBER in the folder for temporary files, by the "
+          "user's number."},
     Entry{"DISPLAY, WAYLAND_DISPLAY",
           "Where windows open. Without both, stereonav without a command writes to out/."},
     Entry{
@@ -78,7 +79,9 @@ constexpr std::array kEnvironment{
     Entry{"STEREONAV_MEMORY",
           "Bytes that the program may take, as in 2e9. What needs more is refused with what would fit."},
     Entry{"STEREONAV_MEMORY_ASKED",
-          "A file that gets a line for each time that memory is asked for: bytes taken, bytes asked."},
+          "For tests: the number of a file that is open to be added to, as by 9>>FILE, which gets a line for "
+          "each "
+          "time that memory is asked for: bytes taken, bytes asked."},
     Entry{"STEREONAV_TEST_DATA", "The folder of data for report --papers, unless --data says it."},
 };
 

@@ -7,7 +7,7 @@
 namespace stereonav {
 namespace {
 
-constexpr std::array<CommandFacts, 17> kCommands{{
+constexpr std::array<CommandFacts, 18> kCommands{{
     {command::kInfo, "info", "print what was read and the frame plan", scene_type::kAll},
     {command::kRender, "render", "one pose into a picture", scene_type::kAll},
     {command::kPlay, "play", "a flight into pictures, a video, or a hash", scene_type::kAll},
@@ -33,6 +33,7 @@ constexpr std::array<CommandFacts, 17> kCommands{{
      scene_type::kVolumes},
     {command::kRegister, "register", "places of a colon in another study of it", scene_type::kVolumes},
     {command::kUnfold, "unfold", "a colon's wall laid flat, as a picture", scene_type::kVolumes},
+    {command::kCache, "cache", "what is kept between runs to save time: its files, and clearing it", 0},
     {command::kView, "view", "fly through the scene in a window", scene_type::kAll},
 }};
 
@@ -53,7 +54,7 @@ struct Part {
     std::vector<Option> (*options)();
     bool inFile;  // whether scene files may say them
 };
-constexpr std::array<Part, 19> kParts{{{sourceOptions, true},
+constexpr std::array<Part, 20> kParts{{{sourceOptions, true},
                                        {studyOptions, true},
                                        {lookOptions, true},
                                        {paintOptions, true},
@@ -70,6 +71,7 @@ constexpr std::array<Part, 19> kParts{{{sourceOptions, true},
                                        {reportOptions, false},
                                        {bakeOptions, false},
                                        {colonInstrumentOptions, false},
+                                       {cacheOptions, false},
                                        {setOption, false},
                                        {tellingOptions, false}}};
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/command/cache_command.h"
 #include "app/command/colon_commands.h"
 #include "app/command/commands.h"
 #include "app/options/given_options.h"
@@ -24,6 +25,7 @@ constexpr CommandSet kSurveying = kViewshed | kMeasure | kProfile | kSun;  // of
 // Instruments of colons: app/command/colon_commands.h.
 constexpr CommandSet kCoverage = 1 << 16, kFindings = 1 << 17, kRegister = 1 << 18, kUnfold = 1 << 19;
 constexpr CommandSet kColonInstruments = kCoverage | kFindings | kRegister | kUnfold;
+constexpr CommandSet kCache = 1 << 20;                                       // what is kept between runs
 constexpr CommandSet kShowing = kInfo | kRender | kPlay | kCompare | kView;  // any scene, as it looks
 }  // namespace command
 
@@ -59,6 +61,7 @@ struct OptionTargets {
     FindingsOptions* findings = nullptr;
     RegisterOptions* registration = nullptr;
     UnfoldOptions* unfold = nullptr;
+    CacheOptions* cache = nullptr;
     ViewOptions* view = nullptr;
 };
 
@@ -137,5 +140,6 @@ std::vector<Option> compareOptions();
 std::vector<Option> reportOptions();
 std::vector<Option> bakeOptions();
 std::vector<Option> colonInstrumentOptions();
+std::vector<Option> cacheOptions();
 
 }  // namespace stereonav

@@ -173,6 +173,11 @@ void chooseCommand(CommandSet which, ParsedOptions& parsed) {
             tells(parsed.unfold.telling);
             parsed.run = [&parsed] { return runUnfold(parsed.unfold); };
             break;
+        case command::kCache:
+            to.cache = &parsed.cache;
+            tells(parsed.cache.telling);
+            parsed.run = [&parsed] { return runCache(parsed.cache); };
+            break;
         case command::kBake:
             to.scene = &parsed.bake.scene, to.bake = &parsed.bake;
             tells(parsed.bake.telling);
@@ -213,7 +218,7 @@ void takeSetOption(const std::string& text, ParsedOptions& parsed) {
 }
 
 void finishOptions(ParsedOptions& parsed) {
-    if (parsed.to.report) refuseWhatDoesNotApply(parsed.given, 0, "");
+    if (parsed.to.report || parsed.to.cache) refuseWhatDoesNotApply(parsed.given, 0, "");
     if (!parsed.to.scene) return;
     // `view` alone is what a desktop's menu starts, with a file or with none.
     parsed.view.startPage = parsed.to.view && parsed.given.empty();

@@ -31,6 +31,7 @@ struct ParsedOptions {
     FindingsOptions findings;
     RegisterOptions registration;
     UnfoldOptions unfold;
+    CacheOptions cache;
     ViewOptions view;
     GivenOptions given;
     OptionTargets to;

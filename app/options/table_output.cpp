@@ -308,8 +308,8 @@ std::vector<Option> tellingOptions() {
         {.key = "json",
          .value = flagValue(),
          .help = "tells what was done, or found, as one JSON document on standard output",
-         .commands =
-             kInfo | kRender | kPlay | kReport | kMesh | kSurveying | kColonInstruments | kCentreline | kBake,
+         .commands = kInfo | kRender | kPlay | kReport | kMesh | kSurveying | kColonInstruments |
+                     kCentreline | kBake | kCache,
          .take = [](OptionTargets& to, const OptionValue&) { *to.json = true; }},
         {.key = "json",
          .value = fileValue(),
@@ -326,7 +326,8 @@ std::vector<Option> tellingOptions() {
         {.key = "quiet",
          .value = flagValue(),
          .help = "neither progress nor notes: only what was asked for, and errors",
-         .commands = kShowing | kReport | kMesh | kSurveying | kColonInstruments | kCentreline | kBake,
+         .commands =
+             kShowing | kReport | kMesh | kSurveying | kColonInstruments | kCentreline | kBake | kCache,
          .take = [](OptionTargets& to, const OptionValue&) { *to.quiet = true; }},
     };
 }

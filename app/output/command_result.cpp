@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/command/facts_json.h"
+#include "app/output/handed_name.h"
 #include "engine/base/file.h"
 #include "engine/text/json_text.h"
 #include "engine/text/printed.h"
@@ -40,6 +41,10 @@ void CommandResult::answer(std::string_view line) const {
 
 void CommandResult::add(std::string key, FactValue value) {
     mFacts.push_back(factForJson(std::move(key), std::move(value)));
+}
+
+void CommandResult::addScene(const std::string& scene) {
+    add("scene", handedName(scene));
 }
 
 void CommandResult::addFile(const std::string& key, const std::filesystem::path& file) {

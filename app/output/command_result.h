@@ -27,6 +27,8 @@ public:
 
     // A field of the document: its name ends with its unit. No number is null.
     void add(std::string key, FactValue value);
+    // The scene by its name alone (handed_name.h): documents are handed on.
+    void addScene(const std::string& scene);
     // A file that was written, or a folder; of a stream its size is null.
     void addFile(const std::string& key, const std::filesystem::path& file);
     // Prints the document, once.

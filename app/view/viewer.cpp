@@ -105,7 +105,7 @@ void Viewer::run() {
     endSession();
     while (mScreenshots.waiting() && mFrame) finishScreenshots();
     keepConfig();
-    mResult.add("scene", sceneName());
+    mResult.addScene(sceneName());
     mResult.add("told", mTold);
     mResult.finish();
     if (!mJson.empty() && !isStandardOutput(mJson)) mResult.writeTo(mJson);

@@ -1,10 +1,14 @@
 #include "engine/base/memory.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -92,6 +96,20 @@ double leftOfWish() {
     return std::min(left, leftOf(most));
 }
 
+// Only into what whoever started the program opened for that: no file of the program's own is open so.
+void noteAsked(double bytes) {
+    const char* text = std::getenv("STEREONAV_MEMORY_ASKED");
+    if (!text) return;
+    int file = -1;
+    const char* const textsEnd = text + std::strlen(text);
+    const auto [end, failed] = std::from_chars(text, textsEnd, file);
+    if (failed != std::errc() || end != textsEnd || file <= STDERR_FILENO) return;
+    const int how = fcntl(file, F_GETFL);
+    if (how < 0 || (how & O_ACCMODE) != O_WRONLY || !(how & O_APPEND)) return;
+    const std::string line = fmt::format("{:.0f} {:.0f}\n", taken(), bytes);
+    [[maybe_unused]] const ssize_t written = write(file, line.data(), line.size());
+}
+
 }  // namespace
 
 std::atomic<double>& memoryLimit() {
@@ -112,8 +130,7 @@ double availableMemory(const fs::path& root) {
 }
 
 double availableMemoryFor(double bytes) {
-    if (const char* file = std::getenv("STEREONAV_MEMORY_ASKED"))
-        std::ofstream(file, std::ios::app) << fmt::format("{:.0f} {:.0f}\n", taken(), bytes);
+    noteAsked(bytes);
     return availableMemory();
 }
 

@@ -16,9 +16,10 @@ double availableMemory(const std::filesystem::path& root = "/");
 // gives.
 void limitMemory(double bytes);
 
-// The same, where `bytes` are about to be taken. The file that the environment variable
-// STEREONAV_MEMORY_ASKED names gets a line for each such question: the bytes that the process has taken, and
-// those asked for.
+// The same, where `bytes` are about to be taken. For tests: where the environment variable
+// STEREONAV_MEMORY_ASKED is the number of a file that is open to be added to (as by 9>>FILE), it gets a line
+// for each such question: the bytes that the process has taken, and those asked for. It names no file:
+// nothing is made or opened.
 double availableMemoryFor(double bytes);
 
 // Throws Error where `bytes` are more than there are: what needs how much, and what there is.

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 
+#include "tests/app/asked_memory.h"
 #include "tests/app/volume_input.h"
 
 namespace stereonav::test {
@@ -32,9 +34,9 @@ protected:
     Taken taking(const std::vector<std::string>& arguments) const {
         const std::string file = (mFolder / "asked").string();
         std::filesystem::remove(file);
-        setenv("STEREONAV_MEMORY_ASKED", file.c_str(), 1);
+        std::optional<AskedMemory> noted(file);
         const pid_t child = start(arguments);
-        unsetenv("STEREONAV_MEMORY_ASKED");
+        noted.reset();
         Taken taken;
         siginfo_t ended{};
         while (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
@@ -242,9 +244,10 @@ TEST_F(Memory, OfVideosIsNoMoreThanWasAskedFor) {
 // What the program asks for is what it takes: the most it had asked for, with what it held then.
 TEST_F(Memory, AskedForIsNoted) {
     const std::string ground = hills(), asked = (mFolder / "asked").string();
-    setenv("STEREONAV_MEMORY_ASKED", asked.c_str(), 1);
-    const Outcome outcome = run({"render", ground, "--size", "500x400", "--out", "a.png"});
-    unsetenv("STEREONAV_MEMORY_ASKED");
+    const Outcome outcome = [&] {
+        const AskedMemory noted(asked);
+        return run({"render", ground, "--size", "500x400", "--out", "a.png"});
+    }();
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     std::ifstream lines(asked);
     double taken = 0, bytes = 0, most = 0;
@@ -253,6 +256,28 @@ TEST_F(Memory, AskedForIsNoted) {
         most = std::max(most, bytes);
     }
     EXPECT_GE(most, 60.0 * 500 * 400);
+}
+
+// The variable names a file that is open to be added to, and nothing else: neither a path, nor what is
+// written or read otherwise, gets a line.
+TEST_F(Memory, AskedForGoesIntoNoOtherFile) {
+    const std::string ground = hills(), victim = input("victim", "as it was");
+    const auto runWith = [&](const std::string& value) {
+        setenv("STEREONAV_MEMORY_ASKED", value.c_str(), 1);
+        const Outcome outcome = run({"render", ground, "--size", "500x400", "--out", "a.png"});
+        unsetenv("STEREONAV_MEMORY_ASKED");
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+    };
+    runWith(victim);
+    runWith((mFolder / "new").string());
+    for (const int how : {O_WRONLY, O_RDWR, O_RDWR | O_APPEND}) {
+        const int file = open(victim.c_str(), how);
+        runWith(std::to_string(file));
+        close(file);
+    }
+    for (const char* none : {"1", "2", "-1", "", "9x", "1000"}) runWith(none);
+    EXPECT_EQ(contentOf(victim), "as it was");
+    EXPECT_FALSE(std::filesystem::exists(mFolder / "new"));
 }
 
 TEST_F(Memory, ThatIsNoNumberIsRefused) {

@@ -59,6 +59,7 @@ protected:
                 {"unfold",
                  {{maskedTube(), "--no-cache", "--out", "wall.png"},
                   {"picture", "size", "area_error_percent", "hidden_percent"}}},
+                {"cache", {{}, {"folder", "files", "kept_bytes", "limit_bytes"}}},
                 {"bake",
                  {{ground, "--what", "openness", "--resolution", "0.25", "--out", "a.light"},
                   {"light", "what", "baked_before", "samples"}}}};

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/app/asked_memory.h"
 #include "tests/app/volume_input.h"
 
 namespace stereonav::test {
@@ -201,10 +202,11 @@ TEST_F(VolumeCommands, AMediumReadsItsStudyOnce) {
     const std::string asked = (mFolder / "asked").string();
     const auto readings = [&](const std::string& study) {
         fs::remove(asked);
-        setenv("STEREONAV_MEMORY_ASKED", asked.c_str(), 1);
-        runWell(
-            {"render", study, "--medium", "tissue", "--slices", "16", "--size", "32x24", "--out", "a.png"});
-        unsetenv("STEREONAV_MEMORY_ASKED");
+        {
+            const AskedMemory noted(asked);
+            runWell({"render", study, "--medium", "tissue", "--slices", "16", "--size", "32x24", "--out",
+                     "a.png"});
+        }
         std::ifstream lines(asked);
         int count = 0;
         for (double taken = 0, bytes = 0; lines >> taken >> bytes;)

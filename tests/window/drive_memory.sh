@@ -8,7 +8,8 @@
 size=$3
 shift 3
 
-export STEREONAV_MEMORY_ASKED=$out/asked.txt
+exec 9>>"$out/asked.txt"
+export STEREONAV_MEMORY_ASKED=9
 open_window "$@"
 most=0
 look() {
