@@ -23,18 +23,19 @@ namespace {
 namespace fs = std::filesystem;
 
 // What files are by the beginnings of their names.
-constexpr std::array<std::pair<const char*, const char*>, 8> kKinds{{{"colon-", "colon"},
-                                                                     {"lumen-", "lumen"},
-                                                                     {"light-", "light of a volume"},
-                                                                     {"terrain_light_", "light of a terrain"},
-                                                                     {"window_", "light of a window's scene"},
-                                                                     {"terrain-bake-", "light, not finished"},
-                                                                     {"terrain-v", "built-in terrain"},
-                                                                     {"ground_", "tiles of ground"}}};
+constexpr std::array<std::pair<const char*, const char*>, 8> kKeptKinds{
+    {{"colon-", "colon"},
+     {"lumen-", "lumen"},
+     {"light-", "light of a volume"},
+     {"terrain_light_", "light of a terrain"},
+     {"window_", "light of a window's scene"},
+     {"terrain-bake-", "light, not finished"},
+     {"terrain-v", "built-in terrain"},
+     {"ground_", "tiles of ground"}}};
 
 std::string kindOf(const Kept& kept) {
     const std::string name = kept.file.filename().string();
-    for (const auto& [start, kind] : kKinds)
+    for (const auto& [start, kind] : kKeptKinds)
         if (name.starts_with(start)) return kind;
     return "something else";
 }

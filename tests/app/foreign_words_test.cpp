@@ -200,7 +200,10 @@ TEST_F(ForeignWords, InScenesAndTheirPlaces) {
     expectTextAlone(placed.err);
     const Outcome document = run({"info", ground, "--size", "16x12", "--json"});
     expectTextAlone(document.out);
-    if (document.status == 0) EXPECT_TRUE(Json::parse(document.out, nullptr, false).is_object());
+    ASSERT_EQ(document.status, placed.status);
+    if (document.status == 0) {
+        EXPECT_TRUE(Json::parse(document.out, nullptr, false).is_object());
+    }
 }
 
 TEST_F(ForeignWords, InNamesOfTracksAndTables) {

@@ -1,12 +1,11 @@
 // `stereonav cache`: what is kept between runs, what it is of, and clearing it.
-#include "app/command/cache_command.h"
-
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "app/command/cache_command.h"
 #include "tests/app/volume_input.h"
 
 namespace stereonav::test {
@@ -62,7 +61,8 @@ TEST_F(CacheCommand, ListsWhatIsKeptAndOfWhat) {
     double bytes = 0;
     for (const Json& file : all["files"]) {
         EXPECT_EQ(file["of"],
-                  fs::canonical(file["kind"] == "colon" ? maskedTube() : (mFolder / "ground.asc").string()));
+                  fs::canonical(file["kind"] == "colon" ? maskedTube() : (mFolder / "ground.asc").string())
+                      .string());
         EXPECT_TRUE(file["limited"]);
         EXPECT_GT(file["bytes"], 0);
         bytes += file["bytes"].get<double>();
