@@ -96,6 +96,8 @@ fs::path setAside(const fs::path& file) {
     aside += ".damaged";
     aside = freePlace(aside);
     std::error_code code;
+    if (fs::is_regular_file(fs::symlink_status(file, code)))
+        fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write, code);
     fs::rename(file, aside, code);
     return code ? fs::path() : aside;
 }

@@ -7,9 +7,10 @@
 namespace stereonav {
 namespace {
 
-// In one piece: processes may share where it goes.
+// In one piece: processes may share where it goes. What could not be written the stream itself remembers, and
+// main() tells at the end, when all that was made is in its place.
 void put(std::FILE* to, const std::string& text) {
-    std::fwrite(text.data(), 1, text.size(), to);
+    std::fputs(text.c_str(), to);
 }
 
 }  // namespace

@@ -46,15 +46,19 @@ void checkRoom(const std::filesystem::path& dem, const std::filesystem::path& pl
                 "make room, or name another place for the cache with XDG_CACHE_HOME");
 }
 
-// Ground that its file holds in a few bytes, or not at all: said before it takes room.
-void noteSize(const std::filesystem::path& dem, const DemRows& rows, const std::filesystem::path& place,
+// Ground that its file holds in a few bytes, or not at all: said before it takes room, of a file that begins
+// right.
+void noteSize(const std::filesystem::path& dem, DemRows& rows, const std::filesystem::path& place,
               const glm::ivec2& size, Progress& progress) {
     constexpr double kWorthAWord = 16e6, kOften = 16;
     const auto bytes = static_cast<double>(TileFilePlan(size).byteCount());
     const double there = rows.bytesOfFiles();
     if (bytes <= kWorthAWord || bytes <= kOften * there) return;
+    std::vector<float> first(static_cast<std::size_t>(rows.place().width));
+    rows.read(0, 1, first.data());
     progress.note(fmt::format(
-        "{}: holds {} x {} samples in {:.3g} MB, and takes {} of disk in {}, until it is removed there",
+        "{}: holds {} x {} samples in {:.3g} MB, and takes {} of disk in {}, until stereonav cache removes "
+        "it",
         dem.string(), size.x, size.y, there / 1e6, memoryText(bytes), place.parent_path().string()));
 }
 

@@ -53,7 +53,7 @@ TEST_F(CommandTelling, QuietSaysNothing) {
         EXPECT_EQ(outcome.err, "");
         // What is asked for is printed: facts and the table.
         EXPECT_EQ(outcome.out.empty(), command != "info" && command != "compare" && command != "sun" &&
-                                           command != "measure" && command != "profile")
+                                           command != "measure" && command != "profile" && command != "cache")
             << outcome.out;
     }
     unsetenv("STEREONAV_PROGRESS_SECONDS");

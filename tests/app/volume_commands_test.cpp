@@ -139,7 +139,8 @@ TEST_F(VolumeCommands, TheLumenOfACtIsKeptInTheCache) {
     const fs::path cache = mFolder / "cache/stereonav";
     const auto keptAs = [&](const std::string& start) {
         for (const auto& entry : fs::directory_iterator(cache))
-            if (entry.path().filename().string().starts_with(start)) return entry.path();
+            if (entry.path().filename().string().starts_with(start) && entry.path().extension() != ".of")
+                return entry.path();
         return fs::path();
     };
     const auto openedSaying = [&](const std::string& words) {

@@ -78,7 +78,8 @@ protected:
     static fs::path kept() {
         fs::path file;
         for (const auto& entry : fs::directory_iterator(cacheFolder()))
-            if (entry.path().filename().string().starts_with("lumen-")) {
+            if (entry.path().filename().string().starts_with("lumen-") &&
+                entry.path().extension() == ".nrrd") {
                 EXPECT_EQ(file, "") << "there is another one";
                 file = entry.path();
             }

@@ -16,7 +16,9 @@
 namespace stereonav {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 // A thousand nodes that each show a mesh of so many primitives.
 std::string shown(int primitives) {
@@ -90,7 +92,7 @@ TEST(HostileMesh, ManySmallPicturesAreAskedForTogether) {
     setenv("STEREONAV_MEMORY", fmt::format("{:.0f}", test::bytesHeld() + 20e6).c_str(), 1);
     const std::string error = test::errorOf([&] { readMesh(folder / "a.glb"); });
     unsetenv("STEREONAV_MEMORY");
-    EXPECT_THAT(error, HasSubstr("a.glb: needs 4 MB of memory"));
+    EXPECT_THAT(error, AllOf(HasSubstr("a.glb"), HasSubstr(" MB of memory, and "), Not(HasSubstr("\n"))));
     EXPECT_EQ(readMesh(folder / "a.glb").textures.size(), 120u);
 }
 

@@ -35,7 +35,7 @@ VolumeFrame frameOf(const glm::ivec3& size, const glm::dvec3& spacing,
 GreyVolume wavyTube(const VolumeFrame& frame, double noise) {
     GreyVolume volume(frame);
     std::mt19937 random(7);
-    std::normal_distribution<double> jitter(0, noise);
+    std::normal_distribution<double> jitter;
     for (int k = 0; k < frame.size.z; ++k)
         for (int j = 0; j < frame.size.y; ++j)
             for (int i = 0; i < frame.size.x; ++i) {
@@ -43,7 +43,7 @@ GreyVolume wavyTube(const VolumeFrame& frame, double noise) {
                                         0.5 * frame.size.y + 3 * std::cos(k * 0.07));
                 const double radius = 9 + 2.5 * std::sin(k * 0.5);
                 const double outside = glm::length(glm::dvec2(i, j) - middle) - radius;
-                const double value = -480 + 520 * std::tanh(outside * 0.8) + jitter(random);
+                const double value = -480 + 520 * std::tanh(outside * 0.8) + noise * jitter(random);
                 volume.at(i, j, k) = static_cast<std::int16_t>(std::lround(value));
             }
     return volume;
