@@ -58,7 +58,8 @@ int listSeriesOf(const InfoOptions& options) {
     for (std::size_t n = 0; n < looks.size(); ++n)
         if (looks[n].problem.empty()) writeColorImage(pictureFile(options.series, n + 1), looks[n].picture);
     if (options.telling.json) {
-        const Json json{{"scene", handedName(options.scene.scene)}, {"series", jsonOf(looks, options.series)}};
+        const Json json{{"scene", handedName(options.scene.scene)},
+                        {"series", jsonOf(looks, options.series)}};
         printDocument(jsonText(json, 2));
         return 0;
     }

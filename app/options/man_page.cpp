@@ -69,7 +69,8 @@ constexpr std::array kFiles{
 constexpr std::array kEnvironment{
     Entry{"XDG_CACHE_HOME, HOME",
           "The cache is $XDG_CACHE_HOME/stereonav where that is an absolute path, else "
-          "$HOME/.cache/stereonav, and without a home stereonav-NUMBER in the folder for temporary files, by the "
+          "$HOME/.cache/stereonav, and without a home stereonav-NUMBER in the folder for temporary files, by "
+          "the "
           "user's number."},
     Entry{"DISPLAY, WAYLAND_DISPLAY",
           "Where windows open. Without both, stereonav without a command writes to out/."},
