@@ -7,6 +7,8 @@
 #include "engine/base/error.h"
 #include "engine/base/named_file.h"
 #include "engine/text/number.h"
+#include "engine/text/printable.h"
+#include "engine/text/utf8.h"
 #include "engine/text/words.h"
 
 namespace stereonav {
@@ -35,9 +37,7 @@ std::string loweredText(std::string text) {
 }
 
 std::string shortText(const std::string& text) {
-    std::string found = text.substr(0, kLongestFound);
-    for (char& c : found)
-        if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
+    const std::string found = printable(firstBytes(std::string_view(text), kLongestFound));
     return text.size() > kLongestFound ? found + fmt::format("... ({} characters)", text.size()) : found;
 }
 

@@ -133,6 +133,15 @@ TEST_F(ForeignWords, InHeadersOfStudies) {
         study.type = oneLine;
         refuse({"info", nrrd("type.nrrd", study, [](int, int, int) { return 0; })});
         study.type = "uchar";
+        study.extra = "data file: " + oneLine + ".raw\n";
+        refuse({"info", nrrd("detached.nrrd", study, [](int, int, int) { return 0; })});
+        study.extra = "Segment0_Name:=D\u00fcnndarm" + oneLine + "\nSegment0_LabelValue:=1\n";
+        const std::string labels =
+            nrrd("labels.nrrd", study, [](int i, int j, int k) { return inTube(i, j, k) ? 1 : 0; });
+        const Outcome other = run({"info", labels, "--label", "9"});
+        EXPECT_EQ(other.status, 1);
+        expectTextAlone(other.err);
+        EXPECT_NE(other.err.find("1 \"D\u00fcnndarm\\x1b[2J"), std::string::npos) << other.err;
     }
 }
 
