@@ -6,7 +6,7 @@
 . "$(dirname "$0")/drive_window.sh"
 shift 2
 
-kept() { find "$out" -path '*coverage*' -name '*.json' | head -n 1; }
+kept() { find "$out" -path '*coverage*' -name '[!.]*.json' | head -n 1; }
 is_kept() { [ -n "$(kept)" ]; }
 
 open_window "$@"

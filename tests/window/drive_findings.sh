@@ -6,7 +6,7 @@
 # view_findings_window_test.cpp judges them.
 . "$(dirname "$0")/drive_interface.sh"
 study=$3
-kept() { find "$HOME/.local/share/stereonav/findings" -name '*.json' 2>/dev/null | head -n 1; }
+kept() { find "$HOME/.local/share/stereonav/findings" -name '[!.]*.json' 2>/dev/null | head -n 1; }
 findings() { [ -n "$(kept)" ] && grep -c '"place_mm"' "$(kept)" || echo 0; }
 more_findings() { [ "$(findings)" -gt "$1" ]; }
 measured() { [ "$(grep -c '"diameter_mm"\|"note"' "$(kept)")" -ge "$(findings)" ]; }
