@@ -57,7 +57,7 @@ bool isOf(const Kept& kept, const fs::path& source) {
     return end == source.end();
 }
 
-// As noteSource() has it.
+// The source as noteSource() writes it.
 fs::path sourceNamed(const std::string& text) {
     std::error_code code;
     fs::path whole = fs::canonical(text, code);

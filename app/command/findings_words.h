@@ -31,8 +31,8 @@ struct KeptFinding {
     std::string comment;
     bool candidate = false;  // nobody has kept it
 };
-// Of a document that writeFindings wrote; none where there is no such file. Throws Error where it is another,
-// or has more than kMostFindings.
+// The findings of a document that writeFindings wrote; none where there is no such file. Throws Error where
+// it is another, or has more than kMostFindings.
 std::vector<KeptFinding> readFindings(const std::filesystem::path& file);
 // The document itself, and what it keeps. file: its name, for the Error where it is another.
 std::string findingsDocument(const std::string& study, const std::vector<Finding>& findings);

@@ -41,7 +41,7 @@ SettingTexts withEyes(SettingTexts settings, const StereoSetting& eyes);
 // The words of a command, after the program's name, with the settings that are the same options there as of
 // `view`.
 std::vector<std::string> commandWords(CommandSet command, const SettingTexts& settings);
-// As one word of a POSIX shell; where it is not printable, in the form $'\x1b' of bash, ksh and zsh.
+// The text as one word of a POSIX shell; where it is not printable, in the form $'\x1b' of bash, ksh and zsh.
 std::string shellWord(const std::string& text);
 
 // The text of a scene file (docs/formats.md) that shows these settings: `before`, "" for none, with the keys

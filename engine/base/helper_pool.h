@@ -16,7 +16,7 @@ namespace stereonav {
 
 class HelperPool {
 public:
-    // As HelperProgram has them. mostIdle: more are not kept.
+    // Name and purpose are HelperProgram's. mostIdle: helpers beyond so many are not kept.
     HelperPool(std::string name, std::string purpose, std::size_t mostIdle);
 
     // From any thread. A helper that has seen what comes from one folder sees nothing from another: whoever

@@ -10,7 +10,7 @@ namespace stereonav {
 
 class MemoryParts {
 public:
-    // As checkMemory() has them.
+    // What is asked for, and what to do, in the words of checkMemory().
     MemoryParts(std::string what, std::string advice) : mWhat(std::move(what)), mAdvice(std::move(advice)) {}
 
     // A part is about to be taken. Throws Error where it and those that were not asked for are more than

@@ -23,7 +23,7 @@ constexpr double kKeyBytes = 96;
 constexpr double kTextCopies = 5;  // a buffer within the text, while it is unpacked
 constexpr double kPartBytes = 2.0 * std::max({sizeof(tinygltf::Primitive), sizeof(tinygltf::AnimationChannel),
                                               sizeof(tinygltf::AnimationSampler)});
-// Of what stands in extras and extensions, and of materials, each number is a value with a name.
+// Bytes of a number in extras, extensions and materials, where each is a value with a name.
 constexpr double kNamedBytes = 96 + 2.0 * sizeof(tinygltf::Value);
 
 // Bytes of an entry of one of the lists that a description consists of. They double: a list is held twice

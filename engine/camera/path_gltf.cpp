@@ -194,7 +194,7 @@ std::vector<int> chainTo(const std::vector<MetNode>& nodes, std::size_t at) {
     return chain;
 }
 
-// Of each node the first camera of the list that it moves with it, as a place in the list; -1: none.
+// For each node the first camera that it moves with it, as a place in the list of cameras; -1: none.
 std::vector<int> firstCameras(const GltfFile& file, const std::vector<MetNode>& nodes) {
     std::vector<int> first(file.model.nodes.size(), -1), passed(nodes.size(), 0);
     for (std::size_t c = 0; c < nodes.size(); ++c) {

@@ -26,8 +26,8 @@ struct PictureHead {
     long long width = 0, height = 0;
     int sampleBytes = 1;  // of a channel: 1, 2, or 4 of floats
 };
-// Of the first picture in the file; nothing where its head is cut off or makes no sense. Sizes are as the
-// file has them, however large. Of all formats but Radiance, whose reader is our own.
+// The head of the first picture in the file; nothing where it is cut off or makes no sense. Sizes are as the
+// file has them, however large. All formats but Radiance, whose reader is our own.
 std::optional<PictureHead> pictureHeadOf(PictureFormat format, std::string_view content);
 
 }  // namespace stereonav

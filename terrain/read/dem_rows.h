@@ -89,10 +89,10 @@ public:
     // Names the content: path, size and time of change of each file that it is made of, overviews and the
     // sources of virtual rasters among them.
     std::uint64_t identity() const { return mReader->identity(); }
-    // Of all these files, on disk.
+    // Bytes of all these files on disk.
     double bytesOfFiles() const { return mReader->bytesOfFiles(); }
 
-    // Of memory, that a block takes while it is read.
+    // Bytes of memory that a block takes while it is read.
     double bytesOfBlock() const { return mReader->bytesOfBlock(); }
 
 private:

@@ -47,7 +47,8 @@ TEST_F(MeshScene, InfoSaysWhatIsThere) {
     EXPECT_GT(facts.at("bytes"), corners / 3 * sizeof(TriangleMesh::Triangle));
 }
 
-// As one that ended the program by a signal: DICOM inside, compressed, with more segments than it has bytes.
+// A texture like one that ended the program by a signal: DICOM inside, compressed, with more segments than it
+// has bytes.
 TEST_F(MeshScene, ATextureThatIsNoPictureIsOneLine) {
     DicomSpec spec;
     spec.slice.columns = spec.slice.rows = 64;

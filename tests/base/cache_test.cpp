@@ -102,7 +102,8 @@ TEST_F(CacheTest, KnowsWhatAFileWasMadeOf) {
     EXPECT_EQ(std::distance(fs::directory_iterator(cacheFolder()), fs::directory_iterator()), 1);
 }
 
-// Of a process that is gone, as those of before it were named and as they are; what is being written stays.
+// Temporaries of a process that is gone, by their names of today and of older programs; what is being written
+// stays.
 TEST_F(CacheTest, WhatCrashedRunsLeftGoes) {
     EXPECT_TRUE(keepFor("a.bin", 300, 1));
     const pid_t child = fork();

@@ -65,7 +65,7 @@ void expectColours(const Plane<PackedColor>& plane, const cv::Mat& image) {
         }
 }
 
-// As the file that ended the program: compressed by RLE, with more segments than there are bytes.
+// A file like one that ended the program: compressed by RLE, with more segments than there are bytes.
 std::string damagedDicom() {
     test::DicomSpec spec;
     spec.slice.columns = spec.slice.rows = 64;

@@ -91,7 +91,7 @@ TEST(ReportJson, RefusesWhatIsNoReport) {
     EXPECT_THROW(readEarlierReport(file), Error);
 }
 
-// Of an earlier report that somebody sent.
+// An earlier report that somebody sent.
 TEST(ReportJson, NeitherDepthNorManyNamesHoldItUp) {
     const fs::path file = fs::path(testing::TempDir()) / ("odd_report_" + std::to_string(getpid()) + ".json");
     const auto errorFor = [&](const std::string& machine) {

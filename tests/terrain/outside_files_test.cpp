@@ -189,7 +189,7 @@ TEST_F(OutsideFiles, NetCdfIsOneFile) {
     damaged.close();
     EXPECT_THAT(errorOf([&] { readGround(mFolder / "here/outside.nc"); }),
                 AllOf(HasSubstr("outside.nc: the file is cut off or damaged"), Not(HasSubstr("\n"))));
-    // As a variable that metadata name for coarser samples.
+    // A variable that metadata name for coarser samples.
     outside(away("secret").string());
     here("ground.tif.aux.xml",
          "<PAMDataset><Metadata domain=\"OVERVIEWS\"><MDI key=\"OVERVIEW_FILE\">NETCDF:\"" +
@@ -208,7 +208,7 @@ TEST_F(OutsideFiles, OptionsThatMoveTheFolderAreRefused) {
                 AllOf(HasSubstr("outer.vrt"), HasSubstr("ROOT_PATH"), Not(HasSubstr("\n"))));
 }
 
-// As gdalbuildvrt names tiles in another folder: rasters in their own right.
+// Tiles in another folder, named as gdalbuildvrt does: rasters in their own right.
 TEST_F(OutsideFiles, RastersOfOtherFoldersAreReadAndTold) {
     const std::string whole = away("tile.tif").string();
     for (const std::string& text : {source("../away/tile.tif"), source(whole)}) {

@@ -134,7 +134,7 @@ TEST(Bookmarks, ThumbnailsAreSmallAndGoWithTheirPlace) {
     EXPECT_TRUE(fs::exists(marks.find("b")->thumbnail));
 }
 
-// As deep as no file is that the window wrote: it is copied and compared while it is looked at.
+// A file deeper than any that the window wrote: it is copied and compared while it is looked at.
 TEST(Bookmarks, ADeepFileIsSetAside) {
     const TemporaryFolder folder;
     const fs::path file = Bookmarks("terrain", folder / "places").file();

@@ -30,7 +30,8 @@ VirtualRasterFiles filesOfVirtualRaster(const std::filesystem::path& file);
 // One line on the files outside the folder; "" where there are none.
 std::string outsideNote(const std::filesystem::path& file, const VirtualRasterFiles& files);
 
-// As GDAL opens it, whoever named it; not what its files are. Throws Error named by `file`.
+// Checks the file itself when GDAL opens it, whoever named it; not what its files are. Throws Error named by
+// `file`.
 void checkOpenedVirtualRaster(const std::filesystem::path& file);
 
 // nullptr-terminated; of formats that hold their data themselves, and VRT.
