@@ -12,12 +12,12 @@
 #include <utility>
 
 #include "app/command/bake_finer.h"
+#include "app/command/cache_command.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/terrain_loading.h"
-#include "engine/base/cache.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/peers/peers.h"
@@ -122,7 +122,7 @@ int bakeTerrain(const BakeOptions& options) {
             if (!light) return 1;
             const double seconds = watch.elapsed_ms() / 1000;
             saveTerrainLight(file, *light);
-            noteSource(file, options.scene.scene.empty() ? "terrain" : options.scene.scene);
+            noteSceneAsSource(file, options.scene.scene);
             removeFinerOfOthers(file, light->key);
             bar.clear();
             tellBaked(*light, file, seconds, result);

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/command/cache_command.h"
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/light_loading.h"
 #include "app/scene/scene_loading.h"
-#include "engine/base/cache.h"
 #include "engine/base/error.h"
 #include "engine/base/stop.h"
 #include "engine/base/stopwatch.h"
@@ -115,7 +115,7 @@ int bakeVolume(const BakeOptions& options) {
     const BakeEnd end = runBake(sums, sourceOf(lighter), goalOf(options), progress, keeping, &peers);
     const double seconds = watch.elapsed_ms() / 1000, done = samplesIn(sums) - before;
     if (done > 0 || !std::filesystem::exists(file)) writeBakeFile(file, identity, sums);
-    noteSource(file, options.scene.scene);
+    noteSceneAsSource(file, options.scene.scene);
     bar.clear();
     peers.throwIfFailed();
     tellOf(result, options.scene.scene, plan, sums, done, seconds, file);

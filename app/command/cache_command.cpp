@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "app/output/command_result.h"
+#include "app/scene/scene_type.h"
 #include "engine/base/cache.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/base/memory.h"
 
 namespace stereonav {
 namespace {
@@ -44,6 +44,10 @@ double hoursSince(fs::file_time_type time) {
     return std::chrono::duration<double, std::ratio<3600>>(fs::file_time_type::clock::now() - time).count();
 }
 
+std::string keptSizeText(double bytes) {
+    return bytes < 1e9 ? fmt::format("{:.1f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
 std::string timeText(fs::file_time_type time) {
     const auto at = std::chrono::floor<std::chrono::seconds>(std::chrono::file_clock::to_sys(time));
     return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(at.time_since_epoch().count()));
@@ -63,8 +67,7 @@ fs::path sourceNamed(const std::string& text) {
     fs::path whole = fs::canonical(text, code);
     if (!code) return whole;
     whole = fs::absolute(text).lexically_normal();  // gone since, which what is kept of it is not
-    const bool builtIn = text == "terrain" || text == "colon" || text == "cloud" || text == "wax";
-    return builtIn ? fs::path(text) : whole.has_filename() ? whole : whole.parent_path();
+    return whole.has_filename() ? whole : whole.parent_path();
 }
 
 std::vector<Kept> chosen(std::vector<Kept> all, const CacheOptions& options) {
@@ -94,7 +97,7 @@ Facts factsOf(const Kept& kept) {
 }
 
 std::string lineOf(const Kept& kept) {
-    return fmt::format("  {:>8}  {}  {:26}{}\n", memoryText(static_cast<double>(kept.bytes)),
+    return fmt::format("  {:>8}  {}  {:26}{}\n", keptSizeText(static_cast<double>(kept.bytes)),
                        timeText(kept.used), kindOf(kept),
                        kept.source.empty() ? "" : "of " + kept.source.string());
 }
@@ -128,6 +131,10 @@ std::optional<double> hoursOfAge(const std::string& text) {
     }
 }
 
+void noteSceneAsSource(const fs::path& file, const std::string& scene) {
+    if (!scene.empty() && !isBuiltIn(scene)) noteSource(file, scene);
+}
+
 int runCache(const CacheOptions& options) {
     CommandResult result("cache", options.telling, {});
     const fs::path folder = cacheFolder();
@@ -149,10 +156,10 @@ int runCache(const CacheOptions& options) {
     result.answer(fmt::format(
         "{}{} files of {} in {}; {} of them count in the limit of {}, beyond which the least recently used "
         "go\n",
-        removes
-            ? fmt::format("removed {} files of {}; kept: ", picked.size(), memoryText(bytesOf(picked, false)))
-            : "",
-        left.size(), memoryText(kept), folder.string(), memoryText(limited), memoryText(kMostKept)));
+        removes ? fmt::format("removed {} files of {}; kept: ", picked.size(),
+                              keptSizeText(bytesOf(picked, false)))
+                : "",
+        left.size(), keptSizeText(kept), folder.string(), keptSizeText(limited), keptSizeText(kMostKept)));
     if (leftovers > 0)
         result.say(fmt::format("removed {} files that crashed runs left half-written\n", leftovers));
     result.add("removed", removes);

@@ -1,6 +1,7 @@
 // `stereonav cache` as plain options and one function, as commands.h has the other commands.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -18,5 +19,8 @@ int runCache(const CacheOptions& options);
 
 // Hours of "12h", "30d" or "4w"; none: it is none of these.
 std::optional<double> hoursOfAge(const std::string& text);
+
+// noteSource() (engine/base/cache.h) of a scene as it was named; nothing is noted of what is built in.
+void noteSceneAsSource(const std::filesystem::path& file, const std::string& scene);
 
 }  // namespace stereonav

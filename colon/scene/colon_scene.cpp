@@ -335,7 +335,7 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
         if (std::optional<FoundColon> kept = readColonCache(key, damaged)) {
             const bool reads = options.keepsStudy && !kept->ofMask;
             Progress making(progress, 0, reads ? 0.5 : 1), reading(progress, 0.5, 1);
-            noteSource(colonCacheFile(key), builtIn ? "colon" : options.study);
+            if (!builtIn) noteSource(colonCacheFile(key), options.study);
             ColonScene scene = sceneOf(std::move(*kept), options, making);
             scene.name = name;
             if (reads) scene.study = readOrMake(options, 0, scene.polyps, reading).grey;
@@ -363,8 +363,8 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
     Progress finding(progress, 0.5, 0.9), making(progress, 0.9, 1);
     FoundColon found = inTheNameOf(options, [&] { return findColon(study, options, finding); });
     found.polyps = std::move(polyps);
-    if (options.cache && writeColonCache(key, found))
-        noteSource(colonCacheFile(key), builtIn ? "colon" : options.study);
+    if (options.cache && writeColonCache(key, found) && !builtIn)
+        noteSource(colonCacheFile(key), options.study);
     ColonScene scene = sceneOf(std::move(found), options, making);
     scene.name = name;
     scene.study = std::move(study.grey);  // nothing of a mask

@@ -120,7 +120,7 @@ void noteUse(const fs::path& file) {
 void noteSource(const fs::path& file, const fs::path& source) {
     std::error_code code;
     fs::path whole = fs::canonical(source, code);
-    if (code) whole = source;  // built in
+    if (code) return;
     if (file.parent_path() != cachePlace() || !isOwnFile(file) || sourceOf(file) == whole) return;
     try {
         writeTextFile(noteOf(file), whole.string(), Flush::ToSystem);
@@ -159,10 +159,11 @@ int removeLeftovers(const fs::path& folder) {
     std::error_code code;
     for (const fs::path& file : filesIn(folder)) {
         const std::vector<pid_t> writers = writersOf(file);
-        const bool left = !writers.empty() && std::all_of(writers.begin(), writers.end(), isGone);
-        const bool lonely =
-            file.extension() == kSource && !fs::exists(fs::path(file).replace_extension(), code);
-        if ((left || lonely) && fs::remove(file, code) && left) ++removed;
+        if (!writers.empty()) {
+            if (std::all_of(writers.begin(), writers.end(), isGone)) removed += fs::remove(file, code);
+        } else if (file.extension() == kSource && !fs::exists(fs::path(file).replace_extension(), code)) {
+            fs::remove(file, code);  // a note of nothing
+        }
     }
     return removed;
 }
