@@ -22,15 +22,11 @@ install(TARGETS ${rooms} EXPORT stereonav_targets ARCHIVE DESTINATION ${CMAKE_IN
 install(EXPORT stereonav_targets NAMESPACE stereonav:: DESTINATION ${package_dir} ${development})
 
 # Headers of what was built. Those of modules and helpers are for them alone.
-set(folders engine/base engine/peers engine/math engine/simd engine/text engine/image engine/letters engine/camera engine/render engine/stereo engine/sampling
-  engine/frame engine/late engine/volume engine/light engine/nav engine/metrics)
-foreach(part TERRAIN terrain COLON colon MEDIUM engine/medium DISPLAY engine/display)
-  if(part MATCHES "^[A-Z]+$")
-    set(built ${STEREONAV_${part}})
-  elseif(built)
-    list(APPEND folders ${part})
-  endif()
-endforeach()
+set(folders engine/base engine/peers engine/math engine/simd engine/text engine/image engine/letters engine/gltf engine/camera engine/render engine/stereo engine/sampling
+  engine/frame engine/late engine/volume engine/light engine/medium engine/nav engine/metrics terrain colon)
+if(STEREONAV_DISPLAY)
+  list(APPEND folders engine/display)
+endif()
 foreach(folder ${folders})
   get_filename_component(parent ${folder} DIRECTORY)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stereonav/${parent} ${development}

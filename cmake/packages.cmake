@@ -18,34 +18,30 @@ find_path(JXL_BUTTERAUGLI jxl/butteraugli.h REQUIRED)  # later versions have no 
 find_path(STB_TRUETYPE stb/stb_truetype.h REQUIRED)
 find_library(STB_LIBRARY stb REQUIRED)
 find_file(STEREONAV_FONT DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truetype/dejavu dejavu TTF REQUIRED)
-if(STEREONAV_TERRAIN)
-  find_package(GDAL CONFIG REQUIRED)
-  pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)  # the one that GDAL reads netCDF with
-  find_package(toml11 CONFIG REQUIRED)
-endif()
+find_package(GDAL CONFIG REQUIRED)
+pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)  # the one that GDAL reads netCDF with
+find_package(toml11 CONFIG REQUIRED)
 if(STEREONAV_DISPLAY)
   find_package(glfw3 3.3 CONFIG REQUIRED)
   pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
   pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 endif()
 
-if(STEREONAV_COLON)
-  find_package(BZip2 REQUIRED)
-  find_path(GDCM_INCLUDE gdcmReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)
-  file(STRINGS ${GDCM_INCLUDE}/gdcmConfigure.h GDCM_VERSION REGEX "define GDCM_VERSION")
-  string(REGEX REPLACE "[^0-9.]" "" GDCM_VERSION "${GDCM_VERSION}")
-  add_library(gdcm_libraries INTERFACE)
-  target_include_directories(gdcm_libraries SYSTEM INTERFACE ${GDCM_INCLUDE})
-  target_link_libraries(gdcm_libraries INTERFACE gdcmMSFF gdcmDSED gdcmCommon)
-  # Of DCMTK what structured reports need; its configuration file names all of its libraries, and what they need.
-  find_path(DCMTK_INCLUDE dcmtk/dcmsr/cmr/tid1500.h REQUIRED)  # from 3.6.3 on
-  file(STRINGS ${DCMTK_INCLUDE}/dcmtk/config/osconfig.h DCMTK_VERSION REGEX "define PACKAGE_VERSION ")
-  string(REGEX REPLACE "[^0-9.]" "" DCMTK_VERSION "${DCMTK_VERSION}")
-  add_library(dcmtk_libraries INTERFACE)
-  target_link_libraries(dcmtk_libraries INTERFACE cmr dcmsr dcmdata oflog ofstd)
-endif()
+find_package(BZip2 REQUIRED)
+find_path(GDCM_INCLUDE gdcmReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)
+file(STRINGS ${GDCM_INCLUDE}/gdcmConfigure.h GDCM_VERSION REGEX "define GDCM_VERSION")
+string(REGEX REPLACE "[^0-9.]" "" GDCM_VERSION "${GDCM_VERSION}")
+add_library(gdcm_libraries INTERFACE)
+target_include_directories(gdcm_libraries SYSTEM INTERFACE ${GDCM_INCLUDE})
+target_link_libraries(gdcm_libraries INTERFACE gdcmMSFF gdcmDSED gdcmCommon)
+# The parts of DCMTK that structured reports need; its configuration file names all of its libraries, and what they need.
+find_path(DCMTK_INCLUDE dcmtk/dcmsr/cmr/tid1500.h REQUIRED)  # from 3.6.3 on
+file(STRINGS ${DCMTK_INCLUDE}/dcmtk/config/osconfig.h DCMTK_VERSION REGEX "define PACKAGE_VERSION ")
+string(REGEX REPLACE "[^0-9.]" "" DCMTK_VERSION "${DCMTK_VERSION}")
+add_library(dcmtk_libraries INTERFACE)
+target_link_libraries(dcmtk_libraries INTERFACE cmr dcmsr dcmdata oflog ofstd)
 
-if(STEREONAV_COLON AND STEREONAV_TESTS)
+if(STEREONAV_TESTS)
   # ITK's readers and its distance filter are what ours are held against. Only the modules needed, and no
   # ITK_USE_FILE, which would register every format there is. The configuration files of GDCM name programs that Debian
   # packs apart and say so in a long notice: kept quiet.

@@ -1,4 +1,4 @@
-// What this build of the program leaves out (CMake's STEREONAV_TERRAIN, STEREONAV_COLON, ...).
+// The version of the program, and what this build leaves out (CMake's STEREONAV_DISPLAY).
 #pragma once
 
 #include <string>

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/math/number_range.h"
+#include "engine/text/number_range.h"
 
 namespace stereonav {
 

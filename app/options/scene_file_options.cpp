@@ -6,7 +6,7 @@
 
 #include "app/options/option_table.h"
 #include "engine/base/error.h"
-#include "terrain/read/toml_document.h"
+#include "engine/text/toml_document.h"
 
 namespace stereonav {
 namespace {

@@ -1,7 +1,7 @@
 // Ranges and words that several options share.
 #pragma once
 
-#include "engine/math/number_range.h"
+#include "engine/text/number_range.h"
 
 namespace stereonav {
 

@@ -8,8 +8,8 @@
 
 #include "app/report/light.h"
 #include "engine/base/parallel.h"
+#include "engine/light/skies/sky_map.h"
 #include "terrain/built_in/built_in_terrain.h"
-#include "terrain/light/sky_map.h"
 #include "terrain/light/terrain_path_light.h"
 #include "terrain/light/terrain_relight.h"
 #include "terrain/read/scene_file.h"

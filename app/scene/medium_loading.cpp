@@ -11,10 +11,10 @@
 #include "app/scene/outside_view.h"
 #include "app/scene/shown_medium.h"
 #include "engine/base/error.h"
+#include "engine/light/skies/sky_map.h"
 #include "engine/math/constants.h"
 #include "engine/medium/model/built_in_media.h"
 #include "engine/medium/model/noise_file.h"
-#include "terrain/light/sky_map.h"
 
 namespace stereonav {
 namespace {

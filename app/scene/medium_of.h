@@ -1,4 +1,4 @@
-// From options to a medium, by what it is made of: each is left out of a program that is built without that.
+// Makes a medium from options: one function for each thing that a medium can be made of.
 #pragma once
 
 #include <memory>

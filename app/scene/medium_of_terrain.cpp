@@ -5,7 +5,7 @@
 #include "app/scene/medium_terrain.h"
 #include "app/scene/shown_terrain.h"
 #include "app/scene/terrain_loading.h"
-#include "terrain/light/sky_map.h"
+#include "engine/light/skies/sky_map.h"
 
 namespace stereonav {
 namespace {

@@ -3,7 +3,7 @@
 #include "app/scene/scene_loading.h"
 #include "app/scene/scene_type.h"
 #include "app/scene/shown_mesh.h"
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 #include "engine/math/constants.h"
 #include "engine/mesh/mesh_file.h"
 

@@ -1,6 +1,5 @@
 // The types of scenes that there are: what is theirs, and what the program makes of it. A new type is a
-// SceneType in a file of its own and a line in scene_type.cpp. A type that is built without (app/without) is
-// there too, and says so.
+// SceneType in a file of its own and a line in scene_type.cpp.
 #pragma once
 
 #include <memory>

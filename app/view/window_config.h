@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/math/number_range.h"
+#include "engine/text/number_range.h"
 
 namespace stereonav {
 

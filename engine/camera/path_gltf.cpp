@@ -10,9 +10,9 @@
 
 #include "engine/base/error.h"
 #include "engine/base/stop.h"
-#include "engine/camera/gltf_file.h"
 #include "engine/camera/path_formats.h"
 #include "engine/camera/path_track.h"
+#include "engine/gltf/gltf_file.h"
 
 namespace stereonav {
 namespace {

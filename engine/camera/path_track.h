@@ -4,7 +4,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 
 namespace stereonav {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/camera/gltf_file.h"
 #include "engine/camera/path_formats.h"
 #include "engine/camera/path_sample.h"
+#include "engine/gltf/gltf_file.h"
 
 namespace stereonav {
 namespace {

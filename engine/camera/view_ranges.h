@@ -1,7 +1,7 @@
 // Ranges of what is said of eyes, lenses and directions, on the command line and in scene files alike.
 #pragma once
 
-#include "engine/math/number_range.h"
+#include "engine/text/number_range.h"
 
 namespace stereonav {
 

@@ -14,7 +14,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/memory_parts.h"
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 #include "engine/image/image_file.h"
 
 namespace stereonav {

@@ -18,9 +18,9 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "engine/light/skies/sky_map.h"
 #include "terrain/light/air_data.h"
 #include "terrain/light/air_formula.h"
-#include "terrain/light/sky_map.h"
 #include "terrain/read/scene_file.h"
 
 namespace stereonav {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "terrain/light/sky_map.h"
+#include "engine/light/skies/sky_map.h"
 
 namespace stereonav {
 

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "terrain/light/sky_map.h"
+#include "engine/light/skies/sky_map.h"
 #include "terrain/read/scene_file.h"
 
 namespace stereonav {

@@ -9,7 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/memory.h"
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 #include "engine/image/image_file.h"
 #include "terrain/mesh/terrain_mesh.h"
 

@@ -8,9 +8,9 @@
 #include "engine/base/error.h"
 #include "engine/camera/view_ranges.h"
 #include "engine/image/packed_color.h"
+#include "engine/text/toml_document.h"
 #include "terrain/raster/elevation_folder.h"
 #include "terrain/read/scene_ranges.h"
-#include "terrain/read/toml_document.h"
 
 namespace stereonav {
 namespace {

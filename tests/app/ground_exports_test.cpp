@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 #include "engine/image/image_file.h"
 #include "engine/light/skies/sun_position.h"
 #include "terrain/read/dem_reader.h"

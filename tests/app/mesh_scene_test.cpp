@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 #include "engine/mesh/triangle_mesh.h"
 #include "tests/app/program.h"
 #include "tests/support/dicom_files.h"

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 #include "tests/app/program.h"
 
 namespace stereonav::test {

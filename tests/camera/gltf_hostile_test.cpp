@@ -8,9 +8,9 @@
 #include <cstring>
 #include <fstream>
 
-#include "engine/camera/gltf_file.h"
-#include "engine/camera/gltf_size.h"
 #include "engine/camera/recorded_path.h"
+#include "engine/gltf/gltf_file.h"
+#include "engine/gltf/gltf_size.h"
 #include "tests/camera/temporary_folder.h"
 #include "tests/support/error_of.h"
 

@@ -12,8 +12,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/camera/gltf_file.h"
 #include "engine/camera/recorded_path.h"
+#include "engine/gltf/gltf_file.h"
 #include "engine/math/constants.h"
 #include "tests/camera/temporary_folder.h"
 

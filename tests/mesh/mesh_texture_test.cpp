@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 #include "engine/image/image_file.h"
 #include "engine/math/constants.h"
 #include "engine/mesh/mesh_file.h"

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 #include "engine/stereo/right_eye.h"
 #include "terrain/cast/specular.h"
 #include "terrain/cast/terrain_renderer.h"

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "engine/base/file.h"
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 #include "engine/mesh/mesh_file.h"
 #include "terrain/mesh/terrain_mesh.h"
 #include "terrain/scene/terrain_loader.h"

@@ -13,7 +13,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 #include "engine/image/image_file.h"
 #include "terrain/mesh/mesh_triangulation.h"
 #include "terrain/scene/terrain_loader.h"

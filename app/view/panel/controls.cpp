@@ -12,8 +12,8 @@
 #include "app/options/option_words.h"
 #include "app/view/panel/line_breaks.h"
 #include "engine/image/stereo_compose.h"
-#include "engine/math/number_range.h"
 #include "engine/scene/capabilities.h"
+#include "engine/text/number_range.h"
 #include "engine/text/printable.h"
 
 namespace stereonav {

@@ -7,7 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 
 namespace stereonav {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/camera/gltf_size.h"
+#include "engine/gltf/gltf_size.h"
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>

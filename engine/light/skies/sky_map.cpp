@@ -1,4 +1,4 @@
-#include "terrain/light/sky_map.h"
+#include "engine/light/skies/sky_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "engine/math/number_range.h"
+#include "engine/text/number_range.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // TOML through toml11. Its own messages span several lines; here each becomes one.
-#include "terrain/read/toml_document.h"
+#include "engine/text/toml_document.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 
 namespace stereonav {
 namespace {

@@ -1,6 +1,6 @@
 // Reading and checking glTF. tinygltf trusts lengths in places (a BIN chunk may overrun the file by
 // its header), so the frame of a .glb is checked here first.
-#include "engine/camera/gltf_file.h"
+#include "engine/gltf/gltf_file.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 #include "engine/base/memory_parts.h"
 #include "engine/base/named_file.h"
 #include "engine/base/regular_file.h"
-#include "engine/camera/gltf_size.h"
+#include "engine/gltf/gltf_size.h"
 #include "engine/text/json_text.h"
 
 namespace stereonav {
