@@ -7,6 +7,9 @@ foreach(root ${roots})
   file(RENAME ${doc}/changelog ${doc}/changelog.Debian)
   file(COPY ${CPACK_STEREONAV_CHANGELOG} DESTINATION ${doc} FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
   file(RENAME ${doc}/CHANGELOG.md ${doc}/changelog)
+  file(COPY ${CPACK_STEREONAV_DEBIAN_DIR}/lintian-overrides DESTINATION ${root}/share/lintian/overrides
+    FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+  file(RENAME ${root}/share/lintian/overrides/lintian-overrides ${root}/share/lintian/overrides/stereonav)
   file(GLOB pages ${root}/share/man/man1/*.1)
   # Without names and times of this build: the same sources give the same bytes.
   execute_process(COMMAND gzip -9nf ${doc}/changelog.Debian ${doc}/changelog ${pages} COMMAND_ERROR_IS_FATAL ANY)

@@ -98,6 +98,18 @@ TEST_F(CacheCommand, RemovesWhatIsNamed) {
     EXPECT_TRUE(fs::is_empty(cache()));
 }
 
+// A file of the same name beside it is another thing.
+TEST_F(CacheCommand, NotesNoSourceForWhatIsBuiltIn) {
+    fs::create_directories(cache());
+    const std::string file = input("cache/stereonav/light-0.bake", "light");
+    for (const char* builtIn : {"", "terrain", "colon", "cloud"}) {
+        noteSceneAsSource(file, builtIn);
+        EXPECT_TRUE(told()["files"].at(0)["of"].is_null()) << builtIn;
+    }
+    noteSceneAsSource(file, maskedTube());
+    EXPECT_EQ(told()["files"].at(0)["of"], fs::canonical(maskedTube()).string());
+}
+
 TEST_F(CacheCommand, TakesLinksAwayAndNotWhereTheyLead) {
     const std::string victim = input("victim", "as it was");
     fill();
