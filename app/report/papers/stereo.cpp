@@ -16,7 +16,7 @@ namespace stereonav {
 namespace {
 
 constexpr const char* kWan = "Wan et al. 2004";
-constexpr int kWidth = 500, kHeight = 400;  // figs. 6 and 7
+constexpr int kFigureWidth = 500, kFigureHeight = 400;  // figs. 6 and 7
 
 // Theirs by processors, seconds (Table 2).
 struct PaperTimes {
@@ -268,7 +268,8 @@ private:
 std::unique_ptr<Scene> load(ReportRun& run, const std::string& what, const SceneOptions& options) {
     run.tell("loading " + what);
     Progress quiet([&](double, const std::string&) { run.tell("loading " + what); });
-    const SizeOption size = run.quick() ? SizeOption{kWidth / 2, kHeight / 2} : SizeOption{kWidth, kHeight};
+    const SizeOption size = run.quick() ? SizeOption{kFigureWidth / 2, kFigureHeight / 2}
+                                        : SizeOption{kFigureWidth, kFigureHeight};
     return loadScene(options, size, quiet);
 }
 
