@@ -102,6 +102,21 @@ TEST_F(CacheTest, KnowsWhatAFileWasMadeOf) {
     EXPECT_EQ(std::distance(fs::directory_iterator(cacheFolder()), fs::directory_iterator()), 1);
 }
 
+// A folder that others could write to may hold files of theirs when it becomes the user's alone.
+TEST_F(CacheTest, FilesOfAnotherUserAreNotBelieved) {
+    if (geteuid() != 0) GTEST_SKIP() << "only root can give files to another user";
+    constexpr uid_t kOther = 65534;
+    writeTextFile(mFolder / "study.nrrd", "x");
+    EXPECT_TRUE(keepFor("a.bin", 300, 1));
+    noteSource(keptFile("a.bin"), mFolder / "study.nrrd");
+    ASSERT_EQ(allKept(cacheFolder()).at(0).source, fs::canonical(mFolder / "study.nrrd"));
+    ASSERT_EQ(chown((keptFile("a.bin").string() + ".of").c_str(), kOther, kOther), 0);
+    EXPECT_EQ(allKept(cacheFolder()).at(0).source, "");
+    const fs::path kept = keptFile("a.bin");
+    ASSERT_EQ(chown(kept.c_str(), kOther, kOther), 0);
+    EXPECT_FALSE(fs::exists(keptFile("a.bin"))) << "it is made anew";
+}
+
 // Temporaries of a process that is gone, by their names of today and of older programs; what is being written
 // stays.
 TEST_F(CacheTest, WhatCrashedRunsLeftGoes) {
