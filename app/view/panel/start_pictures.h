@@ -1,5 +1,5 @@
-// Pictures of the built-in scenes, made by the program itself (.ci/start_pictures) and part of it: eight
-// frames of each one's flight, beside each other.
+// Pictures of the built-in scenes, made by the program itself and part of it (data/start): eight frames of
+// each one's flight, beside each other.
 #pragma once
 
 #include <string_view>
