@@ -54,7 +54,7 @@ float followed(vec3 plan) {
     return -1.0 - before;
 }
 
-// Of the four neighbours those that lie on the surface give their colour; where none does, all.
+// Those of the four neighbours that lie on the surface give their colour; where none does, all.
 vec3 colorOf(vec2 place, float inverse, float reach) {
     vec2 at = clamp(place - 0.5, vec2(0.0), vec2(uSize - 1));
     ivec2 corner = min(ivec2(at), max(uSize - 2, ivec2(0)));

@@ -36,7 +36,7 @@ float tapTurn(ivec2 texel) {
     return float(h >> 8) * (1.57079632679 / 16777216.0);
 }
 
-// Of a texel's ray where it crosses the middle of the slab.
+// Where a texel's ray crosses the middle of the slab.
 struct Crossing {
     vec3 place, way;
     float width;  // of a texel there: metres; 0 or less: behind a lamp

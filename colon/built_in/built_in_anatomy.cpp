@@ -49,7 +49,7 @@ double smoothMax(double a, double b, double k) {
     return std::max(a, b) + h * h * k * 0.25;
 }
 
-// Of the wall, mm: waves that run in directions which no grid has.
+// Unevenness of the wall, mm: waves that run in directions which no grid has.
 double unevenness(const glm::dvec3& p) {
     return 0.13 * std::sin(0.43 * p.x + 0.31 * p.y - 0.22 * p.z) +
            0.11 * std::sin(-0.27 * p.x + 0.40 * p.y + 0.37 * p.z + 1.3) +
@@ -166,7 +166,7 @@ double indexOfTurn(const std::vector<Control>& line, double turn) {
     return static_cast<double>(after - line.begin()) - (high.turn - turn) / (high.turn - low.turn);
 }
 
-// Of each millimetre of a line: where that place of the spline is on another.
+// Where each millimetre of a line is on another line of the same spline.
 std::vector<double> matchOf(const std::vector<Control>& from, const std::vector<Control>& to) {
     std::vector<double> match;
     for (std::size_t n = 0; n < from.size(); ++n)

@@ -87,7 +87,7 @@ private:
     double footOf(const glm::dvec3& p, int nearest) const;
 
     std::vector<AxisPoint> mAxis;
-    // Of each millimetre of the axis as it is unbent: where that place is on this one.
+    // Where each millimetre of the unbent axis is on this one.
     std::vector<double> mBent;
     std::vector<Fold> mFolds;               // by `along`
     std::vector<std::array<int, 2>> mNear;  // of each axis point: its folds, from and to

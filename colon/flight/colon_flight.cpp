@@ -81,7 +81,7 @@ void ColonFlight::State::turn(const FlightInput& wish, double h) {
     turnTo(wanted);
 }
 
-// As far as the eyes have room. Where turning brings an eye too near to the wall the head gives way.
+// Turns as far as the eyes have room. Where turning brings an eye too near to the wall the head gives way.
 void ColonFlight::State::turnTo(const FlightView& wanted) {
     const FlightView from = view;
     const double angle = pathBetween(from, wanted);

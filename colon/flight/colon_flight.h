@@ -62,7 +62,7 @@ public:
     void setMode(int mode) override;
     std::string_view modeName(int mode) const override;
     double speed() const override;
-    // Of the nearer eye, at the largest separation; at most kFarthestClearance.
+    // Clearance of the nearer eye, at the largest separation, metres; at most kFarthestClearance.
     double clearanceNow() const override;
     static constexpr double kFarthestClearance = 0.1;  // metres
     // With the head as it is, and the eyes at their largest separation.

@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* kLookingForTips = "looking for candidates";
 
-// Of each cluster of vertices that may be tips, the one that bulges most.
+// The vertex that bulges most, of each cluster of vertices that may be tips.
 std::vector<std::uint32_t> tipsOf(const WallNeighbours& neighbours, const std::vector<Curvatures>& curvatures,
                                   const CandidateSetting& setting) {
     std::vector<std::uint8_t> open(curvatures.size());

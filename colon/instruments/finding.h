@@ -15,7 +15,7 @@
 
 namespace stereonav {
 
-// That a document keeps: each is measured when it is opened, and compared with the others.
+// The most findings that a document keeps: each is measured when it is opened, and compared with the others.
 constexpr std::size_t kMostFindings = 1000;
 
 struct Finding {

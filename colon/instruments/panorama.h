@@ -57,7 +57,7 @@ public:
     // does not show. Of several eyes that see it the one nearest to the rectum.
     std::array<std::optional<glm::dvec2>, 2> pixelsOf(const glm::dvec3& place) const;
 
-    // Of the wall's area: what the strip from each end shows, and what one of both shows.
+    // Shares of the wall's area: what the strip from each end shows, and what one of both shows.
     struct Shares {
         double rectum = 0, caecum = 0, either = 0;
     };

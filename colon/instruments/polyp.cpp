@@ -128,7 +128,7 @@ PolypWidth widestOf(const std::vector<glm::dvec3>& places) {
     return widest;
 }
 
-// Of many places those that may be an end of the widest: the furthest ones in directions all around.
+// Those of many places that may be an end of the widest: the furthest ones in directions all around.
 std::vector<glm::dvec3> extremesOf(const std::vector<glm::dvec3>& places) {
     constexpr int kDirections = 400;
     std::vector<glm::dvec3> ends;

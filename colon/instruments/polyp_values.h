@@ -26,8 +26,8 @@ struct PolypValues {
     int voxels = 0;
 };
 
-// Of the voxels between a polyp's wall and the lid on its outline that are nearer to its wall than to other
-// wall, and at least kBlurReaches * blur away from any. Nothing where these are less than kLeastVoxels.
+// Values of the voxels between a polyp's wall and the lid on its outline that are nearer to its wall than to
+// other wall, and at least kBlurReaches * blur away from any. Nothing where these are less than kLeastVoxels.
 std::optional<PolypValues> valuesInside(const GreyVolume& study, const WallMesh& wall,
                                         const MeasuredPolyp& polyp, double blur);
 

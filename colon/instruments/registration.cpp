@@ -36,7 +36,7 @@ std::vector<T> smoothed(const std::vector<T>& values, double sigma) {
     const int reach = static_cast<int>(std::ceil(3 * sigma)), count = static_cast<int>(values.size());
     std::vector<T> result(values.size());
     for (int n = 0; n < count; ++n) {
-        // As far to one side as to the other, so that ends are not drawn inwards.
+        // The window reaches as far to one side as to the other, so that ends are not drawn inwards.
         const int here = std::min({reach, n, count - 1 - n});
         T sum{};
         double weights = 0;

@@ -73,7 +73,7 @@ public:
     // red twice as much and more, blue half and less.
     Plane<PackedColor> distortionMap() const;
 
-    // Of squares of a centimetre that lie within the picture: by how much the area of wall in them is off.
+    // By how much the area of wall is off in squares of a centimetre that lie within the picture.
     struct AreaError {
         double mean = 0, most95 = 0;  // shares; 95 of 100 squares are off by no more
         int squares = 0;

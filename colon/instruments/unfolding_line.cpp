@@ -36,7 +36,7 @@ std::vector<glm::dvec3> evenPlaces(const Centreline& line, double step) {
     return places;
 }
 
-// As what is left of a straight way between the ends, which stay.
+// Smooths how far places lie off a straight way between the ends, which stay.
 void smoothPlaces(std::vector<glm::dvec3>& places) {
     const glm::dvec3 first = places.front(), last = places.back();
     const double count = static_cast<double>(places.size() - 1);

@@ -29,7 +29,7 @@ private:
 // Tints of what was not seen, and of what was under fluid.
 inline const glm::vec3 kUnseenTint(0.1f, 0.55f, 2.6f), kFluidTint(0.1f, 1.5f, 0.25f);
 
-// Of marks by vertex, softened at their borders.
+// A painter of marks by vertex, softened at their borders.
 std::shared_ptr<const EyePainter> wallPainter(const WallMesh& wall, const WallNeighbours& neighbours,
                                               const VolumeFrame& frame, std::vector<float> marks,
                                               const glm::vec3& tint);

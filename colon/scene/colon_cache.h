@@ -32,7 +32,7 @@ void dropFarValues(LumenField& lumen);
 // Returns a key of the built-in colon's voxels, which takes the place of studyKey() there.
 std::uint64_t builtInColonKey(const BuiltInColonSetting& setting);
 
-// Of everything that finding depends on: the study (its content's key) and the settings.
+// A key of everything that finding depends on: the study (its content's key) and the settings.
 std::uint64_t colonCacheKey(std::uint64_t study, const ColonOptions& options);
 
 // Where it lies.

@@ -233,7 +233,7 @@ void refuseOfColons(const ColonOptions& options) {
     refuse(options.centreline.reversed, "--backwards");
 }
 
-// Of the lumen's field nothing is left: it is the volume's.
+// The same lumen without its field, which is the volume's.
 LumenField sharing(const LumenField& lumen) {
     LumenField same;
     same.isovalue = lumen.isovalue;

@@ -42,13 +42,13 @@ struct ColonScene {
         studyFrame;  // of the study as it was read; the volume's may be a part of it, or have a border
     std::vector<std::string> notes;
     VolumeScene volume;
-    // Of a colon, where it is asked for (keepsStudy): the study's own grey values, of which `volume` has
+    // The study's own grey values, of a colon, where they are asked for (keepsStudy): of which `volume` has
     // neither the tagged fluid nor what is far from the wall. Empty of a mask, which has none.
     GreyVolume study;
-    // Of a colon: the smallest and the largest value of its box in the study, tagged fluid made air, when it
-    // was found, HU. The cache keeps no values far from the lumen, but these two.
+    // The smallest and the largest value of a colon's box in the study, tagged fluid made air, when it was
+    // found, HU. The cache keeps no values far from the lumen, but these two.
     ValueSpan valuesFound;
-    // Of a colon; empty for a volume seen from outside.
+    // The lumen of a colon; empty for a volume seen from outside.
     LumenField lumen;  // its `field` is moved into volume.field
     Centreline centreline;
     std::vector<Polyp> polyps;

@@ -171,7 +171,7 @@ void placeViewer(ColonScene& scene) {
     scene.extent = 2 * ball.radius;
 }
 
-// Of --transfer or, around the isovalue, of --opacity; empty: opaque.
+// The function of --transfer or, around the isovalue, of --opacity; empty: opaque.
 TransferFunction transferOf(const ColonOptions& options, double isovalue, const glm::vec3& color) {
     if (!options.transfer.empty()) return findTransferFunction(options.transfer);
     if (!options.opacity) return {};

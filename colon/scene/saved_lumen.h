@@ -13,7 +13,7 @@
 
 namespace stereonav {
 
-// Of everything that the lumen depends on: the study (its content's key) and the settings.
+// A key of everything that the lumen depends on: the study (its content's key) and the settings.
 std::uint64_t savedLumenKey(std::uint64_t study, const SegmentationSetting& setting);
 
 // Adds nothing where nothing was chosen: keys of before stay.

@@ -20,8 +20,8 @@ constexpr double kSmallestPool = 0.05e-6;               // cubic metres
 constexpr double kThickestFilm = 0.002;                 // metres: walls between bone and air are thicker
 constexpr std::size_t kFewestColumns = 12;
 constexpr double kLevelShare = 0.75;  // of the film's columns lie within two voxels of their median
-// Of the top that lies under air: 0.11 was seen where a pool of the real anatomy fills loops up to their
-// roofs.
+// Share of a pool's top that lies under air: 0.11 was seen where a pool of the real anatomy fills loops up to
+// their roofs.
 constexpr double kContactShare = 0.05;
 constexpr int kFringe = 3;   // voxels around fluid that it makes brighter
 constexpr int kFilmRim = 4;  // voxels around the film where the wall is interpolated

@@ -39,7 +39,7 @@ struct Study {
     bool isMask = false;      // then `mask` is filled, else `grey`
     GreyVolume grey;          // HU for CT
     MaskVolume mask;
-    // Of `grey`: voxels below StudyOptions::airBelow. Nothing where values are not kept as the file has them.
+    // Voxels of `grey` below StudyOptions::airBelow. Nothing where values are not kept as the file has them.
     std::optional<VoxelRuns> air;
     std::uint64_t key = 0;           // of the content and the options: equal studies have equal keys
     std::vector<std::string> notes;  // what was mended or assumed, one line each
@@ -61,7 +61,7 @@ struct SeriesLook {
     Plane<PackedColor> picture;  // the middle slice in grey, pixels square; empty where there is a problem
     std::string problem;         // why it has no picture, one line; "" else
 };
-// Of all of them, in the order of listSeries. Throws Error where the folder holds none.
+// Looks at all series, in the order of listSeries. Throws Error where the folder holds none.
 std::vector<SeriesLook> lookAtSeries(const std::filesystem::path& folder);
 
 // What headers alone say of a study: no sample is read.
@@ -73,7 +73,7 @@ struct StudyGlance {
     std::size_t files = 0;            // that a folder holds
     std::size_t series = 0;           // of a folder, among the files that were looked at: at least so many
 };
-// Of a folder some files, spread over all, are looked at. Throws Error, Cancelled.
+// Reads headers; of a folder those of some files, spread over all. Throws Error, Cancelled.
 StudyGlance glanceAtStudy(const std::filesystem::path& path, Progress& progress);
 
 // Which folders below hold DICOM slices, as advice: "its folder ST1 holds DICOM slices: give that one"; ""

@@ -26,7 +26,7 @@ void addDistinct(ValueFacts& facts, double value) {
     facts.many = facts.distinct.size() > kMostLabels;
 }
 
-// Of whole numbers: loops without branches, over numbers of one width.
+// Adds a row of whole numbers: loops without branches, over numbers of one width.
 template <typename T>
 void addWholeRow(const T* row, int count, ValueFacts& facts) {
     T lowest = row[0], highest = row[0];

@@ -13,7 +13,7 @@
 
 namespace stereonav {
 
-// Of all samples. slices: those of the first slices, as far as they are known already.
+// Facts of all samples. slices: those of the first slices, as far as they are known already.
 ValueFacts factsOf(const RawStudy& raw, std::vector<ValueFacts> slices);
 
 // Whether values are kept as these samples are, so that air may be looked for among them.

@@ -120,7 +120,7 @@ struct DicomSlice {
     std::string damage;    // a clause that fits behind the name; "" where there is none
     std::string aside;     // what it is where it is no slice of a volume: "localizer"; "" else
 };
-// Of a DICOM file, none where it is not an image. Throws Error.
+// The slices of a DICOM file, none where it is not an image. Throws Error.
 std::vector<DicomSlice> readSlices(const std::filesystem::path& file, bool& isDicom);
 
 // --- study_dicom.cpp

@@ -88,7 +88,7 @@ struct PictureSize {
     bool sound = true;
 };
 
-// Of JPEG and JPEG-LS: the frame header (ITU-T T.81 B.2.2, T.87 C.2.2). None where there is none.
+// The size in the frame header of JPEG and JPEG-LS (ITU-T T.81 B.2.2, T.87 C.2.2). None where there is none.
 std::optional<PictureSize> jpegSize(const Codestream& code) {
     std::uint64_t at = 2;
     while (at + 4 <= code.size()) {
@@ -107,7 +107,7 @@ std::optional<PictureSize> jpegSize(const Codestream& code) {
     return {};
 }
 
-// Of JPEG 2000: the SIZ marker (ITU-T T.800 A.5.1), which may lie within boxes.
+// The size in JPEG 2000's SIZ marker (ITU-T T.800 A.5.1), which may lie within boxes.
 std::optional<PictureSize> jpeg2000Size(const Codestream& code) {
     constexpr std::uint64_t kFarthest = 4096;
     for (std::uint64_t at = 0; at + 40 <= code.size() && at < kFarthest; ++at) {
@@ -121,7 +121,7 @@ std::optional<PictureSize> jpeg2000Size(const Codestream& code) {
     return {};
 }
 
-// Of RLE: the offsets of its segments (PS3.5 G.5), one for each byte of a pixel.
+// Whether RLE's offsets of segments (PS3.5 G.5) are sound, one for each byte of a pixel.
 bool isRleSound(std::string_view bytes, int bits) {
     constexpr std::uint64_t kHead = 64;
     const auto number = [&](std::uint64_t n) {

@@ -15,7 +15,7 @@ struct GreyRange {
     double low = 0, high = 1;
 };
 
-// Of CT a range that shows air, fat, tissue and bone; of others that of the slice.
+// The range of greys: for CT one that shows air, fat, tissue and bone, for others that of the slice.
 GreyRange rangeOf(const DicomSlice& slice, const std::vector<double>& values) {
     if (slice.modality == "CT") return {-950, 550};
     const auto [low, high] = std::minmax_element(values.begin(), values.end());

@@ -1,4 +1,4 @@
-// Whose study it is, and which pictures it was read from: what a report on it has to name.
+// What a report on a study has to name: whose it is, and which pictures it was read from.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,8 @@
 
 namespace stereonav {
 
-// Of a DICOM series, as its first slice has it; "" where that says nothing. Texts are in `characters`.
+// The source of a DICOM series, as its first slice has it; "" where that says nothing. Texts are in
+// `characters`.
 struct StudySource {
     std::string characters;  // specific character set (0008,0005)
     std::string patientName, patientId, birthDate, sex;

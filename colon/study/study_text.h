@@ -20,7 +20,7 @@ std::string shortText(const std::string& text);
 // One line of text from `at` on, which moves behind it; false at the end.
 bool nextLine(const std::string& text, std::size_t& at, std::string& line);
 
-// As many numbers as the text begins with.
+// All numbers that the text begins with.
 std::vector<double> numbersIn(const std::string& text);
 
 // A data file's name as a header has it, in the header's folder or below. Throws Error for one elsewhere.

@@ -21,13 +21,14 @@ struct Curvatures {
     double curvedness() const;  // 1/metre: the root of the mean square of both
 };
 
-// Of one vertex: a quadric fitted to the vertices within `radius` metres that are joined to it within that
-// (Cazals and Pouget, "Estimating differential quantities using polynomial fitting of osculating jets", CAGD
-// 22 (2005), of degree 2), weighted towards the middle. Flat where fewer than six of them tell anything.
+// Curvature at one vertex, by a quadric fitted to the vertices within `radius` metres that are joined to it
+// within that (Cazals and Pouget, "Estimating differential quantities using polynomial fitting of osculating
+// jets", CAGD 22 (2005), of degree 2), weighted towards the middle. Flat where fewer than six of them tell
+// anything.
 Curvatures curvaturesAt(const WallMesh& mesh, const WallNeighbours& neighbours, std::uint32_t vertex,
                         double radius);
 
-// Of all, in parallel; the same on any number of threads.
+// Curvatures at all vertices, in parallel; the same on any number of threads.
 std::vector<Curvatures> wallCurvatures(const WallMesh& mesh, const WallNeighbours& neighbours, double radius);
 
 // The vertices within `radius` metres of a vertex that are joined to it within that; the vertex first.

@@ -11,7 +11,7 @@
 
 namespace stereonav {
 
-// Of all that is kept, bytes: the least recently used files are removed beyond it.
+// Bytes of all that is kept: the least recently used files are removed beyond it.
 constexpr std::uintmax_t kMostKept = 4'000'000'000;
 
 // In cacheFolder(); the extensions of what is kept are .bin, .nrrd and .tiles. A link there, or a file of

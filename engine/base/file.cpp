@@ -139,7 +139,7 @@ private:
     int mFile;
 };
 
-// That the new name stays, too. The content is safe already, so an error is none.
+// Makes the new name stay, too. The content is safe already, so an error is none.
 void flushFolder(const fs::path& folder) {
     const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (file < 0) return;

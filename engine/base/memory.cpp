@@ -84,7 +84,7 @@ double leftOf(double limit) {
     return std::max(0.0, limit - taken());
 }
 
-// Of the user's own limits.
+// Bytes that are left of the user's own limits.
 double leftOfWish() {
     const double limit = memoryLimit(), left = limit > 0 ? leftOf(limit) : kUnlimited;
     const char* text = std::getenv("STEREONAV_MEMORY");

@@ -19,7 +19,7 @@ std::size_t residentBytes(const LazyArray<T>& array) {
 // systems take a page for what was only read. Nobody may write to it meanwhile; reading is fine.
 void releaseZeroPages(const void* start, std::size_t bytes);
 
-// Of some elements.
+// The same for some elements.
 template <typename T>
 void releaseZeroPages(const LazyArray<T>& array, std::size_t first, std::size_t count) {
     releaseZeroPages(array.data() + first, count * sizeof(T));

@@ -62,7 +62,7 @@ bool isCut(const Samples& samples, std::size_t k, double mean) {
     return seconds <= kLongestCut && stepLength(samples, k) > kCutSpeed * mean * seconds;
 }
 
-// Of each cut the index of the sample before it.
+// The index of the sample before each cut.
 std::vector<std::size_t> cutsOf(const Samples& samples) {
     std::vector<std::size_t> cuts;
     // A recording that is faster than a sample a millisecond has steps as short as cuts, and none of them.
@@ -88,7 +88,7 @@ struct Box {
     double edge = 0;           // weight of the next ones
 };
 
-// Whose variance is that, in samples (Gwosdek et al. 2011, equations 10 and 11).
+// The box filter of this variance, in samples squared (Gwosdek et al. 2011, equations 10 and 11).
 Box boxOf(double variance) {
     const double l = std::floor(0.5 * std::sqrt(12 * variance + 1) - 0.5);
     const double edge = (2 * l + 1) * (l * (l + 1) - 3 * variance) / (6 * (variance - (l + 1) * (l + 1)));

@@ -34,7 +34,7 @@ public:
     // Draws them by the interface's letters, where they are not what is there already. True: it looks
     // otherwise than before.
     bool draw(const Interface& interface, const glm::ivec2& size, const std::vector<OverlayMark>& marks);
-    // Of the left and of the right eye; none while nothing is there.
+    // Layers of the left and of the right eye; none while nothing is there.
     std::optional<std::array<EyeLayer, 2>> layers() const;
 
 private:

@@ -16,7 +16,7 @@ public:
     // Hz, as the monitor tells it, to a whole number mostly; 0 or nonsense: unknown, 60 is assumed.
     explicit FrameSequence(double refreshRate);
 
-    // Of the picture to be drawn for the next refresh: 0 the eye that comes first, 1 the other one.
+    // The eye to be drawn for the next refresh: 0 the one that comes first, 1 the other one.
     int eye() const { return static_cast<int>((mRefresh + 1) & 1); }
     // A swap was done at this time, seconds of a steady clock.
     void swapped(double seconds);

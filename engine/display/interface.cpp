@@ -93,7 +93,7 @@ bool within(const ImVec4& clip, const ImVec4& box) {
     return clip.x >= box.x && clip.y >= box.y && clip.z <= box.z && clip.w <= box.w;
 }
 
-// Of lists that draw beside the box; of all where there is none.
+// A digest of the lists that draw beside the box; of all where there is none.
 std::uint64_t digestOf(const ImDrawData& data, const ImVec4* box = nullptr) {
     Digest digest;
     digest.add(&data.DisplaySize, sizeof data.DisplaySize);
@@ -322,7 +322,7 @@ bool Interface::layOut(const InterfacePlaces& places, double dt, const std::func
         ImGui::NewFrame();
         draw();
         ImGui::Render();
-        // Of as much as before nothing has another size: figures that changed are in place.
+        // With as many corners as before nothing has another size: figures that changed are in place.
         if (late || (state.events.empty() && ImGui::GetDrawData()->TotalVtxCount == cornersBefore)) break;
     }
     const std::uint64_t digest = digestOf(*ImGui::GetDrawData());
@@ -429,7 +429,7 @@ bool Interface::active() const {
 void Interface::pointerAt(const glm::dvec2& place) {
     const glm::dvec2 unit = mState->unitAt(place);
     mState->pointer = {static_cast<float>(unit.x), static_cast<float>(unit.y)};
-    // Of places one after another the last counts.
+    // The last of several places one after another counts.
     auto& events = mState->events;
     if (!events.empty() && events.back().kind == Event::Kind::Place) events.pop_back();
     events.push_back({.kind = Event::Kind::Place, .x = unit.x, .y = unit.y});

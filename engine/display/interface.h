@@ -25,7 +25,7 @@ struct InterfaceArea {
 // Where it is drawn, and how large it takes itself to be.
 struct InterfacePlaces {
     std::vector<InterfaceArea> areas{{}};  // at least one
-    // Of the window's size, along each axis: what an eye that is squeezed to half stands for is 1.
+    // Share of the window's size, along each axis: what an eye that is squeezed to half stands for is 1.
     glm::vec2 size{1};
     bool operator==(const InterfacePlaces&) const = default;
 };

@@ -45,7 +45,7 @@ void InterfaceStill::copy(bool back, const InterfacePart& part) const {
     glDisable(GL_SCISSOR_TEST);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, back ? store : 0);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, back ? 0 : store);
-    // Of the part, from its top left corner.
+    // Copies a piece of the part, in pixels from its top left corner.
     const auto piece = [&](int left, int top, int right, int bottom) {
         if (right <= left || bottom <= top) return;
         const int x = part.corner.x, y = mWhole.y - part.corner.y;

@@ -14,7 +14,7 @@ struct InterfaceLook {
 
 constexpr float kInterfaceFontPixels = 14;  // at scale 1
 
-// Of the current Dear ImGui context.
+// Sets colours, sizes and font of the current Dear ImGui context.
 void applyTheme(const InterfaceLook& look);
 
 // Colours with a meaning, as the look has them: of what is at work or chosen, and of what needs attention.

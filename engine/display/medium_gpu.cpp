@@ -113,7 +113,7 @@ struct MediumGpu::State {
     std::optional<ShaderProgram> ender;
     std::optional<MediumTargets> targets;
 
-    // Of the frame.
+    // What the frame at work uses.
     const SweepGeometry* geometry = nullptr;
     const Programs* used = nullptr;
     bool lights = false;

@@ -16,7 +16,7 @@ public:
     explicit MediumGpu(const Medium& medium);
     ~MediumGpu();
 
-    // As MediumSweep::render; the pictures are read back. Waits until the GPU is done.
+    // Makes the pictures of MediumSweep::render and reads them back. Waits until the GPU is done.
     void render(const MediumLook& look, const SweepSetting& setting, std::span<const EyeView> eyes,
                 const glm::dvec3& head, double time, std::span<MediumPicture> pictures);
 

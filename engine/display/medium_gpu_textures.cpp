@@ -182,7 +182,8 @@ void MediumTextures::uploadTables() {
 void MediumTextures::uploadNoise() {
     if (!mMedium.noise()) return;
     const std::vector<std::uint8_t>& bytes = mMedium.noise()->bytes();
-    // As floats: the byte formats are filtered in 8 bits by some drivers, which shows where places are moved.
+    // Values as floats: the byte formats are filtered in 8 bits by some drivers, which shows where places are
+    // moved.
     std::vector<float> values(bytes.size());
     std::transform(bytes.begin(), bytes.end(), values.begin(),
                    [](std::uint8_t b) { return static_cast<float>(b) / 127.5f - 1.0f; });

@@ -12,7 +12,7 @@
 
 namespace stereonav {
 
-// Of textures; the shaders name them by their binding.
+// Units of textures; the shaders name them by their binding.
 struct GlUnit {
     static constexpr GLuint kField = 0, kTable = 1, kNoise = 2, kPhase = 3, kBefore = 4, kBaked = 5,
                             kBeyond = 6,

@@ -13,7 +13,7 @@
 namespace stereonav {
 namespace {
 
-// Of the widths or heights that two spans share.
+// The length that two spans of widths or heights share.
 long long sharedLength(int a, int aLength, int b, int bLength) {
     const long long begin = std::max(a, b);
     const long long end = std::min(static_cast<long long>(a) + aLength, static_cast<long long>(b) + bLength);

@@ -29,8 +29,8 @@ struct Monitor {
 
 // In the order that the desktop gives them, the primary one first. While a Window exists, on its thread.
 std::vector<Monitor> monitors();
-// As they were a quarter of a second ago at most: each of them is asked for in some six turns to the X server
-// and back, which take longer than all that a window draws when it is asked at every turn.
+// The monitors as they were a quarter of a second ago at most: each of them is asked for in some six turns to
+// the X server and back, which take longer than all that a window draws when it is asked at every turn.
 const std::vector<Monitor>& recentMonitors();
 
 // Which one most of the window lies on, or, where it lies on none, which one is nearest; the first of

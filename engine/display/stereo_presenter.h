@@ -80,7 +80,7 @@ private:
     // With layers and without; made when first drawn.
     mutable std::map<std::pair<Pass, bool>, ShaderProgram> mPrograms;
     GlVertexArray mVertices;
-    // Of an eye, left and right: what it shows, and what of that is uploaded.
+    // An eye, left or right: what it shows, and what of that is uploaded.
     struct Eye {
         SharedEye picture;
         GlTexture texture;

@@ -7,7 +7,7 @@
 
 namespace stereonav {
 
-// As far as the eyes of adults stand apart: parallax behind the screen that is larger would have them turn
+// The distance between an adult's eyes: parallax behind the screen that is larger would have them turn
 // outwards.
 constexpr double kEyeDistance = 0.065;    // metres
 constexpr double kDeskScreenWidth = 0.5;  // metres, of a screen that tells no size
@@ -26,7 +26,7 @@ double statedWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh);
 // where a monitor says nothing: as if it had 96 pixels an inch, both ways.
 bool tellsWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh);
 
-// Of one thing: negative before the screen, positive behind it.
+// Parallax of one thing: negative before the screen, positive behind it.
 struct ScreenParallax {
     double millimetres = 0;
     double degrees = 0;     // of visual angle, between its places for the two eyes

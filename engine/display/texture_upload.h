@@ -10,7 +10,7 @@ void expectAtMost(GLenum limit, int size, const char* what);
 // Throws Error, named `what`, where the driver has refused something since glGetError was last asked.
 void expectAccepted(const char* what);
 
-// Of the texture that is bound to GL_TEXTURE_1D, .. `kind`, along all its axes.
+// Sets filter and wrapping of the texture that is bound to GL_TEXTURE_1D, .. `kind`, along all its axes.
 void setFilter(GLenum kind, GLint filter, GLint wrap);
 void bindTo(GLuint unit, GLenum kind, const GlTexture& texture);
 

@@ -60,12 +60,12 @@ public:
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // Its context becomes the current one, as it is when it has been opened.
+    // Makes the window's context the current one, as it is when it has been opened.
     void use() const;
 
     bool shouldClose() const;
     void keepOpen();  // the wish to close it is not followed
-    // Of all windows: handles what happened; waits at most `seconds` for something to happen (0: not at all).
+    // Handles what happened to all windows; waits at most `seconds` for something to happen (0: not at all).
     void handleEvents(double seconds);
     // Ends a wait of handleEvents early; from any thread.
     static void wake();

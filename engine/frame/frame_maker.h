@@ -26,7 +26,7 @@ struct FrameWay {
     EdgeSetting edges{};      // of scenes whose rays are cast
 };
 
-// As a setting says, its method too.
+// The way of a setting, its method too.
 inline FrameWay wayOf(const WarpSetting& setting) {
     return {nameOf(setting.method), setting};
 }
@@ -67,7 +67,7 @@ public:
                                       EyeImage& right) = 0;
     // What the way adds to an eye's edges, once the right eye was made: EdgeRays::smooth.
     virtual EdgeTimings smoothEdges(const EyeView& view, const FrameWay& way, EyeImage& image) = 0;
-    // Of the last right eye, by makeRight() or FrameMaker::make().
+    // The holes of the last right eye, by makeRight() or FrameMaker::make().
     virtual RightHoles holes() const = 0;
 };
 

@@ -24,9 +24,9 @@ public:
     // In place of the first frame: one that was made of these views, with its rays through the centres.
     void begin(const EyePair& made);
 
-    // Of all frames since the last restart, at least one: their colours; all other planes, and who made them
-    // how, are those of the first, whose rays go through the centres of pixels. Times are those of the last.
-    // Worked out when asked.
+    // The mean colours of all frames since the last restart, at least one. All other planes, and who made
+    // them how, are those of the first, whose rays go through the centres of pixels. Times are those of the
+    // last. Worked out when asked.
     EyePair& mean();
     const FrameTimings& timings() const { return mMean.timings; }  // of the last
     int count() const { return mCount; }                           // frames, which is rays a pixel

@@ -52,8 +52,8 @@ public:
     // those there are. Bilinear in texels as they are stored, and from level to level over the middle half
     // between them: the plain statement of what kernels and shaders read.
     glm::vec3 at(const glm::dvec2& grid, double level) const;
-    // As kernels read it by places, which lie at the grid coordinates (place - origin) / spacing. It must
-    // outlive what is given.
+    // The texture as kernels read it by places, which lie at the grid coordinates (place - origin) / spacing.
+    // It must outlive what is given.
     TextureData forKernels(const glm::dvec2& origin, const glm::dvec2& spacing) const;
 
     int levelCount() const { return static_cast<int>(mOffsets.size()); }

@@ -110,7 +110,7 @@ std::pair<int, int> composedSize(OutputMode mode, int width, int height);
 // The other way round: the size of one eye for a picture of at most width x height; at least 1 x 1.
 std::pair<int, int> eyeSizeFor(OutputMode mode, int width, int height);
 
-// Of a frame-packed picture's height, what each eye takes: 1080 rows of 2205.
+// Share of a frame-packed picture's height that each eye takes: 1080 rows of 2205.
 constexpr float kPackedEye = 24.0f / 49.0f;
 
 // Pixels, (0, 0) top left.

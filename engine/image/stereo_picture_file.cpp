@@ -76,7 +76,7 @@ Field field(std::uint32_t tag, std::string_view undefined) {
             Bytes(undefined.begin(), undefined.end())};
 }
 
-// As fine as 32 bits can tell; all ones over all ones: unknown (DC-007, 5.2.4).
+// A fraction as fine as 32 bits can tell; all ones over all ones: unknown (DC-007, 5.2.4).
 Field rational(std::uint32_t tag, FieldType type, double value) {
     Bytes bytes;
     std::uint32_t above = 0xFFFFFFFFu, below = 0xFFFFFFFFu;
@@ -148,7 +148,8 @@ constexpr std::string_view kMpfName{"MPF\0", 4};
 constexpr std::string_view kMpfVersion = "0100";
 constexpr std::uint32_t kDisparity = 0x020002, kRepresentative = 0x20000000;  // of an entry's attribute
 
-// Of the eye `number`, counted from the left, 1 or 2; the left one is what the other is measured against.
+// Fields of the eye `number`, counted from the left, 1 or 2; the left one is what the other is measured
+// against.
 std::vector<Field> eyeFields(std::uint32_t number, const EyePlacement& placement) {
     std::vector<Field> fields;
     if (number > 1) fields.push_back(field(0xB000, kMpfVersion));  // the first has it in the index

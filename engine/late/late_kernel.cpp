@@ -11,7 +11,7 @@ namespace {
 constexpr float kHalf = 0.5f;
 constexpr float kSurfaceRise = 1.5f;  // steps: more between two of them is a jump
 constexpr float kSame = 0.03f;        // relative: inverse depths of one surface, beside each other
-// Of the nearest of four neighbours' depths: a pixel that lies more than so far behind one is half covered by
+// A factor on the nearest of four neighbours' depths: a pixel that lies farther than that is half covered by
 // it where edges are smooth, and moves with it. What is farther would keep its colours, a line where it was.
 // Without this: 1 to 3 dB less in terrain and in the colon (docs/measured.md), at all ages; also where edges
 // are not smooth.
@@ -89,8 +89,8 @@ STEREONAV_INLINE I colorAt(const LateSource& source, const Place& place) {
     return lerpColors(up.first, up.second, low.first, low.second, corner.right, corner.down);
 }
 
-// Of the neighbours only those that lie on the surface at `inverse` give their colour: edges stay edges, and
-// what is stretched into uncovered places has nothing of what stood before it.
+// Only neighbours that lie on the surface at `inverse` give their colour: edges stay edges, and what is
+// stretched into uncovered places has nothing of what stood before it.
 STEREONAV_INLINE I colorOfSurface(const LateSource& source, const Place& place, F inverse, F reach) {
     const Corner corner = cornerOf(source, place);
     const I index = corner.y * I(source.colorStride) + corner.x,
@@ -195,7 +195,7 @@ inline void warpTile(const LateBand& band, int tile) {
             M uncovered = firstLanes(0);
             Place place;
             if (plan.steps <= 0) {
-                // As the rows above go on.
+                // The guess goes on as the rows above do.
                 F inverse = row < 2 ? last[part] : last[part] + (last[part] - above[part]);
                 const int times = plan.steps < 0 ? 0 : row == 0 ? 4 : row == 1 ? 2 : 1;
                 for (int n = 0; n < times; ++n) inverse = nearestInverse(source, rays.at(inverse));

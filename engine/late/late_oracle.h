@@ -9,7 +9,7 @@
 
 namespace stereonav {
 
-// As LateEye::prepare and warp; slow.
+// Does what LateEye::prepare and warp do, slowly.
 void warpLatePlainly(const Plane<PackedColor>& color, const Plane<float>& depth, const EyeView& from,
                      const EyeView& to, Plane<PackedColor>& image, Plane<std::uint8_t>& uncovered);
 

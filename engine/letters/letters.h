@@ -12,7 +12,7 @@
 
 namespace stereonav {
 
-// Of one size. Keeps the letters that it has drawn; not for two threads at once.
+// Letters of one size. Keeps those that it has drawn; not for two threads at once.
 class Letters {
 public:
     static constexpr int kLeastHeight = 5, kMostHeight = 400;

@@ -111,7 +111,8 @@ private:
 // A mesh that several nodes show is there several times. No accessor counts for more elements than its buffer
 // has bytes for: what a file names without having it takes no memory, and is refused when it is read.
 void MeshReader::makeRoom(const std::vector<MetNode>& nodes) {
-    // Of Embree, a triangle, while its tree is built, beside its copy of the mesh: measured 110 to 131.
+    // Bytes that Embree takes for a triangle while its tree is built, beside its copy of the mesh: measured
+    // 110 to 131.
     constexpr double kTreeBytes = 140;
     const auto& model = mFile.model;
     double vertices = 0, triangles = 0, most = 0;

@@ -21,7 +21,8 @@ struct ButteraugliMap {
     Plane<float> distances;
 };
 
-// Of one size, from 1 x 1. Throws Error otherwise. Takes some 0.3 s for a million pixels on two threads.
+// Compares two pictures of one size, from 1 x 1. Throws Error otherwise. Takes some 0.3 s for a million
+// pixels on two threads.
 ButteraugliMap butteraugliOf(const Plane<PackedColor>& truth, const Plane<PackedColor>& image);
 
 // norm3 of a part of a map: inside the mask and outside it; NaN where there is no pixel.

@@ -159,7 +159,7 @@ private:
             timings.right_ms += mRightFromLeft->smoothEdges(views.right, way, runner.frame.right).ms;
         timings.both_ms = timings.left_ms + timings.right_ms;
     }
-    // That of all methods where they differ in the right one alone.
+    // The left eye of all methods where they differ in the right one alone.
     const EyeImage& exactLeft() const {
         return mRightFromLeft && mSetting.edges.rays > 0 ? mSmoothLeft : mExact.frame.left;
     }

@@ -22,15 +22,15 @@ struct ComparisonSetting {
     int truthFactor = 8;                    // finer truths have truthFactor^2 rays a pixel
     int edgeRadius = 2;                     // pixels by which the edge mask is grown
     std::vector<StereoSetting> eyes;        // one a pose; empty: the same at all
-    // Of each pose its neighbour in the flight (timedBeside), for flicker; empty: there is no such figure.
+    // The neighbour of each pose in the flight (timedBeside), for flicker; empty: there is no such figure.
     std::vector<TimedPose> beside;
     EdgeSetting edges;         // of both eyes, by every method, where rays are cast; times are with them
     bool butteraugli = false;  // too, which takes longer than most methods
 };
 
-// Of a FrameMaker whose methods differ in the right eye alone (FrameMaker::rightFromLeft) the left one is
-// made once, and errors are those of the right one. Of others they are those of both eyes together; there is
-// no finer truth and nothing is warped: what is only then there is NaN below. Times in ms and errors of one
+// Where a FrameMaker's methods differ in the right eye alone (FrameMaker::rightFromLeft) the left one is made
+// once, and errors are those of the right one. Elsewhere they are those of both eyes together; there is no
+// finer truth and nothing is warped: what is only then there is NaN below. Times in ms and errors of one
 // method: of one frame, or medians over frames.
 struct MethodFigures {
     std::string name;
@@ -41,11 +41,11 @@ struct MethodFigures {
     double pair_ms = 0;          // both eyes, from the first ray to the last pixel
     double hole_percent = 0;     // pixels cast again, or swept without a known start, of all
     ImageDifference difference;  // from each eye by itself
-    // Of the right eye and of the left one, as the method uses it, from truths with many rays a pixel; NaN:
-    // there are none.
+    // PSNR of the right eye and of the left one, as the method uses it, from truths with many rays a pixel;
+    // NaN: there are none.
     double true_psnr_db = 0, left_true_psnr_db = 0;
-    // As Wan et al. 2004 count (surface_difference.h); NaN where no pixel that shows the scene was warped, or
-    // made; or where nothing is warped at all.
+    // Figures as Wan et al. 2004 count (surface_difference.h); NaN where no pixel that shows the scene was
+    // warped, or made; or where nothing is warped at all.
     double holesOfWarped_percent = 0;
     double surface_psnr_db = 0;
     // From the finer truths, or, where there are none, from each eye by itself: change from frame to frame
@@ -64,13 +64,13 @@ struct MethodPicture {
     const EyeImage &left,
         &right;  // with rays at their edges; left: the same for all where they differ in the right one alone
     const Plane<std::uint8_t>& holeMask;  // empty: nothing is warped
-    // Of what errors are counted in: the right eye, or the left one over it; empty: not asked for.
+    // Map of what errors are counted in: the right eye, or the left one over it; empty: not asked for.
     const Plane<float>& butteraugli;
 };
 struct ComparedFrame {
     int index = 0;
     const EyeImage &left, &right;  // each by itself
-    // Of the right and the left eye by many rays a pixel; empty: there are none.
+    // Truths of the right and the left eye by many rays a pixel; empty: there are none.
     const Plane<PackedColor>&truth, &leftTruth;
     std::vector<MethodPicture> pictures;
 };

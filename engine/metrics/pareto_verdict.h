@@ -26,8 +26,8 @@ struct ParetoVerdict {
     bool onFront = false;
     // Not on the front, but nothing beats it by more than the spread of its time and kSameError of its error.
     bool withinNoise = false;
-    // Of those that beat it: the fastest, and the share of time it saves; the one with the least error, and
-    // the share of error it saves. "" where none does.
+    // Those that beat it: the fastest, and the share of time it saves; the one with the least error, and the
+    // share of error it saves. "" where none does.
     std::string faster, better;
     double timeSaved = 0, errorSaved = 0;
 };

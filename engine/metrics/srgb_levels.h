@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// Of a packed channel (0..1023): 0 to 255.
+// Levels, 0 to 255, of a packed channel (0..1023).
 const std::array<float, 1024>& srgbLevelFromPacked();
 
 inline glm::vec3 srgbLevels(PackedColor color) {

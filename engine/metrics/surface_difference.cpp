@@ -28,7 +28,7 @@ bool showsSurface(const EyeImage& full, int x, int y) {
     return full.viewDepth.at(x, y) < kMissDepth;
 }
 
-// Of the 8-bit sRGB bytes that a display would get.
+// Squared difference of the 8-bit sRGB bytes that a display would get.
 double squareOf(PackedColor a, PackedColor b) {
     const auto& bytes = srgbByteFromPacked();
     double sum = 0;

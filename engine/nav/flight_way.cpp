@@ -24,7 +24,7 @@ int windowAt(int k, int most) {
     return std::min({most, k, kPieces - k});
 }
 
-// Of each place the most of its window.
+// The most of each place's window.
 std::vector<double> widened(const std::vector<double>& needs) {
     std::vector<double> most(needs.size());
     for (int k = 0; k <= kPieces; ++k) {

@@ -14,7 +14,7 @@ struct Launch {
 
 // variable: as std::getenv, null for what is not set.
 Launch launchOf(const std::function<const char*(const char*)>& variable);
-// Of this process.
+// How this process was launched.
 Launch launchOfThisProcess();
 
 }  // namespace stereonav

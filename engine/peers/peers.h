@@ -38,18 +38,19 @@ public:
     int count() const { return mCount; }
     bool first() const { return mRank == 0; }
     bool alone() const { return mCount == 1; }
-    // Of this process, where those that may run on the same cores share them evenly; 0: of one alone, all.
+    // Threads of this process, where those that may run on the same cores share them evenly; 0: it is alone,
+    // and takes all.
     int threads() const { return mThreads; }
     // Throws Error where the processes were not given the same.
     void check() const;
 
-    // Of the others. Makes what the first one deals (a PieceDealer) until it closes. Throws what `make` does,
-    // and Cancelled.
+    // For the others: makes what the first one deals (a PieceDealer) until it closes. Throws what `make`
+    // does, and Cancelled.
     using Make = std::function<PeerBytes(std::size_t piece, std::span<const std::byte> order)>;
     void serve(const Make& make);
     // What the first one told all, in its order. Throws Cancelled.
     PeerBytes hear();
-    // Of the first: what all others hear. Returns when it has been sent.
+    // For the first: tells what all others hear. Returns when it has been sent.
     void tellAll(const PeerBytes& bytes);
 
     // First: whether another one has failed. Throws PeerFailure.
@@ -57,7 +58,7 @@ public:
     bool failed() const;
     // A good end, by all: waits for the first one.
     void leave();
-    // Of several: an end of one, which ends all. Tells the line, on standard error and once for the run; a
+    // For several: an end of one, which ends all. Tells the line, on standard error and once for the run; a
     // run that was stopped has none but the first one's.
     [[noreturn]] void fail(const std::string& line);
 
@@ -76,7 +77,7 @@ private:
     std::deque<PeerBytes> mTold;  // that came before it was asked for
 };
 
-// Of this process. Alone until joinRun() has found otherwise.
+// The peers of this process, which is alone until joinRun() has found otherwise.
 Peers& peersOfThisRun();
 // What the first process finds, as all of them go on with it. T: of bytes alone.
 template <typename T>

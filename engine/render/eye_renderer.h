@@ -104,9 +104,9 @@ public:
     // Whether a pixel's colour is gathered from several depths, so that it can not be warped as a whole.
     // viewDepth is then where the ray first meets anything.
     virtual bool translucent() const { return false; }
-    // As renderTile, but image.viewDepth holds, for each pixel, a depth before which nothing is expected
-    // (0: unknown, kMissDepth: nothing at all): the ray starts there with one jump (W12; Wan et al. 2004,
-    // section 4). What renderTile gives is right too, only slower.
+    // Casts a tile as renderTile does, but image.viewDepth holds, for each pixel, a depth before which
+    // nothing is expected (0: unknown, kMissDepth: nothing at all): the ray starts there with one jump (W12;
+    // Wan et al. 2004, section 4). What renderTile gives is right too, only slower.
     virtual void renderTileFromDepth(const EyeView& view, int tile, EyeImage& image) const {
         renderTile(view, tile, image);
     }

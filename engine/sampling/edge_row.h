@@ -25,7 +25,7 @@ struct EdgeRow {
 };
 
 using EdgeFunction = void (*)(const EdgeRow& row);
-// Of the set that availableTarget() gives.
+// The function of the set that availableTarget() gives.
 EdgeFunction edgeFinder(SimdTarget target = SimdTarget::Auto);
 
 }  // namespace stereonav

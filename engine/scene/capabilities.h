@@ -23,12 +23,12 @@ namespace stereonav {
 
 class Scene;
 
-// Its rays are cast: for what asks single rays or tiles. Frames are made by its FrameMaker.
+// A scene whose rays are cast, for what asks single rays or tiles. Frames are made by its FrameMaker.
 struct RayCast {
     const EyeRenderer* renderer = nullptr;  // never null where it is offered
 };
 
-// Of a scene that offers RayCast.
+// Returns the renderer of a scene that offers RayCast.
 const EyeRenderer& rendererOf(const Scene& scene);
 
 // Where the sun stands, radians: clockwise from north, above the horizon; or how far a sky is turned
@@ -119,7 +119,7 @@ struct Animation {};
 class FrameEffort {
 public:
     virtual ~FrameEffort() = default;
-    // Of the next frames: 1 is all of it, more than 0.
+    // Share of the work that the next frames are made with, above 0; 1: all of it.
     virtual void setEffort(double share) = 0;
 };
 
@@ -148,7 +148,7 @@ public:
     virtual PlaceOnLine placeOnLine(const glm::dvec3& world) const = 0;
 };
 
-// That way as a line to be drawn on a map, seen from the front.
+// The way through as a line to be drawn on a map, seen from the front.
 struct LinePlace {
     glm::dvec3 world{0.0};  // metres
     double along = 0;       // metres from the line's start, as PlaceOnLine's

@@ -11,7 +11,7 @@ namespace stereonav {
 class PlaceReader {
 public:
     virtual ~PlaceReader() = default;
-    // Of a world place at or near the surface: facts with a label each, and texts that are short enough for
+    // Facts of a world place at or near the surface, with a label each, and texts that are short enough for
     // one line together. None where nothing is there. From any thread; quick enough for each motion of a
     // pointer.
     virtual Facts readPlace(const glm::dvec3& world) const = 0;

@@ -13,11 +13,11 @@
 
 namespace stereonav {
 
-// Of a study that was read once, however it is seen.
+// Values of a study that was read once, however it is seen.
 struct StudyValues {
     std::string unit;  // "HU", or "" where it is not known
     ValueSpan range;
-    // Of what may be shown; holds what it counts. Any thread; throws Cancelled.
+    // Counts the values of what may be shown; holds what it counts. Any thread; throws Cancelled.
     std::function<ValueCounts(Progress&)> count;
 };
 

@@ -133,7 +133,7 @@ STEREONAV_INLINE F sqrt(F a) {
     return _mm_sqrt_ps(a.v);
 }
 #else
-// As x86 does: the second where either is NaN.
+// The result is x86's: the second where either is NaN.
 STEREONAV_INLINE F min(F a, F b) {
     return select(a < b, a, b);
 }

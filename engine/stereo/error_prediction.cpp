@@ -17,7 +17,7 @@ STEREONAV_EACH_SET(void contrastRow(const ContrastRow&);)
 namespace {
 
 constexpr int kRowsOfTask = 16;
-// Of a frame's error over the expected one where the scatter of frames is not known.
+// Margin of a frame's error over the expected one where the scatter of frames is not known.
 constexpr double kMarginOfOneFrame = 4;
 constexpr double kBeyondWorst = 1.5;
 

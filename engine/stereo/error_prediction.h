@@ -27,7 +27,8 @@ struct ErrorCalibration {
     // 100 frames.
     std::array<double, kContrastClasses + 1> margin{};
 
-    // Of a frame of so many pixels; classes from `cast` on are exact.
+    // Expected for a frame of so many pixels, whose classes from `cast` on are exact; squared sRGB byte
+    // steps.
     double expectedMeanSquare(const ContrastCounts& counts, double pixels, int cast = kContrastClasses) const;
     // Bound for 95 % of frames; kMostPsnr_db where nothing is expected.
     double boundPsnr_db(const ContrastCounts& counts, double pixels, int cast = kContrastClasses) const;

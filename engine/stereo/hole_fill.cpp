@@ -18,7 +18,7 @@ std::uint32_t bitsOf(std::uint64_t bytes) {
     return static_cast<std::uint32_t>((bytes & 0x0101010101010101u) * 0x0102040810204080u >> 56);
 }
 
-// Of a band's pixels in one row. Rows are padded, so that all words can be read.
+// Bits of the holes among a band's pixels in one row. Rows are padded, so that all words can be read.
 std::uint32_t holesOfRow(const std::uint8_t* mask) {
     std::uint64_t words[kWords];
     std::memcpy(words, mask, sizeof words);

@@ -1,4 +1,4 @@
-// As linear, but pixels whose depths shift apart are cast: for translucent scenes.
+// The method linear, but that pixels whose depths shift apart are cast: for translucent scenes.
 #include "engine/stereo/warp_method.h"
 
 namespace stereonav {

@@ -18,7 +18,8 @@ namespace stereonav {
 struct ParallaxHistogram {
     static constexpr int kBins = kParallaxBins;
     static constexpr double kLowest = -0.06, kHighest = 0.08;
-    // Of bin n, which reaches to the edge of the next; n up to kBins.
+    // Where bin n begins, as a share of the picture's width; it reaches to the edge of the next. n: up to
+    // kBins.
     static constexpr double lowerEdge(int n) { return kLowest + (kHighest - kLowest) * n / kBins; }
 
     std::array<std::int32_t, kBins> counts{};
@@ -36,7 +37,7 @@ struct ParallaxSeen {
     ParallaxHistogram histogram;
 };
 
-// Of every pixel of the left eye's depths. One and the same for each instruction set and number of threads.
+// Parallax of every pixel of the left eye's depths. The same for each instruction set and number of threads.
 ParallaxSeen parallaxSeen(const StereoViews& views, const Plane<float>& viewDepth,
                           SimdTarget target = SimdTarget::Auto);
 

@@ -49,8 +49,8 @@ STEREONAV_INLINE M linksOf(const ResampleRow& row, int i, F depth, F gap, M surv
     return link;
 }
 
-// Of links whose neighbours within reach hold, else 0. What the block's first lane lacks to its left is taken
-// back by the next block.
+// Stores the inverse widths of links whose neighbours within reach hold, else 0. What the block's first lane
+// lacks to its left is taken back by the next block.
 STEREONAV_INLINE void storeInverses(const ResampleRow& row, int i, F gap, M link, ToTheRight& right) {
     const M all = firstLanes(kLanes);
     M usable = link;
@@ -77,7 +77,7 @@ void findSources(const ResampleRow row) {
         const F minimum = min(suffixMinimum(column, infinity()), right.leftmost);
         const M survives = column < lanesFrom<1>(minimum, right.leftmost);
         const I begin = ceilToInt(clamp(minimum - F(0.5f), F(0.0f), width));
-        // Of survivors with the same first pixel the rightmost has it: the others end before it.
+        // The rightmost of survivors with the same first pixel has it: the others end before it.
         const M owns = begin < lanesFrom<1>(begin, right.begin);
         scatterNumbers(row.source, begin, i, owns, row.width + kRowPadding - 1);
         const F gap = lanesFrom<1>(column, right.column) - column;

@@ -270,7 +270,7 @@ RightEyeTimings RightEye::render(const EyeRenderer& renderer, const StereoViews&
     const WarpMethod& method = warpMethodOf(setting.method);
     const int width = left.width(), height = left.height();
     const ViewDependence dependence = dependenceOf(renderer, left);
-    // Of several depths nothing is asked of the right eye.
+    // The right eye needs no planes for colours of several depths.
     right.resize(width, height, dependence == ViewDependence::Depths ? ViewDependence::None : dependence);
     mState->resize(width, height, method.splats);
     const bool again = dependence == ViewDependence::Highlight || dependence == ViewDependence::Normal;

@@ -28,7 +28,8 @@ struct WarpSetting {
     // Inverse methods: a pixel between survivors further apart than this many right pixels is a hole. By
     // compare on real terrain, 1.1 is 1 to 3 dB better and casts 1.3 to 2.6 times the rays.
     float maxStretch = 1.4f;
-    // ... and one between survivors nearer to each other than this: a fold, or a silhouette.
+    // A pixel between survivors nearer to each other than this many right pixels is one too: a fold, or a
+    // silhouette.
     float minStretch = 0.5f;
     // Paper: a pixel whose accumulated splat weight is below this share of full cover is a hole.
     float weightThreshold = 0.5f;

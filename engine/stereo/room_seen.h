@@ -17,7 +17,7 @@ struct RoomSeen {
     double nearest = 0, farthest = 0;  // view depths, metres; what is not hit is infinitely far
     double ahead = 0;                  // the median in the picture's middle ninth
 };
-// Of every step-th pixel of every step-th row.
+// What every step-th pixel of every step-th row shows of the room.
 RoomSeen roomSeen(const Plane<float>& viewDepth, int step);
 // RoomSeen::ahead alone. Infinite where no depth is known there.
 double depthAhead(const Plane<float>& viewDepth, int step);
@@ -27,7 +27,7 @@ struct ParallaxRange {
     double near = 0, far = 0;
 };
 ParallaxRange parallaxOf(const StereoViews& views, const RoomSeen& room);
-// Of one view depth above 0, which may be infinite.
+// Parallax of one view depth above 0, which may be infinite, as a share of the picture's width.
 double parallaxAt(const StereoViews& views, double depth);
 
 // Makes eyes that suit the room around them: one step on by dt seconds. free: distance around the head;

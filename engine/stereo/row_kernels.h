@@ -6,7 +6,7 @@
 
 namespace stereonav {
 
-// Of the set that availableTarget() gives, which throws for one that can not be used here.
+// The function of the set that availableTarget() gives, which throws for one that can not be used here.
 ResampleFunction resampler(SimdTarget target = SimdTarget::Auto);
 
 }  // namespace stereonav

@@ -12,7 +12,7 @@
 
 namespace stereonav {
 
-// Of one worker, for a row.
+// What one worker needs for a row.
 struct WarpScratch {
     std::vector<float> column, inverse, accumulators;
     std::vector<std::int32_t> source;

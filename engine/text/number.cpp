@@ -7,8 +7,8 @@
 namespace stereonav {
 namespace {
 
-// Of digits that no double holds: whether that is because they are too large. Their magnitude is that of the
-// first digit that is not 0, and the exponent.
+// Whether digits that no double holds are too large for one. Their magnitude is that of the first digit that
+// is not 0, and the exponent.
 bool tooLarge(std::string_view digits) {
     long long exponent = 0;
     const std::size_t e = digits.find_first_of("eE");

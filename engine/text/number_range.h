@@ -24,7 +24,7 @@ constexpr NumberRange above(double low, double high, const char* unit = "") {
     return {low, high, true, false, unit};
 }
 
-// As a person writes it: "170", "1e6", "0.001".
+// The number as a person writes it: "170", "1e6", "0.001".
 std::string shortNumber(double number);
 // "1 to 170 degrees", "more than 0 and at most 1e6 mm", "any number"
 std::string rangeText(const NumberRange& range);

@@ -305,7 +305,7 @@ void TomlSection::note(const std::string& key, const std::string& problem, const
 
 namespace {
 
-// As an option of the command line has it; "" for what none takes.
+// The text that an option of the command line would have; "" for what none takes.
 std::string optionText(const toml::value& value) {
     if (value.is_string()) return value.as_string().str;
     if (value.is_boolean()) return value.as_boolean() ? "true" : "false";
@@ -325,7 +325,7 @@ std::string joined(const toml::value& numbers) {
     return text;
 }
 
-// Of a list: texts, or lists of numbers; nothing where it holds anything else.
+// The texts of a list of texts, or of lists of numbers; nothing where it holds anything else.
 std::vector<std::string> textsOf(const toml::value& list) {
     const auto& all = list.as_array();
     if (!all.empty() && std::all_of(all.begin(), all.end(), isNumber)) return {joined(list)};

@@ -62,7 +62,7 @@ public:
     bool isFlag(const std::string& key) const;
     // 0 where the key is absent.
     int line(const std::string& key) const;
-    // Its keys are known to somebody else.
+    // Leaves this table's keys to somebody else who knows them.
     void leave();
 
     // Notes a problem at the key (or, without it, at the section's line).

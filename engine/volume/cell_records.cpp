@@ -84,7 +84,7 @@ public:
         });
     }
 
-    // Of a dense brick: the normals alone.
+    // Writes a dense brick's normals, and no records.
     void writeNormals(const glm::ivec3& brick, const std::uint8_t* active, std::uint32_t* normals) {
         forActive(brick, active, [&](const glm::ivec3& low, const glm::ivec3& at) {
             for (int n = 0; n < 8; ++n) normalOf(low, cornerOf(at, n), normals);

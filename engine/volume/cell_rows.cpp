@@ -71,8 +71,8 @@ void flagActive(const GreyVolume& volume, const SurfaceSetting& setting, int j, 
                 const std::uint8_t* region, std::uint8_t* active) {
     const FourRows<std::int16_t> v(volume, j, k);
     const bool surfaceAlone = setting.lowest == setting.highest;
-    // As 16-bit numbers: maximum >= lowest, minimum <= highest (< for the surface alone, where a cell at or
-    // above it throughout holds none).
+    // The limits as 16-bit numbers: maximum >= lowest, minimum <= highest (< for the surface alone, where a
+    // cell at or above it throughout holds none).
     const int lowest = static_cast<int>(std::clamp(std::ceil(setting.lowest), -32768.0f, 32767.0f));
     const float top = surfaceAlone ? std::ceil(setting.highest) - 1.0f : std::floor(setting.highest);
     const int highest = static_cast<int>(std::clamp(top, -32769.0f, 32767.0f));

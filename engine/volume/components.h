@@ -43,7 +43,7 @@ struct SliceRuns {
 };
 // Value < limit, in a slice of size.x * size.y values.
 SliceRuns sliceRunsBelow(const std::int16_t* slice, const glm::ivec3& size, double limit);
-// Of size.z slices.
+// Runs of a volume out of those of its size.z slices.
 VoxelRuns joinedRuns(const glm::ivec3& size, const std::vector<SliceRuns>& slices);
 
 VoxelRuns runsOf(const MaskVolume& mask);                               // voxels not 0

@@ -107,7 +107,7 @@ private:
         parallelFor(block.size(), [&](int j) { lastPass(block.begin + j, result); });
     }
 
-    // Of large masks no more than a part of the squares is held.
+    // Lines of squares that are held at once: of large masks a part of all.
     int linesAtOnce() const {
         constexpr std::size_t kSquares = std::size_t{1} << 24, kFewest = 64;
         const std::size_t perLine = static_cast<std::size_t>(mStride) * mBox[2].size();

@@ -149,7 +149,7 @@ IlluminationVolume::Light IlluminationVolume::nearestIsovalue(const glm::dvec3& 
         const PackedTexel texel = load(*this, at.x, at.y, at.z);
         if (texelWeight(texel) <= 0) continue;
         const double away = std::abs(trilinear(field, frame.worldFromVoxel(glm::dvec3(at))) - isovalue);
-        // Of equal ones the nearer: the surface may run along a grid line.
+        // Among equal ones the nearer counts: the surface may run along a grid line.
         const double share = x.weight[n & 1] * y.weight[n >> 1 & 1] * z.weight[n >> 2];
         const bool equal = std::abs(away - bestAway) <= kEqualValues;
         if (equal ? share <= bestShare : away > bestAway) continue;

@@ -45,8 +45,8 @@ struct IlluminationVolume {
     enum class Lookup { Nearest, NearestIsovalue, Trilinear, Tricubic };
     struct Light {
         glm::vec3 value{0.0f};
-        // Of the texels that are known, 0..1; value is theirs alone. 0: nothing known, or of less weight than
-        // places are exact to (kLeastKnown).
+        // Weight of the texels that are known, 0..1; value is theirs alone. 0: nothing known, or of less
+        // weight than places are exact to (kLeastKnown).
         float weight = 0;
     };
     // Scalar oracle of the kernels' lookup; world: any point, clamped to the grid. Not for NearestIsovalue.

@@ -39,7 +39,7 @@ STEREONAV_INLINE F highHalf(I word) {
     return asFloat(shiftRight<3>(word) & I(0x0FFFE000));
 }
 
-// Of the texels that are known, times the factor; lanes outside m: 0. voxel: any numbers.
+// Light of the texels that are known, times the factor; lanes outside m: 0. voxel: any numbers.
 STEREONAV_INLINE BakedLight texelsAround(const TexelGrid& grid, const V3& voxel, F factor, M m) {
     constexpr float kHalfScale = 0x1p112f;
     // Weights are raised by so much that light of 2^-112 times a small weight is still a normal number.

@@ -143,7 +143,7 @@ STEREONAV_INLINE Falling fallingOn(const VolumeData& data, const VolumeView& vie
     return {{both(baked.red), both(baked.green), both(baked.blue)}, share * lamp.highlight};
 }
 
-// As shown where nothing is met.
+// The background, which is shown where nothing is met.
 STEREONAV_INLINE I packedBackground(const LightData& light) {
     return packLight(backgroundOf(light));
 }

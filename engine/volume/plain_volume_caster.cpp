@@ -270,7 +270,7 @@ glm::dvec3 plainNormal(const GreyVolume& volume, const glm::dvec3& voxel) {
 
 namespace {
 
-// Of a lamp whose constant ambient light is that.
+// Colour under a lamp whose constant ambient light is that.
 glm::dvec3 lampPlain(const VolumeLook& look, double ambient, const glm::dvec3& position,
                      const glm::dvec3& normal, const glm::dvec3& head, const glm::dvec3& eye,
                      const glm::dvec3& albedo) {

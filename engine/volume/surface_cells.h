@@ -28,7 +28,7 @@ struct BrickLayout {
             (static_cast<std::size_t>(k >> 4) * bricks.y + (j >> 4)) * bricks.x + (i >> 4);
         return brick << 12 | (k & 15) << 8 | (j & 15) << 4 | (i & 15);
     }
-    // Of the group of 4^3 cells that a cell with this index is in, in bricks of 4^3 groups.
+    // Index of the group of 4^3 cells that a cell with this index is in, in bricks of 4^3 groups.
     static std::size_t farIndex(std::size_t index) {
         return index >> 12 << 6 | (index >> 6 & 48) | (index >> 4 & 12) | (index >> 2 & 3);
     }
@@ -68,7 +68,7 @@ struct SurfaceCells {
     // (0 in `codes`, where no memory is taken); 0 of all others. Empty: no brick is far.
     LazyArray<std::uint8_t> farCodes;
     std::size_t codedBricks = 0;  // bricks that have codes of their own, where some are far
-    // Of each brick: the number of its first record; or, with kDenseBrick, its place among the dense ones.
+    // The number of each brick's first record; or, with kDenseBrick, its place among the dense ones.
     LazyArray<std::uint32_t> bricks;
     LazyArray<std::uint16_t> places;  // by layout: 1, 2, ... among its brick's records, 0 where there is none
     LazyArray<CellRecord> records;
@@ -85,7 +85,7 @@ struct SurfaceCells {
     }
     // What is kept of a cell, nothing where it is not active.
     std::optional<CellRecord> record(const glm::ivec3& cell) const;
-    // Its number in `records`; nothing where it has none there.
+    // The cell's number in `records`; nothing where it has none there.
     std::optional<std::size_t> recordNumber(const glm::ivec3& cell) const;
     std::size_t bytesHeld() const;  // pages in use
     SurfaceCells share() const;     // the same in the same memory (LazyArray::share)

@@ -66,10 +66,10 @@ struct Slopes {
     }
 };
 
-// Of a box that holds surface. Let c be its point nearest to p, `gap` the way between them, and g the
-// steepest ascent on each axis from c into the box. A point p + y of the surface has g.(y - gap) >=
-// -value(c), so |y| >= (g.gap - value(c)) / |g|: exact where the value is linear. Just behind the y of that
-// length, by less than `slack`, the surface is looked for.
+// Bounds of the distance to a box that holds surface. Let c be its point nearest to p, `gap` the way between
+// them, and g the steepest ascent on each axis from c into the box. A point p + y of the surface has g.(y -
+// gap) >= -value(c), so |y| >= (g.gap - value(c)) / |g|: exact where the value is linear. Just behind the y
+// of that length, by less than `slack`, the surface is looked for.
 Bounds boundsOf(const Box& box, const glm::dvec3& p, double slack) {
     const glm::dvec3 c = glm::clamp(p, box.low, box.high), gap = c - p;
     const double value = box.valueAt(c), distance = glm::length(gap);
@@ -171,7 +171,7 @@ private:
             mMost = std::min(mMost, boundsOf(boxOf(cell, *record), mPoint, mTolerance).most);
     }
 
-    // Of a cell in the volume: itself and the 26 around it that are in it too.
+    // Visits a cell in the volume and the 26 around it that are in it too.
     template <typename Visit>
     void forNeighbours(const glm::ivec3& cell, const Visit& visit) const {
         const glm::ivec3 low = glm::max(cell - 1, 0), high = glm::min(cell + 1, mLast);

@@ -61,7 +61,7 @@ bool some(std::uint64_t count) {
     return count > 0;
 }
 
-// Of the smallest and the largest stored number.
+// Values of the smallest and the largest stored number.
 std::array<double, 2> endsOf(const ValueCounts& counts) {
     const auto first = std::find_if(counts.counts.begin(), counts.counts.end(), some);
     if (first == counts.counts.end()) return {0, 0};

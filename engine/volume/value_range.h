@@ -12,10 +12,11 @@ struct ValueSpan {
     double lowest = 0, highest = 0;
 };
 
-// Of every voxel, or of some spread evenly where there are more than so many; 0 to 0 of none.
+// The least and the largest value of every voxel, or of some spread evenly where there are more than so many;
+// 0 to 0 of none.
 ValueSpan rangeOf(const GreyVolume& grey, std::size_t mostSamples = 4'000'000);
 
-// Of every voxel.
+// The least and the largest value of the whole grid.
 inline ValueSpan wholeRangeOf(const GreyVolume& grey) {
     return rangeOf(grey, std::numeric_limits<std::size_t>::max());
 }

@@ -32,7 +32,7 @@ struct VolumeFrame {
     glm::dvec3 voxelFromWorld(const glm::dvec3& world) const {
         return (glm::transpose(axes) * (world - origin)) / spacing;
     }
-    // Of directions: no origin, lengths as they are.
+    // The same for directions: no origin, lengths as they are.
     glm::dvec3 voxelDirection(const glm::dvec3& world) const {
         return (glm::transpose(axes) * world) / spacing;
     }

@@ -350,7 +350,7 @@ private:
         }
     }
 
-    // Of the packet that starts with pixel `first`; 0 where there are none.
+    // The beam of the packet that starts with pixel `first`; 0 where there are none.
     float beamOf(int first) {
         if (!mPacket.view.inside || !mPacket.data.cells.leaping) return 0.0f;
         const int group = first / (kLanes * kLanes);

@@ -78,7 +78,7 @@ struct CellHit {
     F h00, h10, h01, h11;
 };
 
-// Of the height over a cell's ground along a ray: half its second derivative.
+// Half the second derivative of the height over a cell's ground along a ray.
 template <bool kBent>
 STEREONAV_INLINE F curvatureOf(const Walk<kBent>& w, F twist) {
     if constexpr (kBent)
@@ -218,8 +218,9 @@ inline void castExactly(const Eye<kBent>& eye, const Rays& rays, F from, F floor
     hits = {loadF(t), loadI(i), loadI(j), loadF(u), loadF(v), loadF(approach), hits.free};
 }
 
-// Of over + t z + t^2 sink, which is 0 where a bent ray comes down to the highest sample, and where it leaves
-// that again. Where it is near 0 the ray is level there: what rounding makes of that is within the margin.
+// The discriminant of over + t z + t^2 sink, which is 0 where a bent ray comes down to the highest sample,
+// and where it leaves that again. Where it is near 0 the ray is level there: what rounding makes of that is
+// within the margin.
 struct Discriminant {
     F value, slack;
 };

@@ -68,7 +68,7 @@ private:
     Ring<kBent> mRings[kMost];
 };
 
-// Of rays of the first ground: what their ways to borders are divided by.
+// What the ways of the first ground's rays to borders are divided by.
 struct Inverses {
     F x, y;
 };
@@ -83,7 +83,7 @@ STEREONAV_INLINE F borderExit(const Ring<kBent>& ring, const Inverses& inverse) 
                max(ring.south * inverse.y, ring.north * inverse.y));
 }
 
-// Of a ray where its walk stands.
+// A ray's place where its walk stands.
 struct Standing {
     F height;    // over ground, metres
     F u, v;      // in its cell

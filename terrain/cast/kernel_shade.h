@@ -201,7 +201,7 @@ STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view,
             color = fogged(scene.fog, color, expMinus(t * length * F(scene.fog.perMetre)));
         }
         if (scene.air.any) {
-            // That up to the place that is seen (EarthBend::wayToPlace).
+            // The air is that up to the place that is seen (EarthBend::wayToPlace).
             F z = rays.z;
             if (view.fall > 0) z = mulAdd(F(static_cast<float>(view.fall)) * mulAdd(x, x, y * y), t, z);
             color = aired(scene.air, view.air, color, x, y, z, length, t);

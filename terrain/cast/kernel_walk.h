@@ -79,7 +79,7 @@ STEREONAV_INLINE Eye<kBent> makeEyeAt(const GroundData& ground, const CasterView
     if constexpr (kBent) {
         bend.bendX = view.fall * ground.spacingX * ground.spacingX;
         bend.bendY = view.fall * ground.spacingY * ground.spacingY;
-        // Its factor alone is off by 2^-22.
+        // The bend's factor alone is off by 2^-22.
         largest += 4 * static_cast<float>(largestRise(ground, view.fall, x, y));
     }
     return {&ground,
@@ -134,7 +134,7 @@ struct Walk : WalkBend<kBent> {
     F over;   // height of the eye over the highest sample, metres, and the margin
 };
 
-// Of a ray at t, over what lies so much below the eye.
+// Height of a ray at t over what lies so much below the eye.
 template <bool kBent>
 STEREONAV_INLINE F heightAt(const Walk<kBent>& w, F t, F eye) {
     if constexpr (kBent)
@@ -143,7 +143,7 @@ STEREONAV_INLINE F heightAt(const Walk<kBent>& w, F t, F eye) {
         return mulAdd(t, w.rays.z, eye);
 }
 
-// ... and how fast it rises there.
+// How fast the ray rises at t.
 template <bool kBent>
 STEREONAV_INLINE F riseAt(const Walk<kBent>& w, F t) {
     if constexpr (kBent)

@@ -124,7 +124,7 @@ void RingScenes::lookLater(const Looking& from) {
     showAround(from);
 }
 
-// Of the last pictures, which may stand still, or jump: none then.
+// The way of the last pictures, which may stand still, or jump: none then.
 glm::dvec3 RingScenes::wayOf(const glm::dvec3& eye, double seconds) {
     constexpr double kJump = 1, kSmooth = 0.8;  // seconds without pictures; share of what was there
     const Clock::time_point now = Clock::now();

@@ -24,13 +24,14 @@ public:
     // ground must outlive this. share: RingWish::share, above 0. Throws Error where there is not enough
     // memory.
     RingScenes(const Heightfield& ground, double share);
-    // Of stored levels. The scenes that are given to dress() are of the samples of one of them, `whole`;
-    // there is nothing but rings then. Where they need more memory than can be had the share is made larger.
+    // Makes rings of stored levels. The scenes that are given to dress() are of the samples of one of them,
+    // `whole`; there is nothing but rings then. Where they need more memory than can be had the share is made
+    // larger.
     RingScenes(std::shared_ptr<const GroundLevels> levels, int whole, double share);
     ~RingScenes();
 
-    // That rings finer than the whole ground's samples are shown in, of what is chosen from now on; null: in
-    // the whole ground's.
+    // Sets the colours of rings finer than the whole ground's samples, for what is chosen from now on; null:
+    // in the whole ground's.
     void colorParts(PartColors colors);
     // Whether rings may come later than the first picture they are for, from a thread of their own: what is
     // there is cast meanwhile, from further and further away. Else lookFrom() waits for them.
@@ -43,14 +44,15 @@ public:
     bool any() const { return mShown.rings != nullptr; }
     const GroundRings& rings() const { return *mShown.rings; }                         // where any()
     const Heightfield& ground() const { return mShown.rings->rings.front()->ground; }  // the finest
-    // Of the pictures that are cast now: the wish's, or more; whether finer rings are on their way.
+    // Share of a pixel for the pictures that are cast now: the wish's, or more. late: whether finer rings are
+    // on their way.
     double share() const { return mShareNow; }
     bool late() const { return mLate; }
     // Counts up, from any thread, when rings that were late are there.
     std::uint64_t arrivals() const { return *mArrivals; }
 
-    // As the scenes of the ground itself are, with and without fog, in all but the ground. Those must outlive
-    // this, or others be given; what they point to, too.
+    // Makes the rings' scenes like those of the ground itself, with and without fog, in all but the ground.
+    // Those must outlive this, or others be given; what they point to, too.
     void dress(const CasterScene& foggy, const CasterScene& clear, const GroundFilter& filter);
     const CasterScene& first(bool withoutFog) const { return (withoutFog ? mClear : mFoggy).front(); }
 
@@ -98,7 +100,7 @@ private:
     int mSetColors = 0;  // version of the set's colours
     std::vector<CasterScene> mFoggy, mClear;  // finest first
 
-    // Of rings that may be late.
+    // What belongs to rings that may be late.
     std::shared_ptr<std::atomic<std::uint64_t>> mArrivals = std::make_shared<std::atomic<std::uint64_t>>(0);
     std::vector<RingBox> mComing;
     int mComingColors = 0;

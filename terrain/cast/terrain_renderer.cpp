@@ -270,7 +270,7 @@ void TerrainRenderer::shadeRows(const EyeView& view, int y0, int y1, EyeImage& i
 ViewDependence TerrainRenderer::viewDependence() const {
     return mState->specular.active() ? ViewDependence::Highlight : ViewDependence::None;
 }
-// Of a way that is shorter by a separation of that share of the fog's distance 0.2 % more light arrives: at
+// A way that is shorter by a separation of that share of the fog's distance lets 0.2 % more light arrive: at
 // most one step of a packed channel, where the fog is black and what is seen white.
 bool TerrainRenderer::airDiffers(double separation) const {
     constexpr double kUnseenShare = 1.0 / 500;
@@ -376,7 +376,7 @@ struct Box {
     glm::dvec3 low, high;
 };
 
-// Of the rectangle's corners at unit view depth, from the eye.
+// The box of the rectangle's corners at unit view depth, from the eye.
 Box cornerBox(const EyeView& view, PixelRect rect) {
     Box box{glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
     for (const double x : {double(rect.x0), double(rect.x1)})

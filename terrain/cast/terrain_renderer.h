@@ -36,13 +36,13 @@ public:
     // share of what a pixel covers there (terrain/ground/ground_rings.h); 0: all of it from the ground's own.
     // The scene's own share at first. Not while a picture is cast.
     void takeCoarser(double share);
-    // That the next pictures are of; null: the ground itself.
+    // The rings that the next pictures are of; null: the ground itself.
     const GroundRings* rings() const;
     // Whether pictures wait for tiles; TerrainScene::ringsMayBeLate at first. Not while a picture is cast.
     void ringsMayBeLate(bool may);
     // Counts up, from any thread, when tiles that pictures did not wait for are there.
     std::uint64_t arrivals() const;
-    // Of rings: the share of a pixel that they keep to, and whether finer ones are on their way.
+    // The share of a pixel that rings keep to, and whether finer ones are on their way.
     struct Detail {
         double share = 0;
         bool late = false;
@@ -78,7 +78,8 @@ public:
     // parts: of rings of a tiled ground that are finer than it; null: as the rest.
     void showColors(const ColorTexture& lit, const TerrainIllumination* light, PartColors parts = {});
 
-    // That the ground is seen through now; lives as long as the renderer, and changes with sunMoved().
+    // The fog that the ground is seen through now; lives as long as the renderer, and changes with
+    // sunMoved().
     const Fog& fog() const;
     SimdTarget target() const;  // what Auto became
     const TerrainScene& scene() const { return mScene; }

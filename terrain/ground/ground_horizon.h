@@ -17,8 +17,8 @@ class GroundHorizon {
 public:
     // ground must outlive this. Holds 5.4 bytes a sample.
     explicit GroundHorizon(const Heightfield& ground);
-    // Of a part of a larger ground, at finer samples: what lies beyond it is looked at in the whole. offset:
-    // metres, from the part's world to the whole's. Both must outlive this.
+    // Horizons of a part of a larger ground, at finer samples: what lies beyond it is looked at in the whole.
+    // offset: metres, from the part's world to the whole's. Both must outlive this.
     GroundHorizon(const Heightfield& part, const GroundHorizon& whole, const glm::dvec2& offset);
 
     const Heightfield& ground() const { return mGround; }
@@ -35,7 +35,8 @@ private:
         glm::dvec2 step;   // grid, a metre
         double height;     // metres, at its start
     };
-    // Of what lies on it further than `from` metres, or `found`, which is more. cell: at `from`.
+    // The steepest slope to what lies on the way further than `from` metres, or `found` where that is more.
+    // cell: at `from`.
     double along(const Way& way, glm::ivec2 cell, double from, double found) const;
     double inCell(const Way& way, const glm::ivec2& cell, double from, double to) const;
 

@@ -52,7 +52,7 @@ public:
     float errorBound(int level, int blockI, int blockJ) const {
         return mLevels[level].bounds[static_cast<std::size_t>(blockJ) * mLevels[level].blocks.x + blockI];
     }
-    // Of the block that a place lies in; world, clamped to the border.
+    // The bound of the block that a place lies in, metres; world, clamped to the border.
     float errorBoundAt(int level, const glm::dvec2& world) const;
     float errorBound(int level) const { return mLevels[level].most; }  // the largest of a level
 

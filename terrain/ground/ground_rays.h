@@ -30,7 +30,7 @@ class GroundRays {
 public:
     // ground must outlive this. Throws Error where there are more samples than the mesh can index.
     explicit GroundRays(const Heightfield& ground);
-    // Of a part of a larger ground, at finer samples: rays that leave it go on over the whole. offset:
+    // Rays over a part of a larger ground, at finer samples: rays that leave it go on over the whole. offset:
     // metres, from the part's world to the whole's. Both must outlive this.
     GroundRays(const Heightfield& part, const GroundRays& whole, const glm::dvec2& offset);
     ~GroundRays();

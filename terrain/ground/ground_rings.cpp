@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kBlock = GroundLevels::kBlock;
 
-// Of samples of the ground itself, both ends within.
+// A span of the ground's own samples, both ends within.
 struct Span {
     glm::ivec2 low{0}, high{0};
     void add(const Span& other) {

@@ -26,7 +26,7 @@ double steeperSlope(double steepest, const float* south, const float* north, con
     return std::max(steepest, std::hypot(x, y));
 }
 
-// Of the cells of a row.
+// Range and steepness of the cells of a row.
 struct CellRange {
     float low = std::numeric_limits<float>::infinity(), high = -std::numeric_limits<float>::infinity();
     double steepest = 0;

@@ -66,7 +66,7 @@ STEREONAV_AIR_INLINE N airPower(int channel, N x) {
     return channel == 1 ? square : square * square * x;
 }
 
-// Of two parts.
+// The first part's share of two.
 template <class N>
 STEREONAV_AIR_INLINE N airShareOfFirst(N a, N b) {
     return a * airReciprocal(max(a + b, N(1e-30f)));

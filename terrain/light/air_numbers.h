@@ -45,7 +45,7 @@ inline AirNumber airRsqrt(AirNumber a) {
 inline AirNumber airLog(AirNumber a) {
     return AirNumber(std::log(a.v));
 }
-// As far as single precision goes, so that no product of two overflows there.
+// Exponents as far as single precision goes, so that no product of two overflows there.
 constexpr double kLeastOfAirExp = -12, kMostOfAirExp = 80;
 inline AirNumber airExp(AirNumber x) {
     return AirNumber(std::exp(-std::clamp(x.v, kLeastOfAirExp, kMostOfAirExp)));

@@ -74,7 +74,7 @@ glm::dvec3 twoStream(const glm::dvec3& scaledDepth, double sine) {
 
 }  // namespace
 
-// Of every colour, what of the sun's light comes down to a height: the disc's middle, over the round Earth.
+// Share of the sun's light, by colour, that comes down to a height: the disc's middle, over the round Earth.
 void Atmosphere::makeSunlight(double elevation) {
     mThroughToSun.assign(kHeights, glm::dvec3(0.0));
     const double sine = std::sin(elevation);
@@ -130,7 +130,7 @@ void Atmosphere::makeElevations() {
             const glm::dvec3 own = double(mAir.molecules) * density.x * kPowers;
             const double grey = mAir.haze * density.y;
             const glm::dvec3 step = (b - a) * (own + grey);
-            // Of a unit of depth, what is seen of the step.
+            // Share of the step's light that is seen, by unit of depth.
             const glm::dvec3 seen = glm::exp(-tau) * (1.0 - glm::exp(-step)) / glm::max(own + grey, 1e-30);
             for (int c = 0; c < 3; ++c) {
                 const double sun = mSunlight[c] * sunlightAt(height, c) * seen[c];

@@ -41,8 +41,8 @@ public:
     // The same by adding up `steps` steps: for tests.
     AirSeen plainAlong(const glm::dvec3& eye, const glm::dvec3& direction, double t, int steps) const;
 
-    // Of the sky, with the sun's disc, seen from the look's height over the round Earth; below the horizon a
-    // level grey plain. direction: unit.
+    // Light of the sky, with the sun's disc, seen from the look's height over the round Earth; below the
+    // horizon a level grey plain. direction: unit.
     glm::vec3 sky(const glm::vec3& direction) const;
 
     const AirData& data() const { return mAir; }

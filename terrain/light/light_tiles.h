@@ -67,7 +67,7 @@ public:
 
     bool isWhole() const;  // reads all tiles: whether they are undamaged
 
-    // Of one that is being made.
+    // For a file that is being made: whether tile n is in it.
     bool has(std::size_t n) const { return mChecks[n] != kNotThere; }
     // bytes: bytesOf() its light; none of a tile without a known sample. Throws Error.
     void write(std::size_t n, std::span<const std::byte> bytes);

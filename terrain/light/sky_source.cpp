@@ -83,8 +83,8 @@ glm::vec3 skyColorOf(const LinearImage& image, bool sphere, const glm::vec3& d) 
     return lookUp(image, 0.5 + heading / (2 * std::numbers::pi), v);
 }
 
-// As many texels a side as the source has columns: twice what its horizon needs, for lookups of the
-// nearest texel.
+// Texels a side, as many as the source has columns: twice what its horizon needs, for lookups of the nearest
+// texel.
 int mapSize(int columns) {
     return std::clamp(columns, kSmallestMap, kLargestMap);
 }

@@ -9,7 +9,8 @@
 namespace stereonav {
 namespace {
 
-// Of a horizon's sine: level b stands for b / 255, and is that of a horizon between the levels' middles.
+// The level of a horizon's sine: level b stands for b / 255, and is that of a horizon between the levels'
+// middles.
 std::uint8_t levelOf(double slope) {
     constexpr int kLevels = 255;
     const double sine = std::isfinite(slope) ? slope / std::hypot(1.0, slope) : 1.0;

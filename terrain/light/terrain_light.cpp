@@ -123,7 +123,8 @@ public:
     }
 
 private:
-    // Of several processes one that is not the first: it bakes rows for that one, and keeps nothing.
+    // Whether this is one of several processes, but not the first: it bakes rows for that one, and keeps
+    // nothing.
     bool helps() const { return mPeers && !mPeers->first(); }
 
     TerrainLight bake() {

@@ -103,11 +103,12 @@ constexpr int lightHarmonics(int order) {
 }
 int lightHarmonic(int n);
 
-// Of the n-th, in band l: sqrt((2 l + 1) / (4 pi)) / 32767. No transfer is larger than the first factor,
-// since no harmonic is (addition theorem) and all transfers of a sample together take in light once at most.
+// The unit of the n-th number of transfer, in band l: sqrt((2 l + 1) / (4 pi)) / 32767. No transfer is larger
+// than the first factor, since no harmonic is (addition theorem) and all transfers of a sample together take
+// in light once at most.
 double transferUnit(int n);
 
-// Of heights, spacing and all settings.
+// A key of heights, spacing and all settings.
 std::uint64_t terrainLightKey(const Heightfield& ground, const TerrainLightSettings& settings);
 
 // Where the light of this ground is kept between runs, whatever its settings: the last one baked.

@@ -8,8 +8,8 @@
 
 namespace stereonav {
 
-// Of glTF's X, Y and Z (Y up, Z to the south): x = offset.x + X / metresPerUnit,
-// y = offset.y - Z / metresPerUnit, height = Y / verticalScale in metres over the datum.
+// Where a mesh lies. From glTF's X, Y and Z (Y up, Z to the south): x = offset.x + X / metresPerUnit, y =
+// offset.y - Z / metresPerUnit, height = Y / verticalScale in metres over the datum.
 struct MeshPlace {
     bool known = false;  // whether there is an offset; else the elevation model does not say where it lies
     std::string crs;     // WKT of the reference system that offset is of; "": it is not known

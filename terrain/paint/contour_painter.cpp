@@ -17,7 +17,8 @@ namespace {
 constexpr double kReliefParts = 5;
 constexpr double kMostLevels = 1e9;  // from zero: beyond, heights have no digits for lines between
 
-// Of a line `width` pixels wide, in a pixel whose centre is so many from its middle.
+// Share of a pixel that a line `width` pixels wide covers, in a pixel whose centre is so many from its
+// middle.
 double coverOfLine(double width, double distance) {
     return std::clamp(0.5 * width + 0.5 - distance, 0.0, std::min(1.0, width));
 }
@@ -42,7 +43,7 @@ struct HeightSteps {
 };
 HeightSteps stepsOf(double height, double before, double after) {
     const double a = std::abs(before - height), b = std::abs(after - height);
-    // Of a NaN and a number the number.
+    // A number counts beside a NaN.
     return {!(a <= b) && a == a ? a : b, !(a >= b) && a == a ? a : b};
 }
 
@@ -109,7 +110,7 @@ private:
     // one of them means nothing. Where ground is rougher than pixels are, its tangent planes do not tell.
     // Half, as a warped eye's depths may be those of the next pixel. 0 where nothing is known.
     double leastChange(const HeightSteps& across, const HeightSteps& down) const {
-        // Of a NaN and a number the number.
+        // A number counts beside a NaN.
         const double least = across.less >= down.less || down.less != down.less ? across.less : down.less;
         return least > 0 ? 0.5 * mPerMetre * least : 0;
     }

@@ -30,7 +30,7 @@ constexpr float kContourInk[3] = {0.055f, 0.027f, 0.012f};
 // Pixels from a line within which it may show, and one more, as a warped eye's depths may be those of the
 // next pixel.
 constexpr double kContourReach = 0.5 * kIndexContourWidth + 0.5 + 1;
-// Of an interval, a pixel: ground whose height changes by less is level.
+// Share of an interval, a pixel: ground whose height changes by less is level.
 constexpr double kContourLevel = 1e-7;
 
 // A nice interval for heights over so many metres: some 25 lines; 0 of level ground.

@@ -15,7 +15,8 @@ struct GroundSeen {
     double depth = 0;           // along the view
     glm::dvec3 direction{0.0};  // from the eye to the place, of a unit of depth
     glm::dvec2 gradient{0.0};   // of the bilinear surface there, metres a metre
-    // Of where it is seen, from this pixel to the next one at the right and below, on the tangent plane.
+    // Metres by which the place moves on the tangent plane, from this pixel to the next one at the right and
+    // below, on the tangent plane.
     glm::dvec3 perX{0.0}, perY{0.0};
 };
 

@@ -28,7 +28,7 @@ double reachOf(const ScreenChord& chord) {
     return (chord.mark ? kMarkRadius : 0.5 * kTrackCasing) + 1;
 }
 
-// Of the origin from a piece, in the units that it is in.
+// Distance of the origin from a piece, in the piece's units.
 double distanceFromOrigin(const glm::dvec2& a, const glm::dvec2& b) {
     const glm::dvec2 way = b - a;
     const double square = glm::dot(way, way);
@@ -71,7 +71,7 @@ bool showsPiece(const GroundView& ground, const EyeImage& image, const ScreenCho
     return std::abs(distance - screen) <= kMostApart + kMostApartShare * screen;
 }
 
-// Of a mark: any pixel around its middle does.
+// Whether a mark shows: any pixel around its middle does.
 bool showsMark(const GroundView& ground, const EyeImage& image, const ScreenChord& chord) {
     const int x0 = static_cast<int>(std::floor(std::clamp(chord.a.x, -2.0, image.width() + 2.0))),
               y0 = static_cast<int>(std::floor(std::clamp(chord.a.y, -2.0, image.height() + 2.0)));

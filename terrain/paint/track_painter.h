@@ -32,7 +32,7 @@ public:
 
     void paint(const EyeView& view, EyeImage& image) const override;
 
-    // Of all lines, metres over the plan; beside the ground or in its holes.
+    // Length of all lines, metres over the plan; beside the ground or in its holes.
     double length() const { return mLength; }
     double lengthOutside() const { return mOutside; }
 

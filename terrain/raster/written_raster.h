@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// Of one of the two planes, row 0 southernmost.
+// A raster of one of the two planes, row 0 southernmost.
 struct WrittenRaster {
     const Plane<std::uint8_t>* bytes = nullptr;
     const Plane<float>* floats = nullptr;

@@ -48,7 +48,7 @@ public:
     // has them. Text has all.
     DemRows(const std::filesystem::path& file, long long most);
 
-    // As readDem() gives it, but for the heights and what is counted over samples (sourceMissing, outside:
+    // The grid of readDem(), but for the heights and what is counted over samples (sourceMissing, outside:
     // 0).
     const DemGrid& place() const { return mReader->place(); }
 
@@ -73,11 +73,11 @@ public:
     // ground that is resampled only samples around those of the grid count.
     void checkHeights(double verticalScale) const { mReader->checkHeights(verticalScale); }
 
-    // Of a reader of a few samples: whether they lie in compressed blocks, of which each row takes many, and
+    // For a reader of a few samples: whether they lie in compressed blocks, of which each row takes many, and
     // there are no overviews.
     bool isPacked() const { return mReader->isPacked(); }
 
-    // Of such a reader: decodes blocks of the file spread evenly over it, as many as that time gives, and
+    // For such a reader: decodes blocks of the file spread evenly over it, as many as that time gives, and
     // from then on read() gives what they hold and what `fill` puts between them. It is missing where most of
     // what was read nearby is. False where blocks are too large or too slow for the fewest of them (most_ms),
     // all samples are read, or the format is decoded from its beginning: then nothing is changed. Throws as

@@ -59,7 +59,7 @@ void writeGeoTiff(const std::filesystem::path& file, const Georeference& grid, c
 // The lines, areas and places of a GPX or GeoJSON file, one or more; areas without their holes, and tracks
 // without their points. Throws Error.
 TrackFile readTrackFile(const std::filesystem::path& file);
-// Its lines and areas, one or more; the segments of a track are one line. Throws Error.
+// The lines and areas of a file, one or more; the segments of a track are one line. Throws Error.
 std::vector<TrackLine> readTracks(const std::filesystem::path& file);
 
 // The module's table.

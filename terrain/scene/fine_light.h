@@ -18,13 +18,13 @@ public:
     const GroundLevels& levels() const { return *mLevels; }
     const FineLightShape& shape() const { return mTiles.shape(); }
     std::uint64_t byteCount() const { return mTiles.byteCount(); }  // on disk
-    // Whose light is the nearest to a part with samples that far apart, metres; none where the ground in
-    // memory has them too.
+    // The level whose light is nearest to a part with samples that far apart, metres; none where the ground
+    // in memory has them too.
     std::optional<int> levelFor(double spacing) const;
 
-    // Of one tile: its ground with a sample around it where there is one, and the brightness of the tile's
-    // own samples, the first of which is `first` of the ground's. From any thread. Throws Error where it can
-    // not be read.
+    // One tile: its ground with a sample around it where there is one, and the brightness of the tile's own
+    // samples, the first of which is `first` of the ground's. From any thread. Throws Error where it can not
+    // be read.
     struct LitTile {
         Heightfield ground;
         glm::ivec2 first{0};

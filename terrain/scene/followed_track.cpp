@@ -87,7 +87,7 @@ double highestAlong(const Heightfield& ground, const glm::dvec2& from, const glm
     return high;
 }
 
-// Of the highest ground from one sample to those beside it; holes count as what came before.
+// Heights of the highest ground from one sample to those beside it; holes count as what came before.
 std::vector<double> groundUnder(const Heightfield& ground, const std::vector<glm::dvec2>& places,
                                 const GroundRises& rises) {
     std::vector<double> heights(places.size(), double(ground.minHeight()));

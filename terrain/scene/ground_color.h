@@ -43,7 +43,7 @@ double bytesOfTint(double samples);
 GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, const TintPlace& place,
                          Progress& progress);
 
-// Of a part of a ground, so many texels a sample each way; place: of the whole.
+// Tints of a part of a ground, so many texels a sample each way; place: of the whole.
 ColorTexture tintedPart(const Heightfield& part, const Heightfield& whole, const TerrainLook& look,
                         const TintPlace& place, double density, Progress& progress);
 
@@ -66,9 +66,9 @@ struct PicturedGround {
 // The same, of at most so many texels a sample each way.
 GroundColor picturedGround(const Heightfield& ground, const PicturedGround& pictured, double mostDensity,
                            Progress& progress);
-// Of a part of a ground, of any level: texels as fine as the picture's pixels, so many at most, or a texel a
-// sample where that is more. Tint alone beyond the picture. From any thread. Throws Error where the picture
-// can not be read.
+// Colours of a part of a ground, of any level: texels as fine as the picture's pixels, so many at most, or a
+// texel a sample where that is more. Tint alone beyond the picture. From any thread. Throws Error where the
+// picture can not be read.
 ColorTexture picturedPart(const Heightfield& part, const Heightfield& whole, const PicturedGround& pictured,
                           double mostTexels);
 

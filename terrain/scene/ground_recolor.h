@@ -27,7 +27,7 @@ struct GroundColorSource {
     TintPlace tint;
 };
 
-// Of the words for colours, where somebody else lights them.
+// Takes what was lit out of the words for colours, where somebody else lights them.
 void leaveOutLit(std::string& source);
 
 // From the cache where it is there.

@@ -42,8 +42,8 @@ class GroundTint {
 public:
     // ground must outlive it.
     GroundTint(const Heightfield& ground, const TintPlace& place) : GroundTint(ground, place, ground) {}
-    // Of a part of a ground, finer than that or not: in the colours that it has as a part of the whole, which
-    // must outlive this. place: of the whole.
+    // Tints of a part of a ground, finer than that or not: in the colours that it has as a part of the whole,
+    // which must outlive this. place: of the whole.
     GroundTint(const Heightfield& part, const TintPlace& place, const Heightfield& whole);
 
     // What is kept at the samples and bilinear between them; beyond the edge it counts on.

@@ -11,8 +11,8 @@
 namespace stereonav {
 namespace {
 
-// As finely as one flies over: a ring of 1000 x 1000 samples has up to 1.4 texels a sample each way, one of
-// 300 x 300 up to 4.8. Little of the memory: it is the samples that come first.
+// Texels of a part, as fine as one flies over: a ring of 1000 x 1000 samples has up to 1.4 texels a sample
+// each way, one of 300 x 300 up to 4.8. Little of the memory: it is the samples that come first.
 double mostTexelsOfPart() {
     constexpr double kMost = 1 << 21, kShare = 1.0 / 64, kBytes = 4 * 4.0 / 3;
     return std::min(kMost, kShare * availableMemory() / kBytes);

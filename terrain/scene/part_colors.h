@@ -12,8 +12,8 @@ namespace stereonav {
 struct TerrainScene;
 class TerrainIllumination;
 
-// Of a part of the ground by its own samples; those within 8 of its edge are not as in the whole. From any
-// thread. Throws Error where a picture can not be read any more.
+// Colours of a part of the ground by its own samples; those within 8 of its edge are not as in the whole.
+// From any thread. Throws Error where a picture can not be read any more.
 struct PartColors {
     std::function<ColorTexture(const Heightfield& part)> make;  // null: parts have no colours of their own
     double texelsASample = 1;    // of the finest samples: what the picture has there
@@ -21,15 +21,15 @@ struct PartColors {
     double bytesMeanwhile = 24;  // a texel, while a part is made
 
     explicit operator bool() const { return make != nullptr; }
-    // As many as a part of that level has at most.
+    // The most texels that a part of that level has.
     double texels(double samples, int level) const;
 };
 
-// As the whole ground is coloured in that paint, under that sun; null where parts have no colours of their
-// own: the ground is not tiled. Under baked light they are without light. scene must outlive it, and not
-// move.
+// Colours of parts as the whole ground has them in that paint, under that sun; null where parts have no
+// colours of their own: the ground is not tiled. Under baked light they are without light. scene must outlive
+// it, and not move.
 PartColors partColorsOf(const TerrainScene& scene, GroundPaint paint, const SunAngles& sun);
-// As it was loaded.
+// Colours of parts of the ground as it was loaded.
 PartColors partColorsOf(const TerrainScene& scene);
 
 // The same, lit by what was baked for the whole, as it was applied last. Does not change with it.

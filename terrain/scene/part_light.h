@@ -18,15 +18,16 @@
 
 namespace stereonav {
 
-// Of baked light over the plain light of the same place. What is darker counts as the first, since a quotient
-// of two dark places says nothing; beyond the second it is that of the sun's edge at one sample alone.
+// Bounds of the quotient of baked light over the plain light of the same place. What is darker counts as the
+// first, since a quotient of two dark places says nothing; beyond the second it is that of the sun's edge at
+// one sample alone.
 constexpr float kDarkestPlainLight = 0.05f, kLargestLightQuotient = 2.5f;
 inline float lightQuotient(float baked, float plain) {
     return std::min(baked / std::max(plain, kDarkestPlainLight), kLargestLightQuotient);
 }
 
-// Of one place of the sun. What is baked is laid as a quotient over the plain light of the part's own
-// samples:
+// Light of parts for one place of the sun. What is baked is laid as a quotient over the plain light of the
+// part's own samples:
 //     baked / plain at the baked samples, interpolated, times plain at the texel,
 // so that the finer relief keeps its shades, and ground that is no finer has the light that was baked. Does
 // not change: parts may be lit from any thread while the sun moves on.

@@ -119,7 +119,7 @@ struct Plan {
         return onEllipse(ground, kOuterRadius + (kInnerRadius - kOuterRadius) * u,
                          startAngle + kFlightTurn * u);
     }
-    // Of the flight at u; continuous, not wrapped.
+    // Direction of the flight at u; continuous, not wrapped.
     glm::dvec2 direction(double u) const {
         constexpr double kStep = 1e-4;
         return at(u + kStep) - at(u - kStep);

@@ -30,7 +30,7 @@ GroundColor paintedGround(const Heightfield& ground, double verticalScale, Groun
 
 Legend legendOfPaint(GroundPaint paint);
 
-// Of the file's heights: linear colours without light. gradient: metres a metre.
+// Colours by the slope of the file's heights: linear, without light. gradient: metres a metre.
 glm::vec3 slopeColor(const glm::dvec2& gradient);
 glm::vec3 aspectColor(const glm::dvec2& gradient);
 // Horn's differences at a sample, metres a metre; unknown neighbours count as the sample itself, and an

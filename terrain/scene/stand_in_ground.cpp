@@ -57,7 +57,7 @@ private:
             if (isSlow(watch.elapsed_ms(), count)) return false;
         }
         for (mStep = kFewest; mStep > 1; mStep /= 2) {
-            // As many again as there are so far.
+            // The next step reads as many rows again as there are so far.
             if (2 * watch.elapsed_ms() > kTime_ms) break;
             for (int row = mStep / 2; row < mHeight; row += mStep) readRow(row);
         }

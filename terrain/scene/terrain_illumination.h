@@ -40,7 +40,7 @@ public:
     // For parts of the ground that are finer than it: the light of the last apply().
     PartLight partLight(const Heightfield& ground, const TerrainLook& look) const;
 
-    // Of the last apply(): what the sun's highlights have of their strength, by colour, as the ground's own
+    // What the sun's highlights have of their strength after the last apply(), by colour, as the ground's own
     // light is shown: 1 with the sun 45 degrees high. It does not know of shadows.
     const glm::vec3& highlightLight() const { return mHighlightLight; }
     // The share of the sun's disc that is seen from the ground at a grid coordinate, 0..1. Of a look with

@@ -34,7 +34,8 @@ GroundInTiles readGroundInTiles(const SceneFile& file, Progress& progress);
 // The finest level that has at most so many samples; the coarsest where none has.
 int levelWithin(const GroundLevels& levels, double mostSamples);
 
-// Of a whole ground whose finest samples do not fit into memory: more would only take longer to open.
+// The most samples held of a whole ground whose finest samples do not fit into memory: more would only take
+// longer to open.
 constexpr double kMostCoarseSamples = 1 << 24;
 
 }  // namespace stereonav

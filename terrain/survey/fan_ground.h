@@ -22,7 +22,7 @@ public:
     int sign() const { return mSign; }
     // The first column that is a sample spacing away or more: 0 or 1. Nothing before it has bounds.
     int first() const { return mNearest < 1 ? 1 : 0; }
-    // Of a column before the eye; that of column -1 is 0 or below.
+    // Distance of a column from the eye, columns; that of column -1 is 0 or below.
     double distance(int column) const { return mNearest + column; }
     double middle() const { return mMiddle; }  // the eye's row
     double step() const { return mStep; }      // metres a column

@@ -78,7 +78,7 @@ STEREONAV_INLINE F slopeAlong(const HighRow& row, F edge, M lanes) {
     return select(told, slope, tallest * select(tallest < F(0.0f), inverseFar, inverseNear));
 }
 
-// Of the sample of a column inside the bins, if there is one.
+// Height of the sample of a column inside the bins, if there is one.
 STEREONAV_INLINE F sampleInside(const float* heights, F low, F high, int last, M lanes) {
     const I row = max(I(0), min(floorToInt(high), I(last)));
     const M inside = lanes & (low <= toFloat(row)) & (toFloat(row) <= high);
@@ -99,7 +99,7 @@ STEREONAV_INLINE float slopeOver(const HighRow& row, int bin) {
     return over * (over < 0 ? row.inverseFar : row.inverseNear) - bins.fallAlong;
 }
 
-// Of kLanes bins; their edges are known.
+// Slopes of kLanes bins, whose edges are known.
 STEREONAV_INLINE F slopeOfBins(const HighRow& row, int bin, M lanes) {
     const FanBins& bins = row.bins;
     const F edge = placesFrom(bin), next = edge + F(1.0f), shift(static_cast<float>(row.shift));

@@ -31,7 +31,7 @@ FanSweep::FanSweep(const FanTask& task, int axis, int sign, int part, int parts)
     makeStore();
 }
 
-// Of the ground from the eye to the first column.
+// The slope of the ground from the eye to the first column.
 double FanSweep::slopeBeside() const {
     const int first = mGround.first();
     const double x = mGround.distance(first), last = mGround.rows() - 1.0;
@@ -229,7 +229,7 @@ glm::ivec2 FanSweep::ownRows(double x) const {
     return {first, last};
 }
 
-// Of a column too near for bounds.
+// Takes each sample of a column too near for bounds.
 void FanSweep::samplesOneByOne(int at, const glm::ivec2& rows) {
     for (int r = rows.x; r <= rows.y; ++r)
         if (!std::isfinite(mGround.height(at, r)))
@@ -345,7 +345,7 @@ Passing FanSweep::passingOf(int at, int row, double height) const {
     return passingOverBlocks(at, walk, slope, tangent);
 }
 
-// Of the blocks those are walked that reach up to the line, the last one first, until none before does.
+// Walks the blocks that reach up to the line, the last one first, until none before does.
 template <typename Walk>
 Passing FanSweep::passingOverBlocks(int at, const Walk& walk, double slope, double tangent) const {
     const double share = (tangent - mFrom) / (mTo - mFrom);

@@ -121,7 +121,7 @@ private:
     std::vector<float> mLow, mHigh, mEdge;
     std::vector<std::uint16_t> mOpen, mAbove;
     std::vector<float> mBlock;  // upper bounds of the last columns, which are kBlock or less
-    // Of those before, in the bins that there were at the end of each block.
+    // Upper bounds of the columns before, in the bins that there were at the end of each block.
     std::vector<std::vector<float>> mKept;
     std::vector<WalkBlock> mBlocks;  // mKept, and the last one
     std::vector<float> mStore;       // heights of all columns so far

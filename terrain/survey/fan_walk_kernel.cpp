@@ -59,7 +59,7 @@ STEREONAV_INLINE Verdict piece(const WalkRows& rows, const Lines& lines, int k, 
     const Corners c1 = cornersAt(rows.heights + far.offset, row, lanes),
                   c0 = cornersAt(rows.heights + near.offset + far.shift, row, lanes);
     const F low = toFloat(row), f0 = y0 - low, f1 = y1 - low, one(1.0f);
-    // Of the column step.
+    // Share of the column step.
     const F length = kToEye ? F(far.x) : one, start = one - length;
     F ground0 = heightIn(c0, f0);
     if (kToEye) ground0 = mulAdd(start, heightIn(c1, f0) - ground0, ground0);
@@ -114,7 +114,7 @@ STEREONAV_INLINE Verdict lastPiece(const WalkRows& rows, const Lines& lines, I s
     const M known = sum <= sum;
     const M clear = known & (((first < least) & (over + lines.target < least)) |
                              (max(over, F(0.0f) - lines.target) + bulgeOver(bend, F(1.0f)) < least));
-    // Its top lies inside and over the line, by more than rounding makes of it.
+    // The cell's top lies inside and over the line, by more than rounding makes of it.
     const F sure = first - lines.slack - lines.slack;
     const M tops = (bend < F(0.0f)) & (F(0.0f) < sure) &
                    (first + lines.slack + lines.slack < bend * F(-2.0f)) &
@@ -128,7 +128,7 @@ STEREONAV_INLINE Verdict lastPiece(const WalkRows& rows, const Lines& lines, I s
     return {hidden, andNot(lanes, clear | hidden)};
 }
 
-// Of the blocks those are walked that reach up to the line, the last one first, until none before does.
+// Walks the blocks that reach up to the line, the last one first, until none before does.
 STEREONAV_INLINE Verdict overBlocks(const WalkRows& rows, const Lines& lines, F slope, M lanes) {
     const F share = lines.excess * F(rows.width);
     Verdict all{andNot(lanes, lanes), andNot(lanes, lanes)};

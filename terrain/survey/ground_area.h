@@ -30,11 +30,12 @@ constexpr int kHalvings = 6;
 AreaMeasure measureArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane,
                         const ShareDone& done = {});
 
-// Of that alone, which takes a tenth of the time; NaN over a hole.
+// The lowest height alone, which takes a tenth of the time; NaN over a hole.
 double lowestInArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners,
                     const ShareDone& done = {});
 
-// As errorsOfLine(). measured: what measureArea() gives over that plane.
+// The errors of an area, as errorsOfLine() gives a line's. measured: what measureArea() gives over that
+// plane.
 AreaMeasure errorsOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& corners, double plane,
                          const AreaMeasure& measured, const ShareDone& done = {});
 

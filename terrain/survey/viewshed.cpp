@@ -46,7 +46,7 @@ long long samplesWithin(const Heightfield& ground, const ViewshedSetting& settin
     return count;
 }
 
-// Of a fan: enough for many threads, and columns in each long enough to be worth their beginning.
+// Parts of a fan: enough for many threads, and columns in each long enough to be worth their beginning.
 int partsOf(const Heightfield& ground) {
     constexpr int kRowsEach = 128, kMostParts = 16;
     return std::clamp(std::max(ground.width(), ground.height()) / kRowsEach, 1, kMostParts);

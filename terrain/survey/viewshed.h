@@ -33,7 +33,7 @@ enum class Seen : std::uint8_t { Hidden = 0, NoGround = 128, Visible = 255 };  /
 struct Viewshed {
     Plane<std::uint8_t> seen;            // Seen; row 0 southernmost; beyond reach: hidden
     long long visible = 0, samples = 0;  // samples: that are known and within reach
-    // Of them: by the last columns; from the eye; again in doubles.
+    // How many samples were told by the last columns, from the eye, and again in doubles.
     long long walkedNear = 0, walkedAll = 0, walkedAlone = 0;
 };
 

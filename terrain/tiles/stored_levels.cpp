@@ -12,7 +12,7 @@
 namespace stereonav {
 namespace {
 
-// As readDem() scales heights. A bound holds for those that were rounded, too.
+// Scales a height as readDem() does. A bound holds for those that were rounded, too.
 float scaledHeight(float height, double by) {
     return static_cast<float>(height * by);
 }

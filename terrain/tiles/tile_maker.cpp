@@ -207,7 +207,8 @@ private:
 
 }  // namespace
 
-// Of level k a run of rows, those of a row of tiles and of blocks; twice, as they are moved when they grow.
+// Bytes held of level k: a run of rows, those of a row of tiles and of blocks; twice, as they are moved when
+// they grow.
 double bytesOfMaking(const glm::ivec2& size, int rows) {
     const double heldRows = rows + kTileSide + 3.0 * kLevelBlock, kAllLevels = 2, kMoved = 2;
     return kMoved * kAllLevels * sizeof(float) * heldRows * size.x;

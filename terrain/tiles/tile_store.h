@@ -25,7 +25,7 @@ public:
     float high() const { return mHead.high; }
     long long missing() const { return mHead.missing; }
     std::uint64_t hash() const { return mHead.indexCheck; }  // of the heights of all levels
-    // Of a level, by rows of blocks; metres.
+    // Bounds of a level, by rows of blocks; metres.
     const std::vector<float>& bounds(int level) const { return mBounds[level]; }
 
     // Samples low to low + size - 1 of a level, which has them; rows of size.x, the southernmost first.

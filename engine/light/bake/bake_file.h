@@ -12,7 +12,7 @@
 
 namespace stereonav {
 
-// Of everything that the texels' light depends on; bakes with the same key may go on from each other.
+// Everything that the texels' light depends on; bakes with the same key may go on from each other.
 struct BakeInputs {
     std::uint64_t content = 0;  // of the volume: contentHash(), or what stands for it
     LightSetup light;           // of irradiance; of transfer the albedo and bounces alone count
@@ -23,10 +23,10 @@ struct BakeInputs {
 };
 std::uint64_t bakeKey(const BakeInputs& inputs);
 
-// Of all values and the frame.
+// A hash of all values and the frame.
 std::uint64_t contentHash(const GreyVolume& volume);
-// Of the values at texels of bricks alone (whose grid is the volume's): for volumes that are known near a
-// wall only. The region is counted in whole.
+// A hash of the values at texels of bricks alone (whose grid is the volume's): for volumes that are known
+// near a wall only. The region is counted in whole.
 std::uint64_t contentHashNear(const GreyVolume& volume, const MaskVolume& region,
                               std::span<const TexelBrick> bricks);
 

@@ -44,7 +44,7 @@ enum class BakeEnd { Reached, TimeUp, Cancelled };
 BakeEnd runBake(BakeSums& sums, const BakeSource& source, const BakeGoal& goal, Progress& progress,
                 const BakeKeeping& keeping = {}, Peers* peers = nullptr);
 
-// Of the other processes: lights the bricks that the first one's runBake deals. Their sums are of the same
+// For the other processes: lights the bricks that the first one's runBake deals. Their sums are of the same
 // texels, and of no use afterwards. Throws Error, Cancelled.
 void serveBake(BakeSums& sums, const BakeSource& source, Peers& peers);
 

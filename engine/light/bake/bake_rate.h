@@ -40,7 +40,7 @@ BakeRate irradianceRate(const TexelLighter& lighter, const std::vector<TexelPiec
                         double seconds);
 BakeRate transferRate(const TexelLighter& lighter, const std::vector<TexelPiece>& pieces, int samples,
                       int order, int channels, double seconds);
-// Of points instead of texels, as paths from pixels.
+// The same for points instead of texels, as paths from pixels start at.
 using PointPiece = std::vector<TexelLighter::SurfacePoint>;
 BakeRate pointRate(const TexelLighter& lighter, const std::vector<PointPiece>& pieces, int samples,
                    double seconds);

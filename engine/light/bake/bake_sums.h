@@ -32,7 +32,7 @@ struct BakeShape {
     }
 };
 
-// Of a brick's texels added up; the relative error is the root of variance / square.
+// A brick's texels added up; the relative error is the root of variance / square.
 struct BrickEstimate {
     double variance = 0;  // of the means; infinite where there are too few samples to tell
     double square = 0;    // of the means
@@ -53,7 +53,7 @@ public:
     std::size_t texels() const { return mFirst.empty() ? 0 : mFirst.back(); }
     std::size_t texelsOf(std::size_t brick) const { return mFirst[brick + 1] - mFirst[brick]; }
 
-    // Of a brick, in the order of texelsIn(): irradiance and openness.
+    // Irradiance and openness of a brick's texels, in the order of texelsIn().
     std::span<TexelSum> light(std::size_t brick);
     std::span<const TexelSum> light(std::size_t brick) const;
     // Transfer: sums of samples, numbersPerTexel() a texel, and whether texels lie on a surface.
@@ -92,7 +92,7 @@ float lightUnitOf(const BakeSums& sums);
 // Transfer, without the texels that lie on no surface.
 TransferVolume transferOf(const BakeSums& sums);
 
-// Of a brick's texels: variances and squares of luminance.
+// Variances and squares of the luminance of a brick's texels.
 BrickEstimate estimateOf(std::span<const TexelSum> texels);
 // From sums over `countBefore` samples and sums over all `count`: the two parts are independent estimates.
 BrickEstimate estimateOf(std::span<const float> before, std::uint32_t countBefore, std::span<const float> all,

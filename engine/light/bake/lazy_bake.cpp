@@ -28,7 +28,7 @@ constexpr int kOnNoSurface = 1000;                           // a rank behind al
 constexpr int kNiceness = 15;
 
 void lowerPriority() {
-    // Of this thread alone. Where it is refused the thread is as the others.
+    // The priority of this thread alone. Where it is refused the thread is as the others.
     setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNiceness);
 }
 
@@ -40,7 +40,7 @@ glm::ivec3 inBrick(int texel) {
     return {texel & 7, texel >> 3 & 7, texel >> 6};
 }
 
-// Of a texel's block of 4^3 (level 0) or 2^3 (level 1): its number, and how far from its middle the texel is.
+// The number of a texel's block of 4^3 (level 0) or 2^3 (level 1), and how far from its middle the texel is.
 int blockOf(int texel, int level) {
     const int shift = 2 - level, side = 8 >> shift;
     const glm::ivec3 b = inBrick(texel) >> shift;
@@ -61,7 +61,7 @@ struct LazyBake::Brick {
     int level = 0;
     std::uint64_t choice = 0;  // that `level` refers to; 0: none
     bool busy = false;
-    // Of whoever is busy with it.
+    // What follows belongs to whoever is busy with it.
     std::uint64_t chosen = 0;  // the choice that `wanted` is of
     TexelMask wanted{}, held{};
     std::vector<TexelSum> sums;  // of held texels; of transfer only how many samples
@@ -282,7 +282,7 @@ std::vector<int> LazyBake::texelsAt(const Brick& brick, int level) const {
             if (isIn(brick.wanted, t)) texels.push_back(t);
         return texels;
     }
-    // Of each block the one nearest to its middle; where one is lit already, none.
+    // The texel of each block that is nearest to its middle; where one is lit already, none.
     int best[64];
     std::fill(std::begin(best), std::end(best), -1);
     for (int t = 0; t < kTexels; ++t) {
@@ -342,7 +342,7 @@ bool LazyBake::lightTexels(const Task& task, const std::vector<int>& texels, con
     return true;
 }
 
-// As runBake does.
+// Batches end where those of runBake do.
 std::uint32_t LazyBake::endOfBatch(std::uint32_t first, std::uint32_t target) const {
     const std::uint32_t end = std::min(batchEnd(first), target);
     return transfers() && first == 0 ? (end + 1) / 2 : end;

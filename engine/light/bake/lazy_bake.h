@@ -126,7 +126,8 @@ private:
     bool mPassedOver = false;                     // some brick was busy when its turn came
     std::vector<std::unique_ptr<Brick>> mBricks;  // by number
 
-    // Of transfer: held while a brick's texels are dotted, or after another light was set all of them.
+    // Guards transfer's light: held while a brick's texels are dotted, or after another light was set all of
+    // them.
     std::mutex mLightMutex;
     std::vector<glm::vec3> mLight;
     std::vector<std::unique_ptr<Shown>> mShown;  // by brick

@@ -122,7 +122,7 @@ public:
         takeMemory();
     }
 
-    // Of Variance: the result of a squared stored number. Of the others: see OcclusionEstimate.
+    // For Variance the result of a squared stored number; for the others see OcclusionEstimate.
     void setPerVariance(double perVariance) { mBand.perVariance = static_cast<float>(perVariance); }
     void setShape(double beta, double deviations) {
         mBand.beta = static_cast<float>(beta);

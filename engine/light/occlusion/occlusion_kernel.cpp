@@ -199,7 +199,8 @@ void windowSums(const std::int32_t* sums, std::uint32_t* prefix, std::int32_t* _
     for (int i = 0; i < n; ++i) to[i] = static_cast<std::int32_t>(ahead[i] - behind[i]);
 }
 
-// As doubles, by setting the mantissa: exact for whole numbers below 2^52, and vectors can do it everywhere.
+// Writes whole numbers as doubles, by setting the mantissa: exact for whole numbers below 2^52, and vectors
+// can do it everywhere.
 void windowSquares(const std::int64_t* sums, std::uint64_t* prefix, double* __restrict to, int n,
                    int radius) {
     fillPrefix(sums, prefix, n, radius);

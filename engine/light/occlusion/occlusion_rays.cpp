@@ -63,7 +63,7 @@ struct Surroundings {
                     part.at(i, j, k) = volume.scale < 0 ? static_cast<std::int16_t>(-1 - value) : value;
                 }
     }
-    // As the baked light has it: at the least value a little more.
+    // The isovalue that the baked light takes: at the least value a little more.
     double isovalue() const {
         const std::int16_t* values = part.values.data();
         return tracedIsovalue(part.at(voxel), *std::min_element(values, values + part.values.size()));

@@ -372,7 +372,7 @@ double sumLanes(F f) {
     return sum;
 }
 
-// Of samples first .. first + count - 1, in their order.
+// Moments of samples first .. first + count - 1, in their order.
 PathMoments momentsOf(const PathStore& s, int first, int count) {
     PathMoments moments;
     for (int k = 0; k < 3; ++k) {

@@ -64,7 +64,8 @@ struct PathStart {
     std::uint32_t key = 0, firstSample = 0;
 };
 
-// Of one texel's samples: mean of each channel, and the sum of squared distances of luminance from its mean.
+// Moments of one texel's samples: the mean of each channel, and the sum of squared distances of luminance
+// from its mean.
 struct PathMoments {
     float mean[3] = {};
     float squares = 0;

@@ -11,7 +11,8 @@ constexpr float kPiF = 3.14159265358979f;
 struct Turn {
     F sine, cosine;
 };
-// Of angles within pi / 4 of 0: Taylor's polynomials to the ninth and eighth degree, errors below 3e-8.
+// Sine and cosine of angles within pi / 4 of 0: Taylor's polynomials to the ninth and eighth degree, errors
+// below 3e-8.
 STEREONAV_INLINE Turn smallTurn(F x) {
     const F x2 = x * x;
     const F s = mulAdd(mulAdd(mulAdd(mulAdd(F(2.7557319e-6f), x2, F(-1.9841270e-4f)), x2, F(8.3333333e-3f)),
@@ -22,7 +23,7 @@ STEREONAV_INLINE Turn smallTurn(F x) {
         x2, F(1.0f));
     return {s, c};
 }
-// Of any fraction of a full turn.
+// Sine and cosine of any fraction of a full turn.
 STEREONAV_INLINE Turn turn(F fraction) {
     const F quarters = fraction * F(4.0f);
     const I whole = floorToInt(quarters + F(0.5f));

@@ -221,7 +221,7 @@ private:
         const I found = a.base + (whole ^ a.back);
         a.at = max(a.at, keep(m, max(found, keep(end <= t, a.plane))));
     }
-    // Of the walking lanes, to the nearest of their planes.
+    // Moves the walking lanes to the nearest of their planes.
     STEREONAV_INLINE static void step(Rays3& r) {
         const F x = r.x.unitsTo(r.x.plane), y = r.y.unitsTo(r.y.plane), z = r.z.unitsTo(r.z.plane);
         const F t = min(x, min(y, z));

@@ -32,7 +32,7 @@ private:
     TexelLighter mLighter;
 };
 
-// Of the pixels that show a surface, luminance of irradiance / pi: its mean, and the root of the mean
+// Luminance of irradiance / pi over the pixels that show a surface: its mean, and the root of the mean
 // variance of the pixels' means as a share of that of their squares (infinite below two samples). The
 // variance is that of independent samples: low discrepancy is better than it says.
 struct PixelLightFacts {

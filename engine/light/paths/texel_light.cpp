@@ -158,7 +158,7 @@ struct TexelLighter::State {
         std::vector<PathStart> starts;
         std::vector<std::size_t> texels;  // their numbers in the span
     };
-    // Of texels or points. First: first sample of one; negative: leave it out.
+    // A batch of texels or points. First: first sample of one; negative: leave it out.
     template <typename Place, typename First>
     Batch batchOf(std::span<const Place> list, const First& first) const {
         struct Entry {

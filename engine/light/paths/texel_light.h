@@ -23,10 +23,10 @@ struct TexelSampling {
     bool nextEvent = true;  // the probe sampled by its brightness as well, weighted by the power heuristic
     bool roulette = true;   // dim paths end at random
     bool leaping = true;    // over cells that no surface of this isovalue meets
-    // Of the surfaces that are shown, as the volume stores them: a texel of another value stands for the
-    // nearest of these where it lies near (nearestOfValue). Masks need it: what stands alone in one voxel is
-    // a surface at that voxel's own value, and none of what is shown. Without limits each texel stands for
-    // its own value's.
+    // Isovalues of the surfaces that are shown, as the volume stores them: a texel of another value stands
+    // for the nearest of these where it lies near (nearestOfValue). Masks need it: what stands alone in one
+    // voxel is a surface at that voxel's own value, and none of what is shown. Without limits each texel
+    // stands for its own value's.
     double lowest = -std::numeric_limits<double>::infinity();
     double highest = std::numeric_limits<double>::infinity();
     std::uint64_t seed = 1;

@@ -37,7 +37,7 @@ public:
     // from and to: harmonicsCount(order) values; not the same memory.
     void apply(const double* from, double* to) const;
     void apply(const glm::vec3* from, glm::vec3* to) const;
-    // Of band l: (2l + 1)^2 values, rows first.
+    // The matrix of band l: (2l + 1)^2 values, rows first.
     std::span<const double> band(int l) const&;
     std::span<const double> band(int l) && = delete;  // would outlive its values
 

@@ -35,7 +35,7 @@ double siderealTime(double julianDay) {
     return turnOf(std::fmod(degrees, 360) * kDegreeOfArc);
 }
 
-// Of the moon's orbit's node, which the nutation goes with; radians. t: centuries since J2000.
+// Longitude of the node of the moon's orbit, which the nutation goes with; radians. t: centuries since J2000.
 double nodeAt(double t) {
     return std::fmod(125.04 - 1934.136 * t, 360) * kDegreeOfArc;
 }

@@ -20,7 +20,7 @@ struct SunOnSphere {
 // julianDay: of dynamical time (TD).
 SunOnSphere sunOnSphere(double julianDay);
 
-// Of the air that bends light.
+// State of the air that bends light.
 struct AirNow {
     double pressure_hPa = 1010, temperature_C = 10;
 };

@@ -37,7 +37,7 @@ struct Range {
     }
 };
 
-// Of the voxels low to high, ends included.
+// The range of the voxels low to high, ends included.
 Range rangeOfVoxels(const GreyVolume& volume, const glm::ivec3& low, const glm::ivec3& high) {
     std::int16_t least = 32767, most = -32768;
     for (int k = low.z; k <= high.z; ++k)
@@ -51,7 +51,7 @@ Range rangeOfVoxels(const GreyVolume& volume, const glm::ivec3& low, const glm::
     return {static_cast<double>(least), static_cast<double>(most)};
 }
 
-// Of the trilinear values in a box within one voxel cell: at the box's corners.
+// The range of the trilinear values in a box within one voxel cell: at the box's corners.
 Range rangeInCell(const GreyVolume& volume, const VoxelSpan spans[3]) {
     Range range;
     const auto share = [&](int axis, int corner) {

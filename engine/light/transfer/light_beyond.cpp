@@ -99,7 +99,7 @@ Level pulled(const Level& fine) {
     return coarse;
 }
 
-// Of the level above, trilinear at the middle of a cell; beyond its faces the outermost cells count on.
+// Light of the level above, trilinear at the middle of a cell; beyond its faces the outermost cells count on.
 glm::vec3 above(const Level& coarse, const glm::ivec3& cell) {
     const glm::ivec3 own = cell / 2;
     const glm::ivec3 side =

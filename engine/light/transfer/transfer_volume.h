@@ -32,10 +32,10 @@ public:
 
     // Numbers a texel: coefficient first, then channel.
     int numbersPerTexel() const { return mOrder * mOrder * mChannels; }
-    // Of all texels of bricks()[n], in the order of texelsIn(). Different bricks may be set by different
-    // threads. Rounds to half floats, none of them denormal; what is not finite becomes 0.
+    // Sets the numbers of all texels of bricks()[n], in the order of texelsIn(). Different bricks may be set
+    // by different threads. Rounds to half floats, none of them denormal; what is not finite becomes 0.
     void setBrick(std::size_t n, std::span<const float> numbers);
-    // As stored; empty where the texel is not held.
+    // Numbers of a texel as they are stored; empty where it is not held.
     std::vector<float> at(const glm::ivec3& texel) const;
 
     // Dots every texel with light: order^2 coefficients (HarmonicsRotation turns them), into `to`, which has
@@ -43,7 +43,7 @@ public:
     // in which they are done; all: relightAll. Not finite light counts as none.
     void relight(std::span<const glm::vec3> light, std::span<const std::uint32_t> which,
                  IlluminationVolume& to, SimdTarget target = SimdTarget::Auto) const;
-    // Of bricks(): those whose numbers are named (bricksSeen), in that order; others are not held.
+    // Places in bricks() of those whose numbers are named (bricksSeen), in that order; others are not held.
     std::vector<std::uint32_t> heldAmong(std::span<const std::uint32_t> numbers) const;
     void relightAll(std::span<const glm::vec3> light, IlluminationVolume& to,
                     SimdTarget target = SimdTarget::Auto) const;

@@ -43,7 +43,7 @@ public:
     std::size_t bytesHeld() const { return mTransfer.bytesHeld() + 4 * (mLitAt.size() + mSeen.size()); }
 
 private:
-    // Of the transfer's bricks those that the sky has turned over since; adds them to `stale`.
+    // Adds to `stale` those of the transfer's bricks that the sky has turned over since.
     void addStale(const std::vector<std::uint32_t>& bricks, std::vector<std::uint32_t>& stale);
     void addRest(std::vector<std::uint32_t>& stale);
 

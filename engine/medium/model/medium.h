@@ -30,9 +30,9 @@ public:
 
     // footprint: metres a sample stands for, for mip levels; 0: the finest. time: seconds, of the noise.
     OpticalProperties at(const glm::dvec3& world, double time = 0, double footprint = 0) const;
-    // Of the grid's value at the displaced place, by central differences of one voxel to both sides: value
-    // units a metre, world axes; 0 outside; at the faces the outermost voxels count on. Of layers: the upward
-    // normal of the nearest one.
+    // Gradient of the grid's value at the displaced place, by central differences of one voxel to both sides:
+    // value units a metre, world axes; 0 outside; at the faces the outermost voxels count on. Of layers: the
+    // upward normal of the nearest one.
     glm::dvec3 gradientAt(const glm::dvec3& world, double time = 0) const;
 
     const GreyVolume* field() const { return mField.get(); }  // null: layers alone

@@ -13,7 +13,7 @@
 
 namespace stereonav {
 
-// As people write it: opacity and transport colour of a layer of the file's reference length.
+// A material as people write it: opacity and transport colour of a layer of the file's reference length.
 struct MediumMaterial {
     glm::vec3 color{1.0f};  // linear RGB 0..1
     double opacity = 0;     // 0..1; 1 counts as kDensest

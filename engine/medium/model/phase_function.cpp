@@ -54,7 +54,7 @@ glm::dvec3 meanOf(const std::vector<glm::dvec3>& weights) {
     return 0.5 * sum;
 }
 
-// Of mean 1, up to a factor: Henyey and Greenstein 1941.
+// The phase function of Henyey and Greenstein 1941, of mean 1 up to a factor.
 double henyeyGreensteinWeight(double g, double cosine) {
     return (1 - g * g) / std::pow(1 + g * g - 2 * g * cosine, 1.5);
 }

@@ -90,7 +90,7 @@ public:
     }
 
 private:
-    // Of the light at a collision, what travels against `direction`.
+    // Share of the light at a collision that travels against `direction`.
     glm::vec3 sentBack(const MediumCollision& met, const glm::dvec3& direction, PathRandom& random) const {
         const OpticalProperties& p = met.properties;
         if (mLook.model == MediumModel::Emission) return p.glow + p.color;

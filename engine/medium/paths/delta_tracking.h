@@ -39,7 +39,7 @@ struct TrackedPicture {
 TrackedPicture trackPicture(const Medium& medium, const MediumLook& look, const EyeView& view,
                             const TrackingSetting& setting, double time = 0);
 
-// Of the picture its rows from `first` to before `end` alone, as trackPicture gives them; the others stay 0.
+// The picture's rows from `first` to before `end` alone, as trackPicture gives them; the others stay 0.
 // bounds: of the medium at that time (delta_tracking_bounds.h), made once for who traces it in parts.
 struct PictureRows {
     int first = 0, end = 0;

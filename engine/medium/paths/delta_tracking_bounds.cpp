@@ -63,7 +63,7 @@ public:
         });
     }
     const glm::ivec3& size() const { return mSize; }
-    // Of everything that a place between two voxel coordinates reads.
+    // The range of everything that a place between two voxel coordinates reads.
     ValueRange between(const glm::dvec3& low, const glm::dvec3& high) const {
         const glm::dvec3 each(static_cast<double>(mBlock));
         const glm::ivec3 first = inside(glm::floor(low / each)), last = inside(glm::ceil(high / each) - 1.0);

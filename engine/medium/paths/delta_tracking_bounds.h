@@ -32,8 +32,8 @@ struct ExtinctionBounds {
     const ExtinctionRange& at(const glm::ivec3& c) const { return cells[index(c)]; }
 };
 
-// Of every point of the medium at that time. Cells follow the voxels of a grid, or the world's axes for
-// layers.
+// Bounds over every point of the medium at that time. Cells follow the voxels of a grid, or the world's axes
+// for layers.
 ExtinctionBounds makeExtinctionBounds(const Medium& medium, double time);
 
 // The same, each `least` 0 and each `most` the greatest of all times `factor`: what is tracked through it has

@@ -71,7 +71,7 @@ STEREONAV_INLINE I logicalRight(I a) {
 STEREONAV_INLINE I wholeNumber(std::uint32_t bitsOf) {
     return I(static_cast<int>(bitsOf));
 }
-// As tapTurn().
+// The angle of tapTurn().
 STEREONAV_INLINE F turnOf(I x, I y, int slab) {
     I h = (x * wholeNumber(0x8da6b343u)) ^ (y * wholeNumber(0xd8163841u)) ^
           wholeNumber(static_cast<std::uint32_t>(slab) * 0xcb1ab31fu);
@@ -92,7 +92,7 @@ STEREONAV_INLINE F readPlane(const SweepLight& light, const float* plane, F u, F
     return lerp(lerp(above.first, above.second, s), lerp(below.first, below.second, s), t);
 }
 
-// As tapLags(), of a texel to the right and one below.
+// The lags of tapLags(), of a texel to the right and one below.
 struct Lags {
     F right, below;
 };
@@ -123,7 +123,7 @@ struct TexelRow {
 STEREONAV_INLINE F leveled(F light, F depth, F later) {
     return mulAdd(light, clamp(depth * later, F(-1.0f), F(1.0f)), light);
 }
-// Of the texel that a place lies in; beyond the edge nothing is.
+// The depth of the texel that a place lies in; beyond the edge there is none.
 STEREONAV_INLINE F depthAt(const SweepLight& light, const float* depths, F u, F v, M m) {
     const F least(-1.0f);
     const I i = floorToInt(clamp(u, least, F(static_cast<float>(light.width)))),

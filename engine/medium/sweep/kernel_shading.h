@@ -17,7 +17,7 @@ struct ShadingPatch {
     EyeRays rays[kPackets];
     V3 toEye[kPackets];
 };
-// Of a slab at the places of a patch.
+// A slab's shades at the places of a patch.
 struct ShadedPlaces {
     float length[ShadingPatch::kPlaces];   // of the gradient
     float weighed[ShadingPatch::kPlaces];  // times what Blinn-Phong makes of it

@@ -112,8 +112,8 @@ struct SharedReader {
         bend = wx / mulAdd(wx, wx, mulAdd(wy, wy, F(1.0f)));
     }
 
-    // Of slab n at that depth of lanes m, of whose light `left` is left; looked: lanes that the first eye has
-    // looked at.
+    // Reads slab n at that depth of lanes m, of whose light `left` is left; looked: lanes that the first eye
+    // has looked at.
     STEREONAV_INLINE Sighting read(int n, F depth, F left, M m) const {
         const F parallax = cosine * F(rows->parallax[n]);
         const F x = mulAdd(parallax, F(rows->perParallax), column);

@@ -56,7 +56,7 @@ struct TablePlaces {
 
     STEREONAV_INLINE TablePlaces(const Column& column, M lanes)
         : at(column), m(lanes), window(column.entry, lanes) {}
-    // Of some of these lanes; they may lie closer together.
+    // Keeps some of these lanes, which may lie closer together.
     STEREONAV_INLINE void leave(M lanes) {
         m = lanes;
         if (!window.holds()) window = TableWindow(at.entry, lanes);

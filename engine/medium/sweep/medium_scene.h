@@ -36,7 +36,7 @@ struct MediumScene {
     void turnLight(double azimuth, double elevation);
 };
 
-// As they are, but for the surface weight, which is 1.
+// The same functions, but for the surface weight, which is 1.
 MediumTransfer allSurface(const MediumTransfer& transfer);
 Medium allSurface(const Medium& layers);  // of height layers alone
 

@@ -239,8 +239,8 @@ private:
         return glm::dvec3(known.value) * static_cast<double>(shownExposure(baked)) +
                static_cast<double>(baked.lampShare) * shaded;
     }
-    // Of both sides alike, since which of them the gradient points to depends on the data: the highlight is
-    // seen where eye and light are on the same side.
+    // The highlight is the same on both sides, since which of them the gradient points to depends on the
+    // data: the highlight is seen where eye and light are on the same side.
     double blinnPhong(const glm::dvec3& world, const Crossing& at, const Arriving& light) const {
         const glm::dvec3 gradient = mMedium.gradientAt(world, mTime);
         const double length = glm::length(gradient);

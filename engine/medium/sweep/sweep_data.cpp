@@ -90,7 +90,7 @@ SweepData::SweepData(const Medium& medium) : mMedium(medium) {
         if (!layer.levels.empty() && !layer.levels[0].empty()) takeLayer(layer);
 }
 
-// Of values stored as (value - offset) / scale.
+// Takes a table for values stored as (value - offset) / scale.
 void SweepData::takeTable(const MediumTable& table, double scale, double offset, Table& to) {
     const std::size_t count = table.entries.size();
     for (auto& member : to.members) member.assign(count + kReadAhead, 0.0f);

@@ -71,7 +71,7 @@ void SweepEyes::setBeams(std::size_t eye) {
     });
 }
 
-// Of the chunk; gives how many samples they are.
+// Finds the chunk's slabs where a tile may meet something; gives how many samples they are.
 long long SweepEyes::findSlabs(Eye& eye, int tile, const Walk& walk) const {
     long long met = 0;
     for (std::size_t n = 4 * static_cast<std::size_t>(tile), end = n + 4; n < end; ++n) {
@@ -170,7 +170,7 @@ void SweepEyes::seeHalf(std::size_t eye, int n, const Walk& walk, RowTask& task)
     if (mKernels.seeTile(walk.scene, e.seen, walk.chunk, tile)) goesOn = 1;
 }
 
-// As many are held as tasks run at once.
+// Rows to work in: as many are held as tasks run at once.
 std::unique_ptr<std::vector<float>> SweepEyes::takeRows() {
     std::unique_ptr<std::vector<float>> rows;
     {

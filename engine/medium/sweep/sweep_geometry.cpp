@@ -21,7 +21,7 @@ namespace {
 // Eye rays stay below it where a wide lamp would lean the axis further: radians.
 constexpr double kSteepest = 85.0 / 180.0 * glm::pi<double>();
 constexpr double kWidestLight = 1;  // tangent: a lamp's buffer grows no further beyond its cone
-// Of view to light, radians: where V11 of docs/volume_light.md begins and where it counts in full.
+// Angle from view to light, radians: where V11 of docs/volume_light.md begins and where it counts in full.
 constexpr double kLeansFrom = 50.0 / 180.0 * glm::pi<double>(), kLeansTo = 75.0 / 180.0 * glm::pi<double>();
 constexpr int kLightMargin = 1;  // texels around the medium, so that reads in it never meet the border
 

@@ -53,7 +53,7 @@ struct SweepGeometry {
     // them. Slabs that no eye sees, nor light crosses on its way to one that is seen, are left out.
     std::vector<double> faces;
     std::vector<RayFan> eyes;
-    // Of the light's buffer, which holds the box, or what a lamp's cone meets of it, and where light is
+    // Rays of the light's buffer, which holds the box, or what a lamp's cone meets of it, and where light is
     // scattered also what it may spread to beside the cone; width 0: the model needs none, but the light's
     // place and way are still origin and forward.
     RayFan light;
@@ -76,7 +76,7 @@ struct SweepGeometry {
 SweepGeometry makeSweepGeometry(const Medium& medium, const MediumLook& look, const SweepSetting& setting,
                                 std::span<const EyeView> eyes, const glm::dvec3& head);
 
-// Of scattered light: offset of the taps over the root of the way (V9), root of metres.
+// Offset of scattered light's taps over the root of the way (V9), root of metres.
 double blurOf(const Medium& medium, const SweepSetting& setting);
 
 // In a slab that leans against the light's way, rays of the light are met after different lengths (V11): how

@@ -123,7 +123,7 @@ void SweepLightBuffers::setRing(const SweepLight& light) {
     mRingSet = !mStart.empty();
 }
 
-// Of the planes, what is kept for the eyes, its columns and the strips.
+// Checks the memory of the planes, what is kept for the eyes, its columns and the strips.
 void SweepLightBuffers::checkMemoryFor(const SweepLight& light, bool leans, bool columns, int slabs) {
     const double texels = static_cast<double>(strideOf(light.width)) * (light.height + 4);
     const double kept =

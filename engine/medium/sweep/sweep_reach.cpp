@@ -143,7 +143,7 @@ void SweepReach::release(std::size_t n) {
     for (int c = 0; c < mChunks; ++c) count(c, mRects[n * mChunks + c], -1);
 }
 
-// Of the first eye of two.
+// Releases the rows of the first eye of two that are over.
 void SweepReach::releaseRows(int chunk) {
     const auto second = static_cast<std::size_t>(mFirstTile[1]), across = static_cast<std::size_t>(mPaired);
     for (std::size_t row = 0; row < second; row += across) {

@@ -12,8 +12,9 @@ namespace stereonav {
 
 class SweepReach {
 public:
-    // Of tiles `eyeSide` pixels wide, tiles of light `lightSide` texels wide, and chunks of `chunk` slabs.
-    // space: null: nothing is left out. Where too much would have to be remembered all light counts as read.
+    // Begins with tiles `eyeSide` pixels wide, tiles of light `lightSide` texels wide, and chunks of `chunk`
+    // slabs. space: null: nothing is left out. Where too much would have to be remembered all light counts as
+    // read.
     void start(const SweepGeometry& geometry, const SweepSpace* space, int chunk, int eyeSide, int lightSide);
     bool known() const { return !mRects.empty(); }
     // A tile of an eye reads no more for itself. Of two eyes the first may sample for the second along the

@@ -78,7 +78,8 @@ SweepSharing::SweepSharing(const SweepGeometry& geometry, const WorldBox& box, d
     }
 }
 
-// Of a plane `away` from the eye along the axis. parallax: tangent, of a ray with the cosine 1 to the axis.
+// Whether a plane `away` from the eye along the axis is shared. parallax: tangent, of a ray with the cosine 1
+// to the axis.
 bool SweepSharing::share(double away, double& parallax) const {
     if (!(mForward ? away > 0 : away < 0)) return false;
     double nearest = kInfinity, farthest = 0;

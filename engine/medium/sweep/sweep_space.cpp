@@ -162,7 +162,7 @@ bool SweepSpace::anyLayer(const SweepBeam& beam, const glm::dvec3& low, const gl
     });
 }
 
-// As RayFan::pixelSize().
+// The footprint of RayFan::pixelSize().
 SweepBeam::Footprint SweepSpace::footprintOf(const SweepGeometry& geometry, const RayFan& fan) const {
     if (fan.parallel) return {glm::dvec3(0.0), fan.perX};
     const glm::dvec3 gradient = fan.perX * fan.forward;

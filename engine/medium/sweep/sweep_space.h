@@ -40,9 +40,10 @@ public:
     // forward: the fan's rays go to larger t.
     SweepBeam beamOf(const SweepGeometry& geometry, const RayFan& fan, bool forward, double x0, double y0,
                      double x1, double y1) const;
-    // Of the light, which must be known wherever an eye samples the medium, with the eye's footprint too.
+    // The beam of the light, which must be known wherever an eye samples the medium, with the eye's footprint
+    // too.
     SweepBeam lightBeamOf(const SweepGeometry& geometry, double x0, double y0, double x1, double y1) const;
-    // Of up to 32 planes at ascending t: bits of those where a beam may meet something.
+    // Bits of those of up to 32 planes, at ascending t, where a beam may meet something.
     std::uint32_t planesMet(const SweepBeam& beam, const double* t, int count) const;
     // Whether a beam may meet something between two planes on its rays' side.
     bool mayMeet(const SweepBeam& beam, double t0, double t1) const {

@@ -73,7 +73,7 @@ private:
                    bool shares = true);
     void sweepOne(const EyeView& view, double time, std::span<const Plane<float>> starts, EyeImage& image);
 
-    // Of the medium that the look's model shows.
+    // Whether the look's model shows a surface of the medium.
     bool showsSurface() const;
     MediumSweep& sweep();
     const Medium& medium() const;  // once sweep() was called

@@ -77,7 +77,7 @@ void checkPoints(const std::vector<ControlPoint>& points, const std::filesystem:
                     kFitAgain);
 }
 
-// Of the points, in samples.
+// How far the points are off, in samples.
 struct Misfit {
     double rms = 0, most = 0;
 };

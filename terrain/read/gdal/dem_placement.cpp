@@ -29,7 +29,7 @@ bool looksLikeDegrees(const Georeference& raster) {
            std::abs(raster.transform[1]) <= 0.02 && std::abs(raster.transform[5]) <= 0.02;
 }
 
-// Its name; files that leave it out get one from the datum and the projection.
+// The system's name; files that leave it out get one from the datum and the projection.
 std::string systemName(const std::string& wkt) {
     OGRSpatialReference system;
     if (wkt.empty() || system.importFromWkt(wkt.c_str()) != OGRERR_NONE) return "";

@@ -59,7 +59,7 @@ public:
     int runOfRows() const override {
         if (!mWhole.empty()) return kMostRunOfRows;
         if (mResampled) {
-            // Its window of the source is about as large.
+            // Samples of a run. The window of the source is about as large.
             constexpr int kSamples = 1 << 23;
             return std::clamp(kSamples / mDem.width / PixelMap::kStep, 1, kMostRunOfRows / PixelMap::kStep) *
                    PixelMap::kStep;
@@ -189,7 +189,7 @@ private:
         mDem.sourceMissing = mDem.outside = 0;
     }
 
-    // Of the raster whose rows are read: all of it, or thinned.
+    // Heights of the raster whose rows are read: all of it, or thinned.
     void readSource(const SampleWindow& window, float* heights) {
         if (mSpread.empty()) return mSamples->read(window, *mMessages, heights);
         const auto pitch = static_cast<std::size_t>(mSamples->width());

@@ -31,7 +31,7 @@ public:
     const std::string& missing() const { return mMissing; }
     int width() const { return mWidth; }
     int height() const { return mHeight; }
-    // Of the blocks that the file has.
+    // Samples of the blocks that the file has, along each side.
     int blockWidth() const { return mBlockWidth; }
     int blockHeight() const { return mBlockHeight; }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 constexpr int kNoShort = 1 << 20;
 
-// Of numbers that floats hold as they are.
+// A tally of numbers that floats hold as they are.
 struct FloatTally {
     float low = std::numeric_limits<float>::infinity(), high = -low, lowestOther = low;
     bool customary = false;

@@ -16,7 +16,8 @@ constexpr double kCustomaryMissing = -9999;
 // By how much all heights lie over it where it does.
 constexpr double kFarBelowAll_m = 1000;
 
-// Of heights that are there, in metres. Counting some of them twice changes no answer that is drawn from it.
+// A tally of the heights that are there, in metres. Counting some of them twice changes no answer that is
+// drawn from it.
 struct HeightTally {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     double rounded = 0;        // the most that a float lost

@@ -44,11 +44,11 @@ class PixelMapRows {
 public:
     // Throws Error as mapPixels() does.
     PixelMapRows(const Georeference& target, const Georeference& source, const std::filesystem::path& file);
-    // Of rows from first, a multiple of PixelMap::kStep, on: row 0 of the map is first.
+    // A map of rows from first, a multiple of PixelMap::kStep, on: row 0 of the map is first.
     PixelMap map(int first, int rows) const;
     // Pixels between its nodes.
     int step() const { return 1 << mShift; }
-    // Of one place of the target, (0, 0) is the centre of its first pixel: exact.
+    // The source's place of one place of the target, (0, 0) is the centre of its first pixel: exact.
     glm::dvec2 at(double column, double row) const { return mExact(column, row); }
 
 private:
