@@ -9,6 +9,7 @@
 
 namespace stereonav {
 
+// The projection of one eye.
 struct EyeView {
     glm::dvec3 eye{0.0};                                        // world, metres
     glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  // world, orthonormal
@@ -20,6 +21,7 @@ struct EyeView {
 
     double pixelWidth() const { return (xMax - xMin) / width; }    // at view depth 1
     double pixelHeight() const { return (yMax - yMin) / height; }  // at view depth 1
+    // How this view sees a round Earth.
     EarthBend bend() const { return {glm::dvec2(head), fall}; }
 
     // x, y: continuous image coordinates, y downwards; (0, 0) is the outer corner of the top left
@@ -28,6 +30,7 @@ struct EyeView {
         return forward + right * (xMin + x * pixelWidth()) + up * (yMax - y * pixelHeight());
     }
 
+    // The world place at that view depth (metres), seen at the image place (x, y).
     glm::dvec3 pointAt(double x, double y, double viewDepth) const {
         return eye + viewDepth * rayDirection(x, y);
     }

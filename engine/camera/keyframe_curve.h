@@ -12,16 +12,17 @@
 
 namespace stereonav {
 
+// A flight through keyframes, by their times.
 class KeyframeCurve {
 public:
     // easeEnds: at rest at the first and the last one. Throws Error unless there are two keyframes at least,
     // with what RecordedPath asks of its samples.
     KeyframeCurve(const std::vector<PathSample>& keyframes, bool easeEnds);
 
-    Pose at(double time) const;  // clamped to the ends
-    double startTime() const { return mKeys.front().time; }
-    double endTime() const { return mKeys.back().time; }
-    double length() const { return mAlong.back(); }  // metres
+    Pose at(double time) const;                              // seconds, clamped to the ends
+    double startTime() const { return mKeys.front().time; }  // seconds
+    double endTime() const { return mKeys.back().time; }     // seconds
+    double length() const { return mAlong.back(); }          // metres
 
 private:
     // From one keyframe to the next.

@@ -9,6 +9,7 @@
 
 namespace stereonav {
 
+// A circle around a place, on which the viewer looks at that place.
 struct Orbit {
     glm::dvec3 middle{0.0};  // world, metres
     double distance = 1;     // metres, > 0

@@ -11,6 +11,7 @@ namespace stereonav {
 // `t x y z qx qy qz qw`, in full precision. Read too: comments (#, //), the AnimationPath { ... }
 // block of .osg files around the lines, and a scale of three numbers after the rotation (ignored).
 RecordedPath readOsgPath(const std::filesystem::path& file);
+// Writes such text. Throws Error.
 void writeOsgPath(const std::filesystem::path& file, const RecordedPath& path);
 
 // glTF: the first camera node of the default scene that an animation moves, itself or through the

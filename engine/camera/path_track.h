@@ -8,15 +8,17 @@
 
 namespace stereonav {
 
+// How values go from one keyframe to the next, as glTF has it.
 enum class Interpolation { Linear, Step, CubicSpline };
 
+// The values of one channel over time.
 struct PathTrack {
     Interpolation interpolation = Interpolation::Linear;
     bool isRotation = false;
     std::vector<double> times;       // seconds, strictly increasing
     std::vector<glm::dvec4> values;  // one a time, xyzw; CubicSpline: in-tangent, value, out-tangent
 
-    // Clamped to the ends. left: at a keyframe, the limit from earlier times.
+    // The value at a time (seconds), clamped to the ends. left: at a keyframe, the limit from earlier times.
     glm::dvec4 at(double time, bool left) const;
 };
 

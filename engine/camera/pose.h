@@ -8,10 +8,12 @@
 
 namespace stereonav {
 
+// A head's place and orientation.
 struct Pose {
     glm::dvec3 position{0.0};                         // world, metres
     glm::dquat orientation = glm::dquat(1, 0, 0, 0);  // worldFromCamera, unit
 
+    // The camera's axes in the world, of length 1.
     glm::dvec3 right() const { return orientation * glm::dvec3(1, 0, 0); }
     glm::dvec3 up() const { return orientation * glm::dvec3(0, 1, 0); }
     glm::dvec3 forward() const { return orientation * glm::dvec3(0, 0, -1); }
@@ -21,6 +23,7 @@ struct Pose {
 // the viewer sees it (the right side goes down). All radians, any finite value.
 Pose poseFromAngles(const glm::dvec3& position, double heading, double pitch, double roll);
 
+// A pose's orientation by angles, as poseFromAngles() takes them.
 struct PoseAngles {
     double heading, pitch, roll;  // radians; heading in [0, 2 pi), pitch in [-pi/2, pi/2]
 };

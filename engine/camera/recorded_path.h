@@ -9,11 +9,13 @@
 
 namespace stereonav {
 
+// A pose at a time of the path's clock.
 struct PathSample {
     double time;  // seconds, strictly increasing along a path
     Pose pose;
 };
 
+// Poses over time, in between by interpolation.
 class RecordedPath {
 public:
     RecordedPath() = default;
@@ -22,10 +24,11 @@ public:
     RecordedPath(std::vector<PathSample> samples, const std::string& source);
 
     const std::vector<PathSample>& samples() const { return mSamples; }
-    double startTime() const { return mSamples.front().time; }
+    double startTime() const { return mSamples.front().time; }  // seconds
+    // Seconds from the first sample to the last one.
     double duration() const { return mSamples.back().time - mSamples.front().time; }
 
-    // Position linear, orientation spherical-linear between the two samples around `time`; clamped
+    // Position linear, orientation spherical-linear between the two samples around `time` (seconds); clamped
     // to the ends.
     Pose at(double time) const;
 

@@ -9,6 +9,7 @@
 
 namespace stereonav {
 
+// What both eyes have in common: their picture's size and angle.
 struct Lens {
     int width = 0, height = 0;  // pixels of one eye
     double verticalFov = 0.8;   // radians, in (0, pi)
@@ -18,12 +19,14 @@ struct Lens {
     bool operator==(const Lens&) const = default;
 };
 
+// How far apart the eyes stand, and what lies in the plane of the screen.
 struct StereoSetting {
     double separation = 0.065;   // metres between the eyes, >= 0
     double zeroParallax = 1.95;  // metres along the view axis to the plane seen without parallax, > 0
     bool operator==(const StereoSetting&) const = default;
 };
 
+// Both eyes of one head, and the shift between their pictures.
 struct StereoViews {
     EyeView left, right;
 
@@ -32,6 +35,7 @@ struct StereoViews {
     double shiftAtInfinity = 0;  // pixels, >= 0
     double parallaxScale = 0;    // pixels * metres, >= 0
 
+    // The column where the right eye sees that point, pixels. viewDepth: metres.
     double rightColumn(double leftColumn, double viewDepth) const {
         return leftColumn + (shiftAtInfinity - parallaxScale / viewDepth);
     }

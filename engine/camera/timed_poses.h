@@ -7,6 +7,7 @@
 
 namespace stereonav {
 
+// A pose of a path, and when it is flown.
 struct TimedPose {
     Pose pose;
     double time = 0;  // seconds since the path's start

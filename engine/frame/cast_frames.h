@@ -7,6 +7,7 @@
 
 namespace stereonav {
 
+// Makes frames by rays and a warp, keeping its buffers between them.
 class CastFrames final : public FrameMaker, public RightFromLeft {
 public:
     // renderer must outlive this. Default method: defaultMethodFor(renderer); compared: those of

@@ -31,6 +31,7 @@ inline FrameWay wayOf(const WarpSetting& setting) {
     return {nameOf(setting.method), setting};
 }
 
+// What the parts of a frame took.
 struct FrameTimings {
     double both_ms = 0;                     // of the whole frame
     double left_ms = 0, right_ms = 0;       // of each eye; 0 where they are made together
@@ -38,6 +39,7 @@ struct FrameTimings {
     EdgeTimings edges;                      // of both eyes; its time is part of theirs
 };
 
+// The two pictures of a frame.
 struct EyePair {
     EyeImage left, right;  // right: without pixels where one eye was made
     FrameTimings timings;
@@ -78,6 +80,7 @@ public:
 
     // Names of the ways to two eyes, in a fixed order, all valid for ever.
     virtual std::span<const std::string_view> methods() const = 0;
+    // The method that "" stands for.
     virtual std::string_view defaultMethod() const = 0;
     // Each eye by itself: what the others are measured against.
     virtual std::string_view exactMethod() const = 0;
@@ -105,6 +108,7 @@ public:
         return std::nullopt;
     }
 
+    // What is held now, a row for each kind.
     virtual std::vector<HeldBytes> held() const { return {}; }
 };
 

@@ -4,6 +4,7 @@
 
 namespace stereonav {
 
+// Places and number of the slices of the next frames.
 class SlicedFrames {
 public:
     virtual ~SlicedFrames() = default;

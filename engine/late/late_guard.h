@@ -30,6 +30,7 @@ public:
     void saw(const glm::dvec2& beyond, double now_s);
     // Nothing moves any more.
     void forget();
+    // The guard at each side, as shares of the width and the height.
     glm::dvec2 shares() const { return glm::dvec2(mSteps) * kStep; }
 
 private:

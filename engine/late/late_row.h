@@ -7,8 +7,8 @@
 namespace stereonav {
 
 // Pictures are cut into tiles; of each is known what depths lie in it.
-constexpr int kLateTileWidth = 16, kLateTileHeight = 8;
-constexpr int kMostLateSteps = 32;  // of a search along a ray
+constexpr int kLateTileWidth = 16, kLateTileHeight = 8;  // pixels
+constexpr int kMostLateSteps = 32;                       // of a search along a ray
 
 // Inverse depths, 1 / metres: 0 is infinitely far.
 struct LateTile {
@@ -18,9 +18,9 @@ struct LateTile {
 
 // A picture that was cast. Behind each row lies room for a vector (Plane).
 struct LateSource {
-    int width = 0, height = 0;
-    const float* inverse = nullptr;
-    int inverseStride = 0;
+    int width = 0, height = 0;             // pixels
+    const float* inverse = nullptr;        // inverse depths
+    int inverseStride = 0;                 // from row to row, pixels; so are all strides below
     const std::uint32_t* color = nullptr;  // PackedColor
     int colorStride = 0;
 };
@@ -30,7 +30,7 @@ struct LateSource {
 // b) is the place of what is infinitely far: a = row 0 / row 2, b = row 1 / row 2 of rows * (x, y, 1).
 struct LateMove {
     float rows[3][3] = {};
-    float shift[3] = {};
+    float shift[3] = {};  // x and y: pixels times metres; z: metres
 };
 
 // How a tile of the new picture is looked up.
@@ -43,9 +43,9 @@ struct LatePlan {
 struct LateBand {
     const LateSource* source = nullptr;
     const LateMove* move = nullptr;
-    const LatePlan* plans = nullptr;  // one a tile
-    int width = 0, top = 0, rows = 0;
-    std::uint32_t* color = nullptr;  // row `top`
+    const LatePlan* plans = nullptr;   // one a tile
+    int width = 0, top = 0, rows = 0;  // pixels; the first row, and how many
+    std::uint32_t* color = nullptr;    // row `top`
     int colorStride = 0;
     std::uint8_t* uncovered = nullptr;  // 255 where nothing was seen before, else 0; null: not asked for
     int uncoveredStride = 0;
@@ -55,14 +55,15 @@ struct LateBand {
 struct LateDepths {
     const float* depth = nullptr;  // metres: infinite, or 0 and NaN where nothing is known
     int depthStride = 0;
-    float* inverse = nullptr;
+    float* inverse = nullptr;  // written
     int inverseStride = 0;
     int width = 0, height = 0;
     LateTile* tiles = nullptr;  // row by row
 };
 
+// The kernels of one instruction set.
 struct LateKernels {
-    void (*warp)(const LateBand& band);
+    void (*warp)(const LateBand& band);                      // writes the band's colours
     void (*invert)(const LateDepths& depths, int row);       // a row of pixels
     void (*measure)(const LateDepths& depths, int tileRow);  // once its rows and the one below are inverted
 };

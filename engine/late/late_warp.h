@@ -29,8 +29,8 @@ public:
                  bool soft = false);
     // Nothing is there any more; the memory stays.
     void forget() { mReady = false; }
-    bool ready() const { return mReady; }
-    const EyeView& view() const { return mView; }
+    bool ready() const { return mReady; }          // something is prepared
+    const EyeView& view() const { return mView; }  // that it was cast from
     // What depths lie around a place of the picture, or of its border where that is beside it. ready() holds.
     const LateTile& tileAt(double x, double y) const;
 

@@ -10,6 +10,7 @@ namespace stereonav {
 // Where all may lie all the time, as shares of the picture's width; farther out are short excursions.
 constexpr double kUsualNearest = -0.01, kUsualFarthest = 0.02;
 
+// How long a picture's parallax can be looked at.
 enum class ComfortState {
     Comfortable,  // within what is usual
     Excursion,    // within what is comfortable for a short time

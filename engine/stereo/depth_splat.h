@@ -9,13 +9,14 @@
 
 namespace stereonav {
 
+// One row of gathered depths, which is shortened in place.
 struct DepthSplatRow {
     float* depth;         // metres; in: the nearer of two survivors, 0 unknown; out: where a ray may start
     std::uint8_t* holes;  // out: 255 where nothing is known
-    int width;
-    float share;       // by which depths are shortened,
-    float rangeShare;  // and by which the difference between the pixel and the two beside it is taken off
-    float* scratch;    // width + 2
+    int width;            // pixels
+    float share;          // by which depths are shortened,
+    float rangeShare;     // and by which the difference between the pixel and the two beside it is taken off
+    float* scratch;       // width + 2 numbers
 };
 
 // Infinite depth (nothing at all) stays only between pixels that are infinite too. Else a pixel beside

@@ -30,15 +30,17 @@ struct ErrorCalibration {
     // Expected for a frame of so many pixels, whose classes from `cast` on are exact; squared sRGB byte
     // steps.
     double expectedMeanSquare(const ContrastCounts& counts, double pixels, int cast = kContrastClasses) const;
-    // Bound for 95 % of frames; kMostPsnr_db where nothing is expected.
+    // The PSNR that 95 % of frames exceed; kMostPsnr_db where nothing is expected.
     double boundPsnr_db(const ContrastCounts& counts, double pixels, int cast = kContrastClasses) const;
 };
+// The PSNR that stands for no error at all.
 constexpr double kMostPsnr_db = 100.0;
 
 // Gathers frames. Each is added with its warped right eye, the mask of its holes and its right eye cast in
 // full.
 class ErrorCalibrator {
 public:
+    // Adds a frame; all three of one size.
     void add(const EyeImage& warped, const Plane<std::uint8_t>& holes, const EyeImage& full);
     // A class never expects less than the ones below it. Throws Error where no frame was added.
     ErrorCalibration result() const;

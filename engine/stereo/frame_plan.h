@@ -21,6 +21,7 @@ struct FrameCosts {
     double holeShare = 0;  // holes of all pixels of all right eyes, 0..1; 1 where all are cast with a jump
 };
 
+// The decision for frames of one size, with the figures that it rests on.
 struct FramePlan {
     int width = 0, height = 0;  // pixels of one eye
     ViewDependence dependence = ViewDependence::None;
@@ -31,6 +32,7 @@ struct FramePlan {
     std::size_t bytes = 0;  // held for both eyes and the hole mask
     std::string reason;     // one sentence with the figures
 
+    // Whether the right eye is warped rather than cast in full.
     bool warps() const { return method != RightEyeMethod::Full; }
 };
 

@@ -14,6 +14,7 @@
 
 namespace stereonav {
 
+// Lists the holes of a mask and casts them. Keeps its memory between frames.
 class HoleFill {
 public:
     static constexpr int kBandWidth = 32;    // columns of a task: two vectors of sixteen

@@ -7,7 +7,7 @@
 
 namespace stereonav {
 
-constexpr float kWeightOne = 32768.0f;
+constexpr float kWeightOne = 32768.0f;  // the weight 1
 constexpr float kWeightMax = 32767.0f;  // what a 16-bit weight can hold
 
 // Rounded to the nearest, ties to even, as the vector conversion does.
@@ -20,6 +20,7 @@ inline int scaledProduct(int difference, int weight) {
     return (difference * weight + 16384) >> 15;
 }
 
+// Weights of four taps, in units of 1 / kWeightOne.
 struct CubicWeights {
     int before, second, after;  // of taps 0, 2 and 3; tap 1 has the rest
 };
@@ -36,20 +37,24 @@ inline CubicWeights cubicWeights(float t) {
             roundedWeight(after * kWeightOne)};
 }
 
+// The weight of the second of two taps at t in [0, 1] between them.
 inline int linearWeight(float t) {
     const float weight = t * kWeightOne;
     return roundedWeight(weight < kWeightMax ? weight : kWeightMax);
 }
 
+// A channel's fixed-point value, rounded and clamped, in its place in a packed colour.
 inline std::uint32_t fromFixed(int value, int shift) {
     const int limited = value < 0 ? 0 : value > 1023 * 16 ? 1023 * 16 : value;
     return static_cast<std::uint32_t>((limited + 8) >> 4) << shift;
 }
 
+// The fixed-point value of the channel that begins at bit `shift`.
 inline int toFixed(std::uint32_t color, int shift) {
     return static_cast<int>(color >> shift & 1023u) << 4;
 }
 
+// Between two packed colours, t in [0, 1].
 inline std::uint32_t lerpPacked(std::uint32_t a, std::uint32_t b, float t) {
     const int weight = linearWeight(t);
     std::uint32_t result = 0;

@@ -8,6 +8,7 @@ namespace stereonav {
 
 constexpr float kPaintWidth = 1.5f;  // pixels of a splat: "slightly oversized"
 
+// Paints one row of the right eye; every pixel of it is written.
 void paintRow(const PaintRow& row);
 
 }  // namespace stereonav

@@ -8,9 +8,10 @@
 
 namespace stereonav {
 
-constexpr int kParallaxBins = 64;
+constexpr int kParallaxBins = 64;                                       // of ParallaxHistogram
 constexpr std::int32_t kFirstDepthKey = 1, kLastDepthKey = 0x7f800000;  // the smallest above 0; infinity
 
+// Classes of depths, and counts that rows are added to.
 struct ParallaxTally {
     // Class n holds the keys from keys[n] to before keys[n + 1]: class 0 what lies before the first bin, the
     // last one what lies behind the last bin. keys[0] is kFirstDepthKey, the last one is behind
@@ -24,6 +25,7 @@ struct ParallaxTally {
     std::int32_t nearest = kLastDepthKey + 1, farthest = 0;  // keys of what was counted
 };
 
+// Adds a row of depths, metres, to the tally.
 using TallyFunction = void (*)(const float* depths, int width, ParallaxTally& tally);
 
 }  // namespace stereonav

@@ -13,6 +13,7 @@
 
 namespace stereonav {
 
+// What --quality, --target-psnr and --target-ms ask for.
 struct QualityWish {
     std::optional<double> quality =
         std::nullopt;  // 0..1: share of the first way's expected squared error that is to go
@@ -33,6 +34,7 @@ struct MeasuredWarp {
     double right_ms = 0;        // mean frame, the least of the repeats
     double ray_ns = 0;          // of a pixel cast beside the holes
 };
+// All ways that were measured on the same frames.
 struct MeasuredWarps {
     std::vector<MeasuredWarp> warps;  // the scene's default first, the full cast last
     double pixels = 0;                // of one eye
@@ -45,12 +47,14 @@ struct NamedWarp {
     std::string name;
     WarpSetting setting;
 };
+// Lists those for the scene of this renderer.
 std::vector<NamedWarp> warpsWorthTrying(const EyeRenderer& renderer);
 
 // Warps and casts each of the views, at least one, of one size. repeats: timed runs of each, >= 1.
 MeasuredWarps measureWarps(const EyeRenderer& renderer, std::span<const StereoViews> views,
                            std::span<const NamedWarp> warps, int repeats);
 
+// The way that was chosen, and what is expected of it.
 struct QualityPlan {
     WarpSetting setting;  // with its refinement
     std::string name;
@@ -66,8 +70,8 @@ struct QualityPlan {
 // smaller picture and without a bound, which is known at this size alone. Throws Error for a wish that is not
 // in its range.
 QualityPlan planQuality(const MeasuredWarps& measured, const QualityWish& wish);
-constexpr double kWorthAChange = 0.05;
-constexpr double kLeastScale = 0.25;
+constexpr double kWorthAChange = 0.05;  // share of the time that another way has to save
+constexpr double kLeastScale = 0.25;    // the least QualityPlan::scale
 
 // Pixels that are cast beside holes lie apart: a ray there takes as long as this many of a full cast, in
 // ranking ways and where no hole was there to measure it on.

@@ -23,6 +23,7 @@ struct Refinement {
     double mostPixels = 1;     // share of all pixels that may be cast beside the holes, whatever is wanted
 };
 
+// How a right eye is made.
 struct WarpSetting {
     RightEyeMethod method = kDefaultRightEyeMethod;
     // Inverse methods: a pixel between survivors further apart than this many right pixels is a hole. By
@@ -45,6 +46,7 @@ struct WarpSetting {
     Schedule fillSchedule = Schedule::Dynamic;  // Dynamic sorts the bands by their number of holes
 };
 
+// What a right eye took, and how many of its pixels were cast.
 struct RightEyeTimings {
     double warp_ms = 0, fill_ms = 0;  // DepthSplat: splatting, and casting every pixel
     // Cast again, of width * height. DepthSplat: cast without knowing where to start.

@@ -22,13 +22,16 @@ namespace stereonav {
     METHOD(Selective, "selective")          \
     METHOD(DepthSplat, "depthsplat")
 
+// A way of making the right eye; each is described by its WarpMethod.
 enum class RightEyeMethod {
 #define STEREONAV_METHOD(id, name) id,
     STEREONAV_RIGHT_EYE_METHODS(STEREONAV_METHOD)
 #undef STEREONAV_METHOD
 };
+// The method of opaque scenes where warping pays.
 constexpr RightEyeMethod kDefaultRightEyeMethod = RightEyeMethod::Linear;
 
+// A method and its name on the command line.
 struct NamedMethod {
     std::string_view name;
     RightEyeMethod method;
@@ -56,6 +59,7 @@ bool castsFromDepths(RightEyeMethod method);
 bool hasQualityDial(RightEyeMethod method);
 // nullopt for an unknown name.
 std::optional<RightEyeMethod> rightEyeMethodFromName(std::string_view name);
+// The name of a method on the command line.
 std::string_view nameOf(RightEyeMethod method);
 
 }  // namespace stereonav

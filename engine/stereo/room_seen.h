@@ -13,6 +13,7 @@ namespace stereonav {
 // excursions that broadcasters allow before and behind the screen.
 constexpr double kParallaxBudget = 0.03, kNearestParallax = -0.025, kFarthestParallax = 0.04;
 
+// How near and how far things are in a picture.
 struct RoomSeen {
     double nearest = 0, farthest = 0;  // view depths, metres; what is not hit is infinitely far
     double ahead = 0;                  // the median in the picture's middle ninth
@@ -26,6 +27,7 @@ double depthAhead(const Plane<float>& viewDepth, int step);
 struct ParallaxRange {
     double near = 0, far = 0;
 };
+// The parallax of the room's nearest and farthest things.
 ParallaxRange parallaxOf(const StereoViews& views, const RoomSeen& room);
 // Parallax of one view depth above 0, which may be infinite, as a share of the picture's width.
 double parallaxAt(const StereoViews& views, double depth);

@@ -17,6 +17,7 @@ struct WarpScratch {
     std::vector<float> column, inverse, accumulators;
     std::vector<std::int32_t> source;
 
+    // For rows of so many pixels; accumulators are there where `splats`.
     void resize(int width, bool splats);
 };
 
@@ -34,6 +35,7 @@ struct WarpJob {
     bool airDiffers;  // colours have the left eye's air before them
 
     int width() const { return left.width(); }
+    // The rows' shift (pixels) and scale (pixels * metres): ResampleRow.
     float shift() const { return static_cast<float>(views.shiftAtInfinity); }
     float scale() const { return static_cast<float>(views.parallaxScale); }
     // What moves from eye to eye: colours, or the normals from which colours follow.
@@ -52,6 +54,7 @@ enum class AfterWarp {
     CastFromDepths,  // every pixel is cast, those not marked from the depth that was written
 };
 
+// What a method does with a row, and what follows from that.
 struct WarpMethod {
     WarpRowFunction warpRow = nullptr;  // none: every pixel is cast, without a warp
     AfterWarp after = AfterWarp::Cast;
@@ -69,6 +72,7 @@ struct WarpMethod {
 STEREONAV_RIGHT_EYE_METHODS(STEREONAV_METHOD)
 #undef STEREONAV_METHOD
 
+// The facts of a method.
 const WarpMethod& warpMethodOf(RightEyeMethod method);
 
 // The row of an inverse warp with two taps.

@@ -6,6 +6,7 @@
 
 namespace stereonav {
 
+// Warps one row; every pixel of it is written.
 void resampleRowOracle(const ResampleRow& row);
 
 }  // namespace stereonav

@@ -16,13 +16,13 @@ constexpr int kRowPadding = 64;
 // its centre falls between the ends of a link whose neighbours within `reach` hold too; else it is a hole.
 struct ResampleRow {
     const std::uint32_t* leftColor;
-    const float* leftDepth;  // metres > 0; infinity: sky
-    std::uint32_t* color;    // 0 in a hole
-    float* depth;            // metres, of the nearer linked pixel (see `surface`); 0 in a hole
-    std::uint8_t* holes;     // 255 in a hole, 0 elsewhere
-    int width, stride;       // pixels, width >= 1; every row may be read up to the stride (>= 32)
-    float shift, scale;      // pixels, pixels * metres
-    float minStretch, maxStretch;
+    const float* leftDepth;        // metres > 0; infinity: sky
+    std::uint32_t* color;          // 0 in a hole
+    float* depth;                  // metres, of the nearer linked pixel (see `surface`); 0 in a hole
+    std::uint8_t* holes;           // 255 in a hole, 0 elsewhere
+    int width, stride;             // pixels, width >= 1; every row may be read up to the stride (>= 32)
+    float shift, scale;            // pixels, pixels * metres
+    float minStretch, maxStretch;  // right pixels
     int reach;   // 0: the link alone; 1: and the next to the right; 2: and the one to the left
     bool cubic;  // four taps (Catmull-Rom; needs reach 2), else two
 
@@ -43,18 +43,19 @@ struct ResampleRow {
     float mostSpread = 0;
 };
 
+// Warps one row.
 using ResampleFunction = void (*)(const ResampleRow&);
 
 // Splats of the paper (section 2.5): two pixels wide, eight subpixels a pixel, Gaussian, blended front
 // to back along a supersampled scanline; pixels of too little weight are holes. Sky is not reprojected.
 struct SplatRow {
     const std::uint32_t* leftColor;
-    const float* leftDepth;
+    const float* leftDepth;  // metres, as above
     std::uint32_t* color;
-    float* depth;  // metres, the nearest of the splats that reach the pixel; 0 in a hole
-    std::uint8_t* holes;
-    int width;
-    float shift, scale;
+    float* depth;           // metres, the nearest of the splats that reach the pixel; 0 in a hole
+    std::uint8_t* holes;    // 255 in a hole, 0 elsewhere
+    int width;              // pixels
+    float shift, scale;     // pixels, pixels * metres
     float weightThreshold;  // share of full cover
 
     float* accumulators;   // scratch, splatScratchSize(width)
@@ -66,7 +67,7 @@ struct PaintRow {
     const std::uint32_t* leftColor;
     const float* leftDepth;
     std::uint32_t* color;
-    float* depth;
+    float* depth;  // members mean what those of SplatRow mean
     std::uint8_t* holes;
     int width;
     float shift, scale;
