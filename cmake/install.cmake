@@ -22,16 +22,21 @@ install(TARGETS ${rooms} EXPORT stereonav_targets ARCHIVE DESTINATION ${CMAKE_IN
 install(EXPORT stereonav_targets NAMESPACE stereonav:: DESTINATION ${package_dir} ${development})
 
 # Headers of what was built. Those of modules and helpers are for them alone.
-set(folders engine/base engine/peers engine/math engine/simd engine/text engine/image engine/letters engine/gltf engine/camera engine/render engine/stereo engine/sampling
-  engine/frame engine/late engine/volume engine/light engine/medium engine/nav engine/metrics terrain colon)
+set(STEREONAV_HEADER_FOLDERS engine/base engine/peers engine/math engine/simd engine/text engine/image engine/letters
+  engine/gltf engine/camera engine/render engine/stereo engine/sampling engine/frame engine/late engine/volume engine/light
+  engine/medium engine/nav engine/metrics terrain colon)
 if(STEREONAV_DISPLAY)
-  list(APPEND folders engine/display)
+  list(APPEND STEREONAV_HEADER_FOLDERS engine/display)
 endif()
-foreach(folder ${folders})
+set(STEREONAV_PRIVATE_FOLDERS opencv jxl gdal mpi dcmtk gdcm picture_reader)
+set(left_out)
+foreach(name ${STEREONAV_PRIVATE_FOLDERS})
+  list(APPEND left_out PATTERN ${name} EXCLUDE)
+endforeach()
+foreach(folder ${STEREONAV_HEADER_FOLDERS})
   get_filename_component(parent ${folder} DIRECTORY)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stereonav/${parent} ${development}
-    FILES_MATCHING PATTERN "*.h" PATTERN "opencv" EXCLUDE PATTERN "jxl" EXCLUDE PATTERN "gdal" EXCLUDE
-    PATTERN "mpi" EXCLUDE PATTERN "dcmtk" EXCLUDE PATTERN "gdcm" EXCLUDE PATTERN "picture_reader" EXCLUDE)
+    FILES_MATCHING PATTERN "*.h" ${left_out})
 endforeach()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/package.cmake.in ${CMAKE_BINARY_DIR}/stereonav-config.cmake
