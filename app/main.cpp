@@ -3,9 +3,10 @@
 #include <exception>
 #include <new>
 
+#include "app/command/arguments.h"
+#include "app/command/commands.h"
 #include "app/command/process_facts.h"
 #include "app/command/together.h"
-#include "app/options/arguments.h"
 #include "engine/base/error.h"
 #include "engine/base/stop.h"
 
@@ -14,6 +15,7 @@ int main(int argc, char** argv) {
     stereonav::catchStopSignals();
     try {
         stereonav::joinOthers(argc, argv);
+        stereonav::setCommands(stereonav::programCommands());
         const int status = stereonav::runCommandLine(argc, argv);
         // What was printed has arrived, or the run has failed.
         if (std::fflush(stdout) != 0 || std::ferror(stdout))

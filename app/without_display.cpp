@@ -1,8 +1,7 @@
 // Stands in for the window where the program is built without it: everything that needs it says so.
-
-#include "app/command/commands.h"
 #include "app/options/built_without.h"
 #include "app/report/papers/gpu.h"
+#include "app/view/view_command.h"
 #include "engine/display/window.h"
 
 namespace stereonav {

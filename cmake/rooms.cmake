@@ -69,12 +69,17 @@ function(stereonav_room folder)
   if(ARG_SHARED_WITH_MODULES)
     set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)
   endif()
+  if(STEREONAV_SANITIZE AND folder MATCHES "^app/")
+    target_compile_options(${name} PRIVATE ${STEREONAV_SELDOM_HOT})
+  endif()
   foreach(module ${ARG_MODULES})
     if(TARGET stereonav_${module})  # else its library is not here, and a call of its functions says so
       add_dependencies(${name} stereonav_${module})
     endif()
   endforeach()
-  stereonav_installed(${name})
+  if(NOT folder MATCHES "^app/")
+    stereonav_installed(${name})
+  endif()
 endfunction()
 
 # Other programs may link it: cmake/install.cmake.

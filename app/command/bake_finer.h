@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/command/commands.h"
+#include "app/options/bake_options.h"
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
 #include "terrain/light/terrain_light.h"

@@ -1,7 +1,7 @@
 // `stereonav bake` of a terrain.
 #pragma once
 
-#include "app/command/commands.h"
+#include "app/options/bake_options.h"
 
 namespace stereonav {
 

@@ -1,7 +1,7 @@
 // `stereonav bake` of CT studies and the built-in colon.
 #pragma once
 
-#include "app/command/commands.h"
+#include "app/options/bake_options.h"
 
 namespace stereonav {
 

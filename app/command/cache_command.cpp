@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/options/command.h"
 #include "app/output/command_result.h"
 #include "app/scene/scene_type.h"
 #include "engine/base/cache.h"
@@ -21,6 +22,13 @@
 namespace stereonav {
 namespace {
 namespace fs = std::filesystem;
+
+struct CacheOptions {
+    Telling telling;
+    bool clear = false;
+    std::string older;  // "30d": what was last used before that is removed; "": whatever its age
+    std::string of;  // a study or file, or a folder of some: what was made of it is removed; "": of anything
+};
 
 // What files are by the beginnings of their names.
 constexpr std::array<std::pair<const char*, const char*>, 8> kKeptKinds{
@@ -70,6 +78,25 @@ fs::path sourceNamed(const std::string& text) {
     return whole.has_filename() ? whole : whole.parent_path();
 }
 
+// Hours of "12h", "30d" or "4w"; none: it is none of these.
+std::optional<double> hoursOfAge(const std::string& text) {
+    constexpr double kMost = 1e6;
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [at, failed] = std::from_chars(text.data(), end, number);
+    if (failed != std::errc() || end - at != 1 || !(number >= 0 && number <= kMost)) return std::nullopt;
+    switch (*at) {
+        case 'h':
+            return number;
+        case 'd':
+            return 24 * number;
+        case 'w':
+            return 7 * 24 * number;
+        default:
+            return std::nullopt;
+    }
+}
+
 std::vector<Kept> chosen(std::vector<Kept> all, const CacheOptions& options) {
     if (!options.of.empty()) {
         const fs::path source = sourceNamed(options.of);
@@ -111,30 +138,6 @@ void tellAll(const std::vector<Kept>& all, CommandResult& result) {
     result.add("files", std::move(files));
 }
 
-}  // namespace
-
-std::optional<double> hoursOfAge(const std::string& text) {
-    constexpr double kMost = 1e6;
-    double number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [at, failed] = std::from_chars(text.data(), end, number);
-    if (failed != std::errc() || end - at != 1 || !(number >= 0 && number <= kMost)) return std::nullopt;
-    switch (*at) {
-        case 'h':
-            return number;
-        case 'd':
-            return 24 * number;
-        case 'w':
-            return 7 * 24 * number;
-        default:
-            return std::nullopt;
-    }
-}
-
-void noteSceneAsSource(const fs::path& file, const std::string& scene) {
-    if (!scene.empty() && !isBuiltIn(scene)) noteSource(file, scene);
-}
-
 int runCache(const CacheOptions& options) {
     CommandResult result("cache", options.telling, {});
     const fs::path folder = cacheFolder();
@@ -170,6 +173,45 @@ int runCache(const CacheOptions& options) {
     result.add("limit_bytes", static_cast<std::int64_t>(kMostKept));
     result.finish();
     return 0;
+}
+
+std::optional<ValueProblem> problemOfAge(const std::string& text) {
+    if (hoursOfAge(text)) return std::nullopt;
+    return ValueProblem{"expected a number of hours, days or weeks, got \"" + text + "\"",
+                        "write 12h, 30d or 4w"};
+}
+
+std::vector<Option> cacheOptions() {
+    return {
+        {.key = "clear",
+         .value = flagValue(),
+         .help = "removes all of it, or with --older or --of what they name",
+         .take = [](OptionTargets& to, const OptionValue&) { to.of<CacheOptions>().clear = true; }},
+        {.key = "older",
+         .value = textValue().checked(problemOfAge),
+         .help = "removes what was last used so long ago: 12h, 30d, 4w",
+         .advice = "write 12h, 30d or 4w",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CacheOptions>().older = value.text; }},
+        {.key = "of",
+         .value = fileValue(),
+         .help = "removes what was made of a study, a file, or all in a folder; with --older both must hold",
+         .take = [](OptionTargets& to, const OptionValue& value) { to.of<CacheOptions>().of = value.text; }}};
+}
+
+}  // namespace
+
+void noteSceneAsSource(const fs::path& file, const std::string& scene) {
+    if (!scene.empty() && !isBuiltIn(scene)) noteSource(file, scene);
+}
+
+Command cacheCommand() {
+    return {.name = "cache",
+            .help = "what is kept between runs to save time: its files, and clearing it",
+            .traits = command::kTelling,
+            .chapter = Chapter::Kept,
+            .options = cacheOptions,
+            .start = startOf<CacheOptions, runCache>};
 }
 
 }  // namespace stereonav

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "app/options/command.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -15,6 +16,12 @@
 
 namespace stereonav {
 namespace {
+
+struct CentrelineOptions {
+    SceneOptions scene;
+    Telling telling;
+    std::string out;  // .vtp, .vtk or .txt
+};
 
 void checkCentrelineOptions(const CentrelineOptions& options) {
     if (!isStandardOutput(options.out) && !isCentrelineFileName(options.out))
@@ -33,8 +40,6 @@ void checkCentrelineOptions(const CentrelineOptions& options) {
                                                            : "a terrain or another kind of file"),
             "name a study, or colon for the built-in one");
 }
-
-}  // namespace
 
 int runCentreline(const CentrelineOptions& options) {
     checkCentrelineOptions(options);
@@ -65,6 +70,29 @@ int runCentreline(const CentrelineOptions& options) {
     result.add("largest_radius_mm", most->radius * 1e3);
     result.finish();
     return 0;
+}
+
+std::vector<Option> centrelineOptions() {
+    return {
+        {.key = "out",
+         .value = fileValue(),
+         .help = "the line's file, .vtp or .vtk (poly data) or .txt, or -; millimetres, LPS, from the rectum",
+         .required = true,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CentrelineOptions>().out = value.text; }},
+    };
+}
+
+}  // namespace
+
+Command centrelineCommand() {
+    return {.name = "centreline",
+            .help = "the way through a colon, with its radii, as a file",
+            .scenes = scene_type::kVolumes,
+            .traits = command::kOfColon | command::kTelling,
+            .chapter = Chapter::Shapes,
+            .options = centrelineOptions,
+            .start = startOf<CentrelineOptions, runCentreline>};
 }
 
 }  // namespace stereonav

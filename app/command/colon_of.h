@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "colon/scene/colon_scene.h"
 #include "colon/wall/line_of_sight.h"
 #include "colon/wall/wall_mesh.h"

@@ -1,4 +1,6 @@
 // `stereonav compare`: flies a path with every method and measures time and error.
+#include "app/command/compare_command.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include "app/command/comparison_report.h"
 #include "app/command/narrowed_eyes.h"
 #include "app/command/scene_facts.h"
+#include "app/options/command.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
@@ -138,6 +141,82 @@ ComparisonReport describe(const CompareOptions& options, const Scene& scene, int
     return report;
 }
 
+std::vector<Option> compareOptions() {
+    return {
+        {.key = "frames",
+         .value = wholeValue(within(1, 100'000, "frames")),
+         .help = "evenly over the path",
+         .advice = "24 is the default",
+         .fallback = "24",
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<CompareOptions>().frames = static_cast<int>(value.whole);
+             }},
+        {.key = "methods",
+         .value = wordsValue(),
+         .help = "some of them, as in full,paper,linear",
+         .fallback = "all",
+         .repeated = true,
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<CompareOptions>().methods.insert(to.of<CompareOptions>().methods.end(),
+                                                        value.words.begin(), value.words.end());
+             }},
+        {.key = "relative-separation",
+         .value = fractionValue(within(0, 10)),
+         .help = "separation as a share of the zero-parallax distance, as in 1/30",
+         .advice = "try 1/30",
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<CompareOptions>().relativeSeparation = value.number();
+             }},
+        {.key = "json",
+         .value = fileValue(),
+         .help = "figures as JSON; -: to standard output",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CompareOptions>().json = value.text; }},
+        {.key = "csv",
+         .value = fileValue(),
+         .help = "figures as CSV; -: to standard output",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CompareOptions>().csv = value.text; }},
+        {.key = "images",
+         .value = fileValue(),
+         .help = "folder for pictures of the flight's middle frame",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CompareOptions>().images = value.text; }},
+        {.key = "plot",
+         .value = fileValue(),
+         .help = "error against time as a picture",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CompareOptions>().plot = value.text; }},
+        {.key = "repeats",
+         .value = wholeValue(within(1, 1000, "runs")),
+         .help = "timed ones of a frame, the fastest counts",
+         .advice = "3 is the default",
+         .fallback = "3",
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<CompareOptions>().repeats = static_cast<int>(value.whole);
+             }},
+        {.key = "butteraugli",
+         .value = flagValue(),
+         .help =
+             "how much of the error a person would notice, and a map of it among the pictures of --images",
+         .take = [](OptionTargets& to, const OptionValue&) { to.of<CompareOptions>().butteraugli = true; }},
+        {.key = "truth-rays",
+         .value = wordValue({"4", "16", "64", "256"}),
+         .help = "rays a pixel of the finer truths",
+         .advice = "fewer take less time",
+         .fallback = "64",
+         .scenes = scene_type::kCast,
+         .elsewhere = {nullptr, "does not go with a medium, which has no finer truth",
+                       "leave it out: errors are those from two sweeps"},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CompareOptions>().truthRays = std::stoi(value.text); }},
+    };
+}
+
 }  // namespace
 
 int runCompare(const CompareOptions& options) {
@@ -146,7 +225,7 @@ int runCompare(const CompareOptions& options) {
         messagesBeside({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
-    ProgressBar bar(!options.quiet);
+    ProgressBar bar(!options.telling.quiet);
     const std::unique_ptr<Scene> loaded =
         loadScene(options.scene, options.size, bar.progress(), kCompareBytes);
     Scene& scene = *loaded;
@@ -168,8 +247,19 @@ int runCompare(const CompareOptions& options) {
     bar.clear();
     const bool otherwise =
         !(options.json.empty() && options.csv.empty() && options.plot.empty() && options.images.empty());
-    if (!options.quiet || !otherwise) printLines(messages, tableOf(report));
+    if (!options.telling.quiet || !otherwise) printLines(messages, tableOf(report));
     return 0;
+}
+
+Command compareCommand() {
+    return {.name = "compare",
+            .help = "measure the ways of making the right eye",
+            .scenes = scene_type::kAll,
+            .command = command::kCompare,
+            .traits = command::kShowing,
+            .chapter = Chapter::Measuring,
+            .options = compareOptions,
+            .start = startOf<CompareOptions, runCompare>};
 }
 
 }  // namespace stereonav

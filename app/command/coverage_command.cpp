@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/command/colon_commands.h"
 #include "app/command/colon_of.h"
+#include "app/options/command.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -17,10 +17,23 @@
 #include "colon/instruments/shared_wall.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/camera/view_ranges.h"
 #include "engine/peers/peers.h"
 
 namespace stereonav {
 namespace {
+
+struct CoverageOptions {
+    SceneOptions scene;  // its field of view is that of the picture
+    Telling telling;
+    SizeOption size{512, 512};  // of which the shape alone counts
+    std::string path;           // a recorded flight; "": along the centreline
+    double step_mm = 2;         // between poses, > 0
+    double within_mm = 100;     // from the eye, > 0
+    double angle_deg = 85;      // off the wall's normal, in (0, 90]
+    double patch_mm2 = 300;     // the smallest patch that is listed, >= 0
+    std::string out;            // .csv of the patches, or -; "": not written
+};
 
 void checkCoverageOptions(const CoverageOptions& options) {
     expectColonName(options.scene.scene);
@@ -66,8 +79,6 @@ void tell(CommandResult& result, const CoverageOptions& options, const std::vect
     result.add("patches", std::move(list));
     if (!options.out.empty()) writeTextFile(options.out, csvOf(patches, along));
 }
-
-}  // namespace
 
 int runCoverage(const CoverageOptions& options) {
     Peers& peers = peersOfThisRun();
@@ -125,6 +136,77 @@ int runCoverage(const CoverageOptions& options) {
     if (!options.out.empty()) result.addFile("table", options.out);
     result.finish();
     return 0;
+}
+
+std::vector<Option> coverageOptions() {
+    return {
+        {.key = "fov",
+         .value = numberValue(kFovRange),
+         .help = "vertical field of view",
+         .advice = "90 to 140 is usual",
+         .fallback = "the scene's own",
+         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->fov_deg = value.number(); }},
+        {.key = "size",
+         .value = sizeValue(),
+         .help = "of the picture: its shape alone counts",
+         .advice = "try 1280x720",
+         .fallback = "512x512",
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 *to.size = {static_cast<int>(value.numbers[0]), static_cast<int>(value.numbers[1])};
+             }},
+        {.key = "path",
+         .value = fileValue(),
+         .help = "a recorded path (.gltf, .glb, .path)",
+         .fallback = "along the centreline",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CoverageOptions>().path = value.text; }},
+        {.key = "step",
+         .value = numberValue(within(0.1, 100, "mm")),
+         .help = "between the places of the flight that are looked from",
+         .advice = "2 is fine",
+         .fallback = "2",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CoverageOptions>().step_mm = value.number(); }},
+        {.key = "within",
+         .value = numberValue(above(0, 1e6, "mm")),
+         .help = "how far from the eye wall counts as seen",
+         .advice = "100 is two widths of a colon",
+         .fallback = "100",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CoverageOptions>().within_mm = value.number(); }},
+        {.key = "angle",
+         .value = numberValue(above(0, 90, "degrees")),
+         .help = "how far off its normal wall counts as seen",
+         .advice = "90 leaves nothing out that is on screen",
+         .fallback = "85",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CoverageOptions>().angle_deg = value.number(); }},
+        {.key = "patch",
+         .value = numberValue(within(0, 1e9, "mm^2")),
+         .help = "the smallest unseen patch that is listed and looked at",
+         .advice = "300 is usual in the literature",
+         .fallback = "300",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CoverageOptions>().patch_mm2 = value.number(); }},
+        {.key = "out",
+         .value = fileValue(),
+         .help = "the unseen patches as a table, .csv or -",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<CoverageOptions>().out = value.text; }},
+    };
+}
+
+}  // namespace
+
+Command coverageCommand() {
+    return {.name = "coverage",
+            .help = "what of a colon's wall a flight shows, and what it misses",
+            .scenes = scene_type::kVolumes,
+            .traits = command::kOfColon | command::kTelling,
+            .chapter = Chapter::Colon,
+            .options = coverageOptions,
+            .start = startOf<CoverageOptions, runCoverage>};
 }
 
 }  // namespace stereonav

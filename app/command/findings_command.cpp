@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "app/command/colon_commands.h"
 #include "app/command/colon_of.h"
 #include "app/command/findings_words.h"
+#include "app/options/command.h"
+#include "app/options/option_numbers.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -18,6 +19,18 @@
 
 namespace stereonav {
 namespace {
+
+struct FindingsOptions {
+    SceneOptions scene;
+    Telling telling;
+    bool atTruth = false;                                    // of the built-in colon: where its polyps are
+    std::vector<glm::dvec3> at;                              // LPS, metres
+    std::vector<std::pair<glm::dvec3, glm::dvec3>> between;  // LPS, metres: places whose distance is asked
+    bool candidates = false;                                 // places that look like polyps, too
+    std::string comment;                                     // of the one place in `at`
+    std::string file;                                        // .json that findings are kept in; "": none
+    std::string csv, page, sr;                               // .csv, .html, .dcm, or -; "": not written
+};
 
 void checkPlace(const char* option, const std::string& file, const char* ending,
                 const FindingsOptions& options) {
@@ -126,8 +139,6 @@ void tellFindings(CommandResult& result, const std::vector<Finding>& findings) {
     result.add("missed", missed);
 }
 
-}  // namespace
-
 int runFindings(const FindingsOptions& options) {
     checkFindingsOptions(options);
     CommandResult result(
@@ -166,6 +177,79 @@ int runFindings(const FindingsOptions& options) {
         if (!file.empty()) result.addFile(key, file);
     result.finish();
     return 0;
+}
+
+glm::dvec3 placeFrom(const OptionValue& value, int first) {
+    return glm::dvec3(value.numbers[first], value.numbers[first + 1], value.numbers[first + 2]) / 1000.0;
+}
+
+std::vector<Option> findingsOptions() {
+    return {
+        {.key = "at",
+         .value = numbersValue(seedNumbers()),
+         .help =
+             "a polyp: a place on or in it, left, back, head (of RAS turn the first two signs); several are "
+             "taken",
+         .repeated = true,
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<FindingsOptions>().at.push_back(placeFrom(value, 0));
+             }},
+        {.key = "comment",
+         .value = textValue(),
+         .help = "on the finding of --at",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<FindingsOptions>().comment = value.text; }},
+        {.key = "at-truth",
+         .value = flagValue(),
+         .help = "the polyps of the built-in colon where they are, each measured size beside the true one",
+         .take = [](OptionTargets& to, const OptionValue&) { to.of<FindingsOptions>().atTruth = true; }},
+        {.key = "candidates",
+         .value = flagValue(),
+         .help = "places that look like polyps by their shape, the most likely first: to be looked at",
+         .take = [](OptionTargets& to, const OptionValue&) { to.of<FindingsOptions>().candidates = true; }},
+        {.key = "between",
+         .value = numbersValue(betweenNumbers()),
+         .help = "two places: their distance; several are taken",
+         .repeated = true,
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<FindingsOptions>().between.emplace_back(placeFrom(value, 0), placeFrom(value, 3));
+             }},
+        {.key = "file",
+         .value = fileValue(),
+         .help = "where findings are kept, .json: those in it are measured again, new ones are added",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<FindingsOptions>().file = value.text; }},
+        {.key = "csv",
+         .value = fileValue(),
+         .help = "the findings as a table, .csv or -",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<FindingsOptions>().csv = value.text; }},
+        {.key = "page",
+         .value = fileValue(),
+         .help = "one .html page with pictures of each, or -",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<FindingsOptions>().page = value.text; }},
+        {.key = "sr",
+         .value = fileValue(),
+         .help =
+             "the findings as a DICOM structured report, .dcm or -, with the names in the study's own heads",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<FindingsOptions>().sr = value.text; }},
+    };
+}
+
+}  // namespace
+
+Command findingsCommand() {
+    return {.name = "findings",
+            .help = "polyps measured at places of a colon, as a list, a file and a page",
+            .scenes = scene_type::kVolumes,
+            .traits = command::kOfColon | command::kTelling,
+            .chapter = Chapter::Colon,
+            .options = findingsOptions,
+            .start = startOf<FindingsOptions, runFindings>};
 }
 
 }  // namespace stereonav

@@ -4,6 +4,8 @@
 #include "app/command/frame_facts.h"
 #include "app/command/info_series.h"
 #include "app/command/process_facts.h"
+#include "app/options/command.h"
+#include "app/options/picture_options.h"
 #include "app/output/command_result.h"
 #include "app/output/handed_name.h"
 #include "app/output/progress_bar.h"
@@ -11,6 +13,7 @@
 #include "engine/text/printed.h"
 
 namespace stereonav {
+namespace {
 int runInfo(const InfoOptions& options) {
     if (!options.series.empty()) return listSeriesOf(options);
     ProgressBar bar(!options.telling.quiet);
@@ -33,6 +36,17 @@ int runInfo(const InfoOptions& options) {
     printLine(stdout, scene.name);
     printLines(stdout, linesOf(facts));
     return 0;
+}
+
+}  // namespace
+
+Command infoCommand() {
+    return {.name = "info",
+            .help = "print what was read and the frame plan",
+            .scenes = scene_type::kAll,
+            .command = command::kInfo,
+            .traits = command::kShowing | command::kTelling,
+            .start = startOf<InfoOptions, runInfo>};
 }
 
 }  // namespace stereonav

@@ -1,7 +1,7 @@
 // `stereonav info FOLDER --series-pictures DIR`: which series a DICOM folder holds, with a picture of each.
 #pragma once
 
-#include "app/command/commands.h"
+#include "app/options/picture_options.h"
 
 namespace stereonav {
 

@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "app/command/ground_line_options.h"
 #include "app/output/command_result.h"
 #include "app/output/handed_name.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/ground_figures.h"
 #include "app/scene/scene_loading.h"
-#include "app/scene/survey_line.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/text/csv_text.h"
@@ -26,7 +26,7 @@ struct MeasuredLine {
     std::vector<GroundFigure> figures;
 };
 
-void checkMeasureOptions(const MeasureOptions& options) {
+void checkMeasureOptions(const GroundLineOptions& options) {
     if (options.line.places.empty() && options.area.empty() && options.line.track.empty())
         throw Error("--line", "", "is required, or --area, or --track", "say what is to be measured");
     if (options.plane_m && options.area.empty() && options.line.track.empty())
@@ -104,9 +104,7 @@ void tell(const std::vector<MeasuredLine>& all, CommandResult& result) {
     result.add("measures", std::move(groups));
 }
 
-}  // namespace
-
-int runMeasure(const MeasureOptions& options) {
+int runMeasure(const GroundLineOptions& options) {
     checkMeasureOptions(options);
     CommandResult result("measure", options.telling,
                          {{"--csv", options.csv}, {"--geojson", options.geojson}});
@@ -136,6 +134,19 @@ int runMeasure(const MeasureOptions& options) {
     if (!options.geojson.empty()) result.addFile("geojson", options.geojson);
     result.finish();
     return 0;
+}
+
+}  // namespace
+
+Command measureCommand() {
+    return {.name = "measure",
+            .help = "lengths, areas and volumes on the ground, each with its error",
+            .scenes = scene_type::kTerrains,
+            .command = command::kMeasure,
+            .traits = command::kOfGround | command::kTelling,
+            .chapter = Chapter::Ground,
+            .options = groundLineOptions,
+            .start = startOf<GroundLineOptions, runMeasure>};
 }
 
 }  // namespace stereonav

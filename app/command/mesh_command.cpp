@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "app/options/command.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -16,6 +17,13 @@
 
 namespace stereonav {
 namespace {
+
+struct MeshOptions {
+    SceneOptions scene;
+    Telling telling;
+    std::string out;      // .glb or .gltf
+    double error_m = -1;  // largest vertical error; < 0: half a sample spacing
+};
 
 void checkMeshOptions(const MeshOptions& options) {
     if (!isMeshFileName(options.out))
@@ -44,8 +52,6 @@ MeshPlace meshPlaceOf(const TerrainScene& terrain) {
     place.verticalDatum = terrain.report.verticalDatum;
     return place;
 }
-
-}  // namespace
 
 int runMesh(const MeshOptions& options) {
     checkMeshOptions(options);
@@ -77,6 +83,36 @@ int runMesh(const MeshOptions& options) {
     result.add("asked_error_m", error);
     result.finish();
     return 0;
+}
+
+std::vector<Option> meshOptions() {
+    return {
+        {.key = "out",
+         .value = fileValue(),
+         .help = "the mesh's file, .glb or .gltf",
+         .required = true,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.of<MeshOptions>().out = value.text; }},
+        {.key = "error",
+         .value = numberValue(within(0, 1e9, "metres")),
+         .help = "largest vertical error",
+         .advice = "leave it out for half a sample spacing",
+         .fallback = "half a sample spacing",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<MeshOptions>().error_m = value.number(); }},
+    };
+}
+
+}  // namespace
+
+Command meshCommand() {
+    return {.name = "mesh",
+            .help = "the ground with its colour as a glTF mesh",
+            .scenes = scene_type::kTerrains,
+            .command = command::kMesh,
+            .traits = command::kOfGround | command::kTelling,
+            .chapter = Chapter::Shapes,
+            .options = meshOptions,
+            .start = startOf<MeshOptions, runMesh>};
 }
 
 }  // namespace stereonav

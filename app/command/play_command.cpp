@@ -1,4 +1,6 @@
 // `stereonav play`: a flight into numbered pictures, a video, or one hash of all frames.
+#include "app/command/play_command.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include "app/command/play_frames.h"
 #include "app/command/quality.h"
 #include "app/command/scene_facts.h"
+#include "app/options/command.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -212,6 +215,15 @@ int runPlay(const PlayOptions& options) {
     }
     result.finish();
     return 0;
+}
+
+Command playCommand() {
+    return {.name = "play",
+            .help = "a flight into pictures, a video, or a hash",
+            .scenes = scene_type::kAll,
+            .command = command::kPlay,
+            .traits = command::kShowing | command::kTelling,
+            .start = startOf<PlayOptions, runPlay>};
 }
 
 }  // namespace stereonav

@@ -3,19 +3,19 @@
 
 #include <cmath>
 
+#include "app/command/ground_line_options.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/profile_chart.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
-#include "app/scene/survey_line.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
 namespace stereonav {
 namespace {
 
-void checkProfileOptions(const ProfileOptions& options) {
+void checkProfileOptions(const GroundLineOptions& options) {
     const SurveyLine& line = options.line;
     if (line.places.empty() && line.track.empty() && line.path.empty())
         throw Error("--line", "", "is required, or --track, or --path", "say where the profile goes");
@@ -44,9 +44,7 @@ std::string tableOf(const SurveyGround& survey, const std::vector<LinePoint>& po
     return text;
 }
 
-}  // namespace
-
-int runProfile(const ProfileOptions& options) {
+int runProfile(const GroundLineOptions& options) {
     checkProfileOptions(options);
     CommandResult result("profile", options.telling, {{"--csv", options.csv}, {"--svg", options.svg}});
     ProgressBar bar(!options.telling.quiet);
@@ -86,6 +84,18 @@ int runProfile(const ProfileOptions& options) {
     if (!options.svg.empty()) result.addFile("svg", options.svg);
     result.finish();
     return 0;
+}
+
+}  // namespace
+
+Command profileCommand() {
+    return {.name = "profile",
+            .help = "the ground along a line, a track or a flight",
+            .scenes = scene_type::kTerrains,
+            .command = command::kProfile,
+            .traits = command::kOfGround | command::kTelling,
+            .chapter = Chapter::Ground,
+            .start = startOf<GroundLineOptions, runProfile>};
 }
 
 }  // namespace stereonav

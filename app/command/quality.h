@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/shown_as.h"
 #include "engine/base/progress.h"

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "app/command/colon_commands.h"
 #include "app/command/colon_of.h"
+#include "app/options/command.h"
+#include "app/options/option_numbers.h"
+#include "app/options/typed_values.h"
 #include "app/output/command_result.h"
 #include "app/output/handed_name.h"
 #include "app/output/output_place.h"
@@ -19,6 +21,17 @@
 
 namespace stereonav {
 namespace {
+
+struct RegisterOptions {
+    SceneOptions scene;
+    Telling telling;
+    std::string with;            // the other study, or colon
+    double bend_mm = 0;          // of the other one where it is the built-in colon
+    double inflate = 1;          //
+    std::vector<glm::dvec3> at;  // LPS, metres, in the first study
+    bool force = false;          // though both do not match
+    std::string out;             // .csv, or -; "": not written
+};
 
 constexpr double kTableStep = 0.005;  // metres between rows of the table
 
@@ -110,8 +123,6 @@ std::string tableOf(const ColonScene& first, const ColonScene& second, const Lin
     return text;
 }
 
-}  // namespace
-
 int runRegister(const RegisterOptions& options) {
     checkRegisterOptions(options);
     CommandResult result("register", options.telling, {{"--out", options.out}});
@@ -149,6 +160,67 @@ int runRegister(const RegisterOptions& options) {
     }
     result.finish();
     return 0;
+}
+
+std::vector<Option> registerOptions() {
+    return {
+        {.key = "with",
+         .value = fileValue(),
+         .help = "the other study, or colon for the built-in one",
+         .required = true,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<RegisterOptions>().with = value.text; }},
+        {.key = "with",
+         .value = fileValue(),
+         .help = "another study of the same colon, whose matching place is shown beside the eye",
+         .fallback = "none",
+         .commands = command::kView,
+         .scenes = scene_type::kSurfaces,
+         .take = [](OptionTargets&, const OptionValue&) {}},  // the window has it among its texts
+        {.key = "at",
+         .value = numbersValue(seedNumbers()),
+         .help = "a place of the first study that is looked for in the other; several are taken",
+         .repeated = true,
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<RegisterOptions>().at.push_back(placeOf(value) / 1000.0);
+             }},
+        {.key = "bend",
+         .value = numberValue(within(0, 30, "mm")),
+         .help = "of --with colon: its loops lie elsewhere, by this much at most",
+         .advice = "10 is a patient who has turned round",
+         .fallback = "0",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<RegisterOptions>().bend_mm = value.number(); }},
+        {.key = "inflate",
+         .value = numberValue(within(0.7, 1.4)),
+         .help = "of --with colon: a factor on its radii",
+         .advice = "1.2 is more gas",
+         .fallback = "1",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<RegisterOptions>().inflate = value.number(); }},
+        {.key = "force",
+         .value = flagValue(),
+         .help = "places are told though the two studies do not match",
+         .take = [](OptionTargets& to, const OptionValue&) { to.of<RegisterOptions>().force = true; }},
+        {.key = "out",
+         .value = fileValue(),
+         .help = "places of both every 5 mm as a table, .csv or -",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<RegisterOptions>().out = value.text; }},
+    };
+}
+
+}  // namespace
+
+Command registerCommand() {
+    return {.name = "register",
+            .help = "places of a colon in another study of it",
+            .scenes = scene_type::kVolumes,
+            .traits = command::kOfColon | command::kTelling,
+            .chapter = Chapter::Colon,
+            .options = registerOptions,
+            .start = startOf<RegisterOptions, runRegister>};
 }
 
 }  // namespace stereonav

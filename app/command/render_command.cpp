@@ -4,6 +4,8 @@
 #include "app/command/paint_notes.h"
 #include "app/command/quality.h"
 #include "app/command/scene_facts.h"
+#include "app/options/command.h"
+#include "app/options/picture_options.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -67,8 +69,6 @@ void tellOfRays(CommandResult& result, const StereoFrame& frame, const RayOption
         missed ? fmt::format(", less than the {} that were asked for", *wished.until_db) : ""));
 }
 
-}  // namespace
-
 int runRender(const RenderOptions& options) {
     checkStereoPicture("--out", options.out);
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
@@ -123,6 +123,17 @@ int runRender(const RenderOptions& options) {
     }
     result.finish();
     return 0;
+}
+
+}  // namespace
+
+Command renderCommand() {
+    return {.name = "render",
+            .help = "one pose into a picture",
+            .scenes = scene_type::kAll,
+            .command = command::kRender,
+            .traits = command::kShowing | command::kTelling,
+            .start = startOf<RenderOptions, runRender>};
 }
 
 }  // namespace stereonav

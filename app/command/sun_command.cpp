@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/options/command.h"
+#include "app/options/usual_words.h"
 #include "app/options/utc_text.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
@@ -21,6 +23,15 @@
 
 namespace stereonav {
 namespace {
+
+struct SunOptions {
+    SceneOptions scene;
+    Telling telling;
+    std::string at;        // "2026-06-21T19:30": UTC
+    double step_min = 20;  // of the hours of sun
+    std::string out;       // GeoTIFF of them, "": not written
+    std::string picture;   // of them
+};
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -102,8 +113,6 @@ void writeHours(const SunOptions& options, const SurveyGround& survey, const Sun
     result.add("time_ms", time_ms);
 }
 
-}  // namespace
-
 int runSun(const SunOptions& options) {
     checkSunOptions(options);
     CommandResult result("sun", options.telling, {});
@@ -134,6 +143,51 @@ int runSun(const SunOptions& options) {
                     set ? utcText(*set) : "none within a day"));
     result.finish();
     return 0;
+}
+
+std::optional<ValueProblem> problemOfTime(const std::string& text) {
+    if (secondsFromText(text)) return std::nullopt;
+    return ValueProblem{"expected a date and a time in UTC, got " + shownText(text),
+                        "as in 2026-06-21T19:30"};
+}
+
+std::vector<Option> sunOptions() {
+    return {
+        {.key = "at",
+         .value = textValue().checked(problemOfTime),
+         .help = "date and time in UTC, 2026-06-21T19:30",
+         .required = true,
+         .take = [](OptionTargets& to, const OptionValue& value) { to.of<SunOptions>().at = value.text; }},
+        {.key = "step",
+         .value = numberValue(within(1, 60, "minutes")),
+         .help = "between the places of the sun that hours are counted from",
+         .fallback = "20",
+         .rules = {{[](const Asked& asked) { return !asked.has("out") && !asked.has("picture"); },
+                    "has an effect on --out and --picture alone", kLeaveItOut}},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<SunOptions>().step_min = value.number(); }},
+        {.key = "out",
+         .value = fileValue(),
+         .help = "hours of sun on that day as a GeoTIFF over the ground's samples, .tif",
+         .take = [](OptionTargets& to, const OptionValue& value) { to.of<SunOptions>().out = value.text; }},
+        {.key = "picture",
+         .value = fileValue(),
+         .help = "the same as a picture, from black to white, north up",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<SunOptions>().picture = value.text; }},
+    };
+}
+
+}  // namespace
+
+Command sunCommand() {
+    return {.name = "sun",
+            .help = "where the sun stands at a time, and how long it shines on the ground",
+            .scenes = scene_type::kTerrains,
+            .traits = command::kOfGround | command::kTelling,
+            .chapter = Chapter::Ground,
+            .options = sunOptions,
+            .start = startOf<SunOptions, runSun>};
 }
 
 }  // namespace stereonav

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 
-#include "app/command/colon_commands.h"
 #include "app/command/colon_of.h"
 #include "app/command/findings_words.h"
+#include "app/options/command.h"
+#include "app/options/option_numbers.h"
+#include "app/options/typed_values.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -19,6 +21,17 @@
 
 namespace stereonav {
 namespace {
+
+struct UnfoldOptions {
+    SceneOptions scene;
+    Telling telling;
+    std::string out, distortion, panorama;  // pictures; but for `out` "": not written
+    double pixel_mm = 0.5;                  // of the wall, > 0
+    std::vector<glm::dvec3> at;             // LPS, metres
+    std::vector<std::pair<int, int>> pick;  // pixels
+    std::string findings;                   // .json of `findings`, marked; "": none
+    bool candidates = false, truth = false;
+};
 
 constexpr double kShownWithin = 0.002;  // metres: a place is shown where the picture shows wall so near
 const glm::vec3 kTruthColor(0.02f, 0.6f, 0.1f), kFindingColor(0.9f, 0.6f, 0.0f),
@@ -152,8 +165,6 @@ void drawPanorama(CommandResult& result, const UnfoldOptions& options, const Fla
     result.add("from_either_percent", 100 * shares.either);
 }
 
-}  // namespace
-
 int runUnfold(const UnfoldOptions& options) {
     checkUnfoldOptions(options);
     CommandResult result(
@@ -196,6 +207,77 @@ int runUnfold(const UnfoldOptions& options) {
     result.add("hidden_percent", hides);
     result.finish();
     return 0;
+}
+
+std::vector<Option> unfoldOptions() {
+    return {
+        {.key = "out",
+         .value = fileValue(),
+         .help = "the picture, .png or .ppm",
+         .required = true,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<UnfoldOptions>().out = value.text; }},
+        {.key = "distortion",
+         .value = fileValue(),
+         .help = "a picture of how true its areas are: red is drawn too large, blue too small",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<UnfoldOptions>().distortion = value.text; }},
+        {.key = "panorama",
+         .value = fileValue(),
+         .help = "a picture of the wall as it is seen along the line, ahead from the rectum and back from "
+                 "the caecum",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<UnfoldOptions>().panorama = value.text; }},
+        {.key = "pixel",
+         .value = numberValue(within(0.1, 10, "mm")),
+         .help = "of the wall, the side of a pixel",
+         .advice = "0.5 is about a voxel",
+         .fallback = "0.5",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<UnfoldOptions>().pixel_mm = value.number(); }},
+        {.key = "at",
+         .value = numbersValue(seedNumbers()),
+         .help = "a place on the wall: which pixel shows it; several are taken",
+         .repeated = true,
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<UnfoldOptions>().at.push_back(placeOf(value) / 1000.0);
+             }},
+        {.key = "pick",
+         .value = numbersValue(pixelNumbers()),
+         .help = "a pixel: which place it shows; several are taken",
+         .repeated = true,
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<UnfoldOptions>().pick.emplace_back(static_cast<int>(value.numbers[0]),
+                                                          static_cast<int>(value.numbers[1]));
+             }},
+        {.key = "findings",
+         .value = fileValue(),
+         .help = "a file of stereonav findings, .json: outlined in yellow",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<UnfoldOptions>().findings = value.text; }},
+        {.key = "candidates",
+         .value = flagValue(),
+         .help = "places that look like polyps by their shape: outlined in blue",
+         .take = [](OptionTargets& to, const OptionValue&) { to.of<UnfoldOptions>().candidates = true; }},
+        {.key = "truth",
+         .value = flagValue(),
+         .help = "the polyps of the built-in colon: outlined in green, and how each is shown",
+         .take = [](OptionTargets& to, const OptionValue&) { to.of<UnfoldOptions>().truth = true; }},
+    };
+}
+
+}  // namespace
+
+Command unfoldCommand() {
+    return {.name = "unfold",
+            .help = "a colon's wall laid flat, as a picture",
+            .scenes = scene_type::kVolumes,
+            .traits = command::kOfColon | command::kTelling,
+            .chapter = Chapter::Colon,
+            .options = unfoldOptions,
+            .start = startOf<UnfoldOptions, runUnfold>};
 }
 
 }  // namespace stereonav

@@ -3,6 +3,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/options/command.h"
+#include "app/options/option_numbers.h"
+#include "app/options/usual_words.h"
 #include "app/output/command_result.h"
 #include "app/output/length_text.h"
 #include "app/output/output_place.h"
@@ -18,6 +21,24 @@
 
 namespace stereonav {
 namespace {
+
+// A place on the ground: x, y as the elevation model's reference system has them, metres above the ground.
+struct SurveyPlace {
+    glm::dvec2 reference{0.0};
+    std::optional<double> height_m;
+};
+
+struct ViewshedOptions {
+    SceneOptions scene;
+    Telling telling;
+    SurveyPlace from;
+    std::optional<SurveyPlace> to;  // a line of sight
+    double targetHeight_m = 0;      // of what is looked at, over the samples
+    double reach_m = 0;             // 0: all of the ground
+    bool curvature = false;
+    std::optional<double> refraction;  // share of the curvature; none: the usual one
+    std::string out;                   // GeoTIFF; "": not written
+};
 
 constexpr double kUsualEye = 1.7;  // metres: of a person who stands
 
@@ -98,8 +119,6 @@ void writeShed(const ViewshedOptions& options, const SurveyGround& survey, const
     result.add("time_ms", time_ms);
 }
 
-}  // namespace
-
 int runViewshed(const ViewshedOptions& options) {
     checkViewshedOptions(options);
     CommandResult result("viewshed", options.telling, {});
@@ -124,6 +143,81 @@ int runViewshed(const ViewshedOptions& options) {
     if (options.to) tellSight(options, survey, eye, result);
     result.finish();
     return 0;
+}
+
+SurveyPlace surveyPlaceOf(const OptionValue& value) {
+    SurveyPlace place;
+    place.reference = {value.numbers[0], value.numbers[1]};
+    if (value.numbers.size() > 2) place.height_m = value.numbers[2];
+    return place;
+}
+
+bool seesNoGround(const Asked& asked) {
+    return !asked.has("out");
+}
+
+std::vector<Option> viewshedOptions() {
+    return {
+        {.key = "from",
+         .value = numbersValue(groundPlaceNumbers()),
+         .help = "the eye: x,y in the reference system of the elevation model's file, without one metres "
+                 "east and "
+                 "north of its middle",
+         .required = true,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ViewshedOptions>().from = surveyPlaceOf(value); }},
+        {.key = "to",
+         .value = numbersValue(groundPlaceNumbers()),
+         .help = "a second place: whether both see each other, and how far the line passes over the ground",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ViewshedOptions>().to = surveyPlaceOf(value); }},
+        {.key = "target-height",
+         .value = numberValue(within(0, 1e6, "metres")),
+         .help = "of what is looked at, above the ground",
+         .fallback = "0, the ground itself",
+         .rules = {{seesNoGround, "has an effect on --out alone",
+                    "leave it out; --to has a height of its own"}},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ViewshedOptions>().targetHeight_m = value.number(); }},
+        {.key = "reach",
+         .value = numberValue(above(0, 1e9, "metres")),
+         .help = "how far one sees, over the plan",
+         .fallback = "all of the ground",
+         .rules = {{seesNoGround, "has an effect on --out alone", kLeaveItOut}},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ViewshedOptions>().reach_m = value.number(); }},
+        {.key = "curvature",
+         .value = flagValue(),
+         .help = "the ground sinks as the Earth is round, or the body that it is of, less what air bends "
+                 "light by",
+         .take = [](OptionTargets& to, const OptionValue&) { to.of<ViewshedOptions>().curvature = true; }},
+        {.key = "refraction",
+         .value = numberValue({0, 1, false, true}),
+         .help = "share of the curvature that light follows",
+         .advice = "0.13 is usual by day, 0 leaves it out",
+         .fallback = "0.13, on other bodies than the Earth 0",
+         .rules = {{[](const Asked& asked) { return !asked.has("curvature"); },
+                    "has an effect with --curvature alone", "add it, or leave this out"}},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ViewshedOptions>().refraction = value.number(); }},
+        {.key = "out",
+         .value = fileValue(),
+         .help = "a GeoTIFF over the ground's samples, .tif: 255 seen, 0 hidden, 128 no ground",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ViewshedOptions>().out = value.text; }},
+    };
+}
+
+}  // namespace
+
+Command viewshedCommand() {
+    return {.name = "viewshed",
+            .help = "what of the ground is seen from a place, and whether two places see each other",
+            .scenes = scene_type::kTerrains,
+            .traits = command::kOfGround | command::kTelling,
+            .chapter = Chapter::Ground,
+            .options = viewshedOptions,
+            .start = startOf<ViewshedOptions, runViewshed>};
 }
 
 }  // namespace stereonav

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "app/options/option_table.h"
+#include "app/options/command.h"
 #include "app/options/pages.h"
 
 namespace stereonav {
@@ -13,7 +13,7 @@ namespace {
 
 std::vector<std::string> namesOfCommands() {
     std::vector<std::string> names;
-    for (const CommandFacts& facts : commandFacts()) names.emplace_back(facts.name);
+    for (const Command& facts : commands()) names.emplace_back(facts.name);
     for (const PageFacts& page : pageFacts()) names.emplace_back(page.name);
     return names;
 }
@@ -32,7 +32,7 @@ std::string wordsBehind(const Option& option) {
 }
 
 // A case of the script: what is offered behind this option.
-std::string caseOf(const CommandFacts& facts, const Option& option) {
+std::string caseOf(const Command& facts, const Option& option) {
     const std::string words = wordsBehind(option);
     const std::string offered = option.value.isFile() ? fmt::format("files=1 words=\"{}\"", words)
                                                       : fmt::format("words=\"{}\"", words);
@@ -42,9 +42,9 @@ std::string caseOf(const CommandFacts& facts, const Option& option) {
 }  // namespace
 
 std::string bashCompletion() {
-    const std::string commands = fmt::format("{}", fmt::join(namesOfCommands(), " "));
+    const std::string names = fmt::format("{}", fmt::join(namesOfCommands(), " "));
     std::string options, behind;
-    for (const CommandFacts& facts : commandFacts()) {
+    for (const Command& facts : commands()) {
         options += fmt::format("        {}) words=\"{}\" ;;\n", facts.name, optionsOf(facts.command));
         for (const Option& option : optionTable())
             if ((option.commands & facts.command) && !option.positional() &&
@@ -80,7 +80,7 @@ _stereonav() {{
 }}
 complete -o filenames -F _stereonav stereonav
 )",
-                       commands, options, behind);
+                       names, options, behind);
 }
 
 }  // namespace stereonav

@@ -1,6 +1,7 @@
 // Which options were given, with their values and where they stand.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,7 +10,7 @@
 
 namespace stereonav {
 
-using CommandSet = unsigned;  // bits of command::k...
+using CommandSet = std::uint64_t;  // bits of command::k... (option_table.h)
 
 class GivenOptions {
 public:

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "app/options/built_without.h"
-#include "app/options/option_table.h"
+#include "app/options/command.h"
 #include "app/options/option_words.h"
 #include "app/options/pages.h"
 
@@ -157,7 +157,7 @@ std::string optionHead(const Option& option) {
 }
 
 // "render [SCENE] --out FILE [OPTION ...]"
-std::string usage(const CommandFacts& command) {
+std::string usage(const Command& command) {
     std::string line = bold(std::string("stereonav ") + command.name);
     for (const Option& option : optionTable())
         if ((option.commands & command.command) && (option.positional() || option.required))
@@ -167,7 +167,7 @@ std::string usage(const CommandFacts& command) {
 
 std::string synopsis() {
     std::string page = section("SYNOPSIS") + bold("stereonav") + "\n";
-    for (const CommandFacts& command : commandFacts()) page += ".br\n" + usage(command);
+    for (const Command& command : commands()) page += ".br\n" + usage(command);
     for (const PageFacts& facts : pageFacts())
         page += ".br\n" + bold(fmt::format("stereonav {}{}{}", facts.name, *facts.of ? " " : "", facts.of)) +
                 "\n";
@@ -175,13 +175,13 @@ std::string synopsis() {
            bold("stereonav --version") + "\n";
 }
 
-std::string commands() {
+std::string commandSection() {
     std::string page = section("COMMANDS");
     page += paragraph(
         "Without a command the program flies the built-in terrain in a window, or, where there is no "
         "display, "
         "plays its flight to out/ and prints the table of compare.");
-    for (const CommandFacts& command : commandFacts())
+    for (const Command& command : commands())
         page += entry(bold(command.name), std::string(command.help) + ".");
     for (const PageFacts& facts : pageFacts())
         page +=
@@ -238,7 +238,7 @@ std::string manPage() {
             "Results appear whole or not at all, never over a file that was read, and do not depend on the "
             "number of threads. In the window F1 lists all keys.");
     page += section("SCENES") + paragraph("SCENE is one of:") + entries(kScenes);
-    page += commands() + options();
+    page += commandSection() + options();
     page += section("EXIT STATUS") + entries(kStatuses);
     page += section("FILES") + entries(kFiles);
     page += section("ENVIRONMENT") + entries(kEnvironment);

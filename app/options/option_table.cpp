@@ -4,38 +4,15 @@
 #include <array>
 #include <utility>
 
+#include "app/options/command.h"
+
 namespace stereonav {
 namespace {
 
-constexpr std::array<CommandFacts, 18> kCommands{{
-    {command::kInfo, "info", "print what was read and the frame plan", scene_type::kAll},
-    {command::kRender, "render", "one pose into a picture", scene_type::kAll},
-    {command::kPlay, "play", "a flight into pictures, a video, or a hash", scene_type::kAll},
-    {command::kCompare, "compare", "measure the ways of making the right eye", scene_type::kAll},
-    {command::kReport, "report",
-     "a page of error against time for every shortcut the program takes; up to 10 minutes", 0},
-    {command::kMesh, "mesh", "the ground with its colour as a glTF mesh", scene_type::kTerrains},
-    {command::kViewshed, "viewshed",
-     "what of the ground is seen from a place, and whether two places see each other", scene_type::kTerrains},
-    {command::kMeasure, "measure", "lengths, areas and volumes on the ground, each with its error",
-     scene_type::kTerrains},
-    {command::kProfile, "profile", "the ground along a line, a track or a flight", scene_type::kTerrains},
-    {command::kSun, "sun", "where the sun stands at a time, and how long it shines on the ground",
-     scene_type::kTerrains},
-    {command::kCentreline, "centreline", "the way through a colon, with its radii, as a file",
-     scene_type::kVolumes},
-    {command::kBake, "bake",
-     "light worked out before, with bounces and soft shadows; Ctrl-C keeps what is done",
-     scene_type::kTerrains | scene_type::kVolumes},
-    {command::kCoverage, "coverage", "what of a colon's wall a flight shows, and what it misses",
-     scene_type::kVolumes},
-    {command::kFindings, "findings", "polyps measured at places of a colon, as a list, a file and a page",
-     scene_type::kVolumes},
-    {command::kRegister, "register", "places of a colon in another study of it", scene_type::kVolumes},
-    {command::kUnfold, "unfold", "a colon's wall laid flat, as a picture", scene_type::kVolumes},
-    {command::kCache, "cache", "what is kept between runs to save time: its files, and clearing it", 0},
-    {command::kView, "view", "fly through the scene in a window", scene_type::kAll},
-}};
+std::vector<Command>& allCommands() {
+    static std::vector<Command> all;
+    return all;
+}
 
 // Any option by its key, in the words of a scene file.
 std::vector<Option> setOption() {
@@ -45,7 +22,7 @@ std::vector<Option> setOption() {
          .value = textValue(),
          .help =
              "KEY=VALUE: another option by the key that it has in a scene file; may be given several times",
-         .commands = kShowing | kMesh | kSurveying | kColonInstruments | kCentreline | kBake,
+         .commands = kWithScene,
          .repeated = true,
          .take = [](OptionTargets&, const OptionValue&) {}}};
 }
@@ -54,46 +31,62 @@ struct Part {
     std::vector<Option> (*options)();
     bool inFile;  // whether scene files may say them
 };
-constexpr std::array<Part, 20> kParts{{{sourceOptions, true},
-                                       {studyOptions, true},
-                                       {lookOptions, true},
-                                       {paintOptions, true},
-                                       {groundPaintOptions, true},
-                                       {volumeLookOptions, true},
-                                       {qualityOptions, true},
-                                       {mediumOptions, true},
-                                       {tracedOptions, true},
-                                       {viewOptions, true},
-                                       {pictureOptions, false},
-                                       {meshAndLineOptions, false},
-                                       {surveyOptions, false},
-                                       {compareOptions, false},
-                                       {reportOptions, false},
-                                       {bakeOptions, false},
-                                       {colonInstrumentOptions, false},
-                                       {cacheOptions, false},
-                                       {setOption, false},
-                                       {tellingOptions, false}}};
+constexpr std::array<Part, 11> kShownParts{{{sourceOptions, true},
+                                            {studyOptions, true},
+                                            {lookOptions, true},
+                                            {paintOptions, true},
+                                            {groundPaintOptions, true},
+                                            {volumeLookOptions, true},
+                                            {qualityOptions, true},
+                                            {mediumOptions, true},
+                                            {tracedOptions, true},
+                                            {viewOptions, true},
+                                            {pictureOptions, false}}};
+constexpr std::array<Part, 2> kLastParts{{{setOption, false}, {tellingOptions, false}}};
+
+// The bits of the commands that a row is for, which names them or traits of them.
+CommandSet commandsWith(CommandSet asked) {
+    CommandSet found = 0;
+    for (const Command& command : commands())
+        if (asked & (command.command | command.traits)) found |= command.command;
+    return found;
+}
+
+void addPart(const Part& part, CommandSet owner, std::vector<Option>& all) {
+    for (Option& option : part.options()) {
+        option.inFile = part.inFile && !option.positional() && option.inFile;
+        option.commands = option.commands ? commandsWith(option.commands) : owner;
+        all.push_back(std::move(option));
+    }
+}
 
 std::vector<Option> makeTable() {
+    std::vector<const Command*> byChapter;
+    for (const Command& command : commands())
+        if (command.options) byChapter.push_back(&command);
+    std::ranges::stable_sort(byChapter, {}, [](const Command* command) { return command->chapter; });
     std::vector<Option> all;
-    for (const Part& part : kParts)
-        for (Option& option : part.options()) {
-            option.inFile = part.inFile && !option.positional() && option.inFile;
-            all.push_back(std::move(option));
-        }
+    for (const Part& part : kShownParts) addPart(part, 0, all);
+    for (const Command* command : byChapter) addPart({command->options, false}, command->command, all);
+    for (const Part& part : kLastParts) addPart(part, 0, all);
     return all;
 }
 
 }  // namespace
 
-std::span<const CommandFacts> commandFacts() {
-    return kCommands;
+void setCommands(std::vector<Command> commands) {
+    CommandSet own = CommandSet{1} << 32;  // beyond those that have a name
+    for (Command& command : commands)
+        if (command.command == 0) command.command = std::exchange(own, own << 1);
+    allCommands() = std::move(commands);
 }
 
-const CommandFacts& factsOf(CommandSet command) {
-    return *std::find_if(kCommands.begin(), kCommands.end(),
-                         [&](const CommandFacts& facts) { return facts.command == command; });
+std::span<const Command> commands() {
+    return allCommands();
+}
+
+const Command& commandOf(CommandSet command) {
+    return *std::ranges::find(allCommands(), command, &Command::command);
 }
 
 const std::vector<Option>& optionTable() {

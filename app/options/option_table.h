@@ -3,67 +3,28 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "app/command/cache_command.h"
-#include "app/command/colon_commands.h"
-#include "app/command/commands.h"
 #include "app/options/given_options.h"
+#include "app/options/option_targets.h"
 #include "app/options/option_value.h"
 #include "app/options/scene_types.h"
 
 namespace stereonav {
 
 namespace command {
-constexpr CommandSet kInfo = 1, kRender = 2, kPlay = 4, kCompare = 8, kReport = 16, kMesh = 32,
-                     kCentreline = 64, kBake = 128, kView = 256, kViewshed = 1 << 12, kMeasure = 1 << 13,
-                     kProfile = 1 << 14, kSun = 1 << 15;
-constexpr CommandSet kSurveying = kViewshed | kMeasure | kProfile | kSun;  // of the ground
-// Instruments of colons: app/command/colon_commands.h.
-constexpr CommandSet kCoverage = 1 << 16, kFindings = 1 << 17, kRegister = 1 << 18, kUnfold = 1 << 19;
-constexpr CommandSet kColonInstruments = kCoverage | kFindings | kRegister | kUnfold;
-constexpr CommandSet kCache = 1 << 20;                                       // what is kept between runs
-constexpr CommandSet kShowing = kInfo | kRender | kPlay | kCompare | kView;  // any scene, as it looks
+// Commands that rows of others, or the window, name. All others get a bit of their own from setCommands().
+constexpr CommandSet kInfo = 1 << 0, kRender = 1 << 1, kPlay = 1 << 2, kCompare = 1 << 3, kReport = 1 << 4,
+                     kMesh = 1 << 5, kBake = 1 << 6, kView = 1 << 7, kMeasure = 1 << 8, kProfile = 1 << 9;
+// Traits of commands: rows are for all that have one.
+constexpr CommandSet kShowing = 1 << 16,  // any scene, as it looks
+    kOfGround = 1 << 17, kOfColon = 1 << 18,
+                     kTelling = 1 << 19;  // what was done, as a document on standard output
+constexpr CommandSet kWithScene = kShowing | kOfGround | kOfColon | kBake;
+constexpr CommandSet kAll = ~CommandSet{0};
 }  // namespace command
-
-struct CommandFacts {
-    CommandSet command;
-    const char* name;
-    const char* help;
-    SceneSet scenes;  // that it takes; 0: its own
-};
-std::span<const CommandFacts> commandFacts();
-const CommandFacts& factsOf(CommandSet command);
-
-// Where the values of one command go; null: it has none.
-struct OptionTargets {
-    SceneOptions* scene = nullptr;
-    SizeOption* size = nullptr;
-    std::string *method = nullptr, *path = nullptr, *out = nullptr;
-    OutputMode* mode = nullptr;
-    bool *json = nullptr, *quiet = nullptr;
-    RayOptions* rays = nullptr;
-    InfoOptions* info = nullptr;
-    RenderOptions* render = nullptr;
-    PlayOptions* play = nullptr;
-    CompareOptions* compare = nullptr;
-    ReportOptions* report = nullptr;
-    MeshOptions* mesh = nullptr;
-    ViewshedOptions* viewshed = nullptr;
-    MeasureOptions* measure = nullptr;
-    ProfileOptions* profile = nullptr;
-    SunOptions* sun = nullptr;
-    BakeOptions* bake = nullptr;
-    CoverageOptions* coverage = nullptr;
-    FindingsOptions* findings = nullptr;
-    RegisterOptions* registration = nullptr;
-    UnfoldOptions* unfold = nullptr;
-    CacheOptions* cache = nullptr;
-    ViewOptions* view = nullptr;
-};
 
 // What a rule looks at.
 struct Asked {
@@ -97,7 +58,7 @@ struct Option {
     const char* advice = "";    // what to write instead of what is refused
     const char* group = "";     // under which help lists it
     const char* fallback = "";  // what holds where it is left out
-    CommandSet commands = 0;    // that have it
+    CommandSet commands = 0;    // that have it; a command's own options leave it out
     SceneSet scenes = scene_type::kAll;
     OptionRule elsewhere{};  // what is said with another scene, where it is not said by the types
     std::vector<Exclusion> excludes{};
@@ -121,7 +82,7 @@ const Option* findOption(CommandSet command, std::string_view key);
 
 constexpr const char* kSetKey = "set";  // gives any other option: --set fov=45
 
-// The parts of the table.
+// The parts of the table that commands share.
 std::vector<Option> sourceOptions();
 std::vector<Option> studyOptions();
 std::vector<Option> lookOptions();
@@ -134,12 +95,5 @@ std::vector<Option> tracedOptions();
 std::vector<Option> viewOptions();
 std::vector<Option> pictureOptions();
 std::vector<Option> tellingOptions();
-std::vector<Option> meshAndLineOptions();
-std::vector<Option> surveyOptions();
-std::vector<Option> compareOptions();
-std::vector<Option> reportOptions();
-std::vector<Option> bakeOptions();
-std::vector<Option> colonInstrumentOptions();
-std::vector<Option> cacheOptions();
 
 }  // namespace stereonav

@@ -8,10 +8,10 @@
 namespace stereonav {
 namespace {
 
-std::string commandsText(CommandSet commands) {
+std::string commandsText(CommandSet which) {
     std::vector<std::string> names;
-    for (const CommandFacts& facts : commandFacts())
-        if (commands & facts.command) names.emplace_back(facts.name);
+    for (const Command& facts : commands())
+        if (which & facts.command) names.emplace_back(facts.name);
     return fmt::format("{}", fmt::join(names, ", "));
 }
 

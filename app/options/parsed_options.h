@@ -2,40 +2,26 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
-#include "app/command/commands.h"
-#include "app/options/option_table.h"
+#include "app/options/command.h"
 
 namespace stereonav {
 
-// The options of each command, which of them was chosen, and what runs it. Not copied: what runs refers to
-// it.
+// The type of scene that options name; none where the name stands for no scene, which is said when it is
+// loaded.
+using SceneTypeOf = std::optional<SceneSet> (*)(const SceneOptions& options);
+
+// What was given to the command that was chosen, and what runs it. Not copied: values go into what runs.
 struct ParsedOptions {
-    ParsedOptions() = default;
+    explicit ParsedOptions(SceneTypeOf by) : typeOf(by) {}
     ParsedOptions(const ParsedOptions&) = delete;
 
-    InfoOptions info;
-    RenderOptions render;
-    PlayOptions play;
-    CompareOptions compare;
-    ReportOptions report;
-    MeshOptions mesh;
-    ViewshedOptions viewshed;
-    MeasureOptions measure;
-    ProfileOptions profile;
-    SunOptions sun;
-    CentrelineOptions centreline;
-    BakeOptions bake;
-    CoverageOptions coverage;
-    FindingsOptions findings;
-    RegisterOptions registration;
-    UnfoldOptions unfold;
-    CacheOptions cache;
-    ViewOptions view;
+    SceneTypeOf typeOf;
     GivenOptions given;
     OptionTargets to;
-    std::function<int()> run = runDefault;
+    std::function<int()> run;  // empty until a command is chosen
 };
 
 // Makes the command's structure the one that its options go to.
@@ -53,6 +39,6 @@ void finishOptions(ParsedOptions& parsed);
 
 // How `compare` shows a scene of which the name alone is given: as its file says, if it is a scene file,
 // which may name another scene. Throws Error.
-SceneOptions sceneOptionsOf(const std::string& scene);
+SceneOptions sceneOptionsOf(const std::string& scene, SceneTypeOf typeOf);
 
 }  // namespace stereonav

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/options/option_table.h"
+#include "app/options/command.h"
 #include "app/options/usual_words.h"
 #include "engine/base/error.h"
 
@@ -101,10 +101,9 @@ void refuseWhatDoesNotApply(const GivenOptions& given, SceneSet type, const std:
     throw Error(first.places, "", first.reason.problem, first.reason.advice + rest);
 }
 
-void refuseWhatDoesNotApply(const SceneOptions& options) {
-    const std::optional<SceneSet> type = sceneTypeOf(options);
+void refuseWhatDoesNotApply(const SceneOptions& options, std::optional<SceneSet> type) {
     // A scene that the command can't take at all is what it says first.
-    if (options.given.command == 0 || !type || !(factsOf(options.given.command).scenes & *type)) return;
+    if (options.given.command == 0 || !type || !(commandOf(options.given.command).scenes & *type)) return;
     refuseWhatDoesNotApply(options.given, *type, options.scene);
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
-#include "app/command/commands.h"
-#include "app/options/given_options.h"
+#include "app/options/scene_options.h"
 #include "app/options/scene_types.h"
 
 namespace stereonav {
@@ -13,8 +13,8 @@ namespace stereonav {
 // that does not go with the scene, with another option that was given, or with what another one chooses.
 void refuseWhatDoesNotApply(const GivenOptions& given, SceneSet type, const std::string& scene);
 
-// The same for what SceneOptions hold. Nothing where the scene's name stands for none: that is told when it
-// is loaded.
-void refuseWhatDoesNotApply(const SceneOptions& options);
+// The same for what SceneOptions hold. Nothing without a type, where the scene's name stands for none: that
+// is told when it is loaded.
+void refuseWhatDoesNotApply(const SceneOptions& options, std::optional<SceneSet> type);
 
 }  // namespace stereonav

@@ -1,12 +1,7 @@
 // The types of scenes that options are told apart by: what is shown, and by what it is shown.
 #pragma once
 
-#include <optional>
-#include <string>
-
 namespace stereonav {
-
-struct SceneOptions;
 
 using SceneSet = unsigned;  // bits of scene_type::k...
 
@@ -25,8 +20,5 @@ constexpr SceneSet kCast = kTerrain | kSurfaces | kMeshFile;  // by rays
 constexpr SceneSet kNoMesh = kTerrains | kVolumes | kBuiltInMedium;
 constexpr SceneSet kAll = kNoMesh | kMeshFile;
 }  // namespace scene_type
-
-// One bit; none where the name stands for no scene, which is said when it is loaded.
-std::optional<SceneSet> sceneTypeOf(const SceneOptions& options);
 
 }  // namespace stereonav

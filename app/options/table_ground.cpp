@@ -26,25 +26,21 @@ std::vector<Option> groundPaintOptions() {
          .help = "ground far away is seen lower, as the Earth is round, or the body that it is of, less what "
                  "air bends "
                  "light by",
-         .commands = kInfo | kRender | kPlay | kCompare | kReport | kView,
+         .commands = kShowing | kReport,
          .scenes = kTerrain,
          .rules = {{[](const Asked& asked) { return asked.has("papers"); },
                     "expected without --papers, which has scenes of its own", kLeaveItOut}},
-         .take = [](OptionTargets& to,
-                    const OptionValue&) { (to.report ? to.report->curvature : to.scene->curvature) = true; }},
+         .take = [](OptionTargets& to, const OptionValue&) { *to.curvature = true; }},
         {.key = "refraction",
          .value = numberValue({0, 1, false, true}),
          .help = "share of the curvature that light follows",
          .advice = "0.13 is usual by day, 0 leaves it out",
          .fallback = "0.13, on other bodies than the Earth 0",
-         .commands = kInfo | kRender | kPlay | kCompare | kReport | kView,
+         .commands = kShowing | kReport,
          .scenes = kTerrain,
          .rules = {{[](const Asked& asked) { return !asked.has("curvature"); },
                     "has an effect with --curvature alone", "add it, or leave this out"}},
-         .take =
-             [](OptionTargets& to, const OptionValue& value) {
-                 (to.report ? to.report->refraction : to.scene->refraction) = value.number();
-             }},
+         .take = [](OptionTargets& to, const OptionValue& value) { *to.refraction = value.number(); }},
         {.key = "tracks",
          .value = fileValue(),
          .help = "a GPX or GeoJSON file whose tracks, lines, borders and places are drawn on the ground",

@@ -3,6 +3,7 @@
 
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/picture_options.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "engine/base/file.h"
@@ -31,12 +32,9 @@ void takePath(OptionTargets& to, const OptionValue& value) {
 void takeFrames(OptionTargets& to, const OptionValue& value) {
     const auto at = [&](std::size_t n) { return static_cast<int>(value.numbers[n]); };
     if (value.numbers.size() == 1)
-        to.play->frames = at(0);
+        to.of<PlayOptions>().frames = at(0);
     else
-        to.play->part = {at(0), at(1)};
-}
-void takeOut(OptionTargets& to, const OptionValue& value) {
-    *to.out = value.text;
+        to.of<PlayOptions>().part = {at(0), at(1)};
 }
 
 std::optional<ValueProblem> problemOfMode(const std::string& text) {
@@ -85,7 +83,8 @@ std::vector<Option> viewOptions() {
          .fallback = "the start pose",
          .commands = kRender,
          .inFile = false,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.render->pose = poseOf(value); }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<RenderOptions>().pose = poseOf(value); }},
         {.key = "path",
          .value = fileValue(),
          .help = "a recorded path (.gltf, .glb, .path)",
@@ -134,7 +133,8 @@ std::vector<Option> viewOptions() {
          .help = "over a whole monitor: auto, the one that the window is on; its number, or part of its name",
          .advice = "try auto",
          .commands = kView,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.view->fullScreen = value.text; }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ViewOptions>().fullScreen = value.text; }},
         {.key = "screen-width",
          .value = numberValue(above(0, 1e5, "mm")),
          .help = "of the whole monitor or projection, for parallax in millimetres",
@@ -143,7 +143,7 @@ std::vector<Option> viewOptions() {
          .commands = kView,
          .panel = OptionPanel::View,
          .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.view->screenWidth_mm = value.number(); }},
+                    const OptionValue& value) { to.of<ViewOptions>().screenWidth_mm = value.number(); }},
         {.key = "viewing-distance",
          .value = numberValue(above(0, 1e6, "mm")),
          .help = "from the eyes to the screen, for parallax in degrees",
@@ -152,7 +152,7 @@ std::vector<Option> viewOptions() {
          .commands = kView,
          .panel = OptionPanel::View,
          .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.view->viewingDistance_mm = value.number(); }},
+                    const OptionValue& value) { to.of<ViewOptions>().viewingDistance_mm = value.number(); }},
         {.key = "mode",
          .value = textValue().checked(problemOfFileMode),
          .help = "how two eyes become one picture: ml, mr, sbsl, sbsr, tbl, irl, arcd, ...",
@@ -180,21 +180,23 @@ std::vector<Option> viewOptions() {
                     "expected with a medium", "leave it out, or show one with --medium"}},
          .panel = OptionPanel::Quality,
          .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.view->sweep = choiceOf<SweepChoice>(value); }},
+                    const OptionValue& value) { to.of<ViewOptions>().sweep = choiceOf<SweepChoice>(value); }},
         {.key = "shots",
          .value = fileValue(),
          .help = "folder for saved pictures and recorded flights",
          .fallback = "the present one",
          .commands = kView,
          .inFile = false,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.view->shots = value.text; }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ViewOptions>().shots = value.text; }},
         {.key = "late-warp",
          .value = wordValue({"on", "off"}),
          .help =
              "while something moves: the newest picture, warped to where the eyes are now, at each refresh",
          .fallback = "on",
          .commands = kView,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.view->lateWarp = value.text == "on"; }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ViewOptions>().lateWarp = value.text == "on"; }},
         {.key = "refine",
          .value = wordValue({"on", "off"}),
          .help = fmt::format(
@@ -202,7 +204,8 @@ std::vector<Option> viewOptions() {
              kMostRaysAtRest),
          .fallback = "on",
          .commands = kView,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.view->refine = value.text == "on"; }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ViewOptions>().refine = value.text == "on"; }},
         {.key = "target-ms",
          .value = numberValue(within(1e-3, 1e6, "ms")),
          .help =
@@ -213,14 +216,15 @@ std::vector<Option> viewOptions() {
          .rules = {{[](const Asked& asked) { return asked.is("late-warp", "off"); },
                     "has no effect beside --late-warp off, whose frames are whole", kLeaveItOut}},
          .panel = OptionPanel::Quality,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.view->target_ms = value.number(); }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ViewOptions>().target_ms = value.number(); }},
         {.key = "bench",
          .value = flagValue(),
          .help = "flies --path, or 20 s of the scene's own flight at most, rests for 10 s, tells how evenly "
                  "pictures came, how old and how right they were, and closes",
          .commands = kView,
          .inFile = false,
-         .take = [](OptionTargets& to, const OptionValue&) { to.view->bench = true; }},
+         .take = [](OptionTargets& to, const OptionValue&) { to.of<ViewOptions>().bench = true; }},
     };
 }
 
@@ -231,17 +235,19 @@ std::vector<Option> pictureOptions() {
          .help = "the picture's file, .jps and .mpo for 3D viewers; -: PNG to standard output",
          .commands = kRender,
          .required = true,
-         .take = takeOut},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<RenderOptions>().out = value.text; }},
         {.key = "out",
          .value = fileValue(),
          .help = "folder for frame_00000.png and so on",
          .commands = kPlay,
-         .take = takeOut},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.of<PlayOptions>().out = value.text; }},
         {.key = "video",
          .value = fileValue(),
          .help = "a video: .mp4, .avi or .mkv (lossless)",
          .commands = kPlay,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.play->video = value.text; }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<PlayOptions>().video = value.text; }},
         {.key = "frames",
          .value = wholeOrPartValue(within(1, 1e6, "frames")),
          .help =
@@ -263,43 +269,21 @@ std::vector<Option> pictureOptions() {
                     },
                     "has no effect beside --frames, which says how many pictures there are",
                     "leave one of them out, or give --video"}},
-         .take = [](OptionTargets& to, const OptionValue& value) { to.play->fps = value.number(); }},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<PlayOptions>().fps = value.number(); }},
         {.key = "hash",
          .value = flagValue(),
          .help = "print one content hash of both eyes of all frames",
          .commands = kPlay,
-         .take = [](OptionTargets& to, const OptionValue&) { to.play->hash = true; }},
+         .take = [](OptionTargets& to, const OptionValue&) { to.of<PlayOptions>().hash = true; }},
         {.key = "series-pictures",
          .value = fileValue(),
          .help = "of a DICOM folder: list its series alone, and write a picture of each into this folder",
          .commands = kInfo,
          .scenes = kStudies,
          .elsewhere = {nullptr, "expected with a folder of DICOM slices", "name one, or leave it out"},
-         .take = [](OptionTargets& to, const OptionValue& value) { to.info->series = value.text; }},
-    };
-}
-
-std::vector<Option> meshAndLineOptions() {
-    return {
-        {.key = "out",
-         .value = fileValue(),
-         .help = "the mesh's file, .glb or .gltf",
-         .commands = kMesh,
-         .required = true,
-         .take = takeOut},
-        {.key = "error",
-         .value = numberValue(within(0, 1e9, "metres")),
-         .help = "largest vertical error",
-         .advice = "leave it out for half a sample spacing",
-         .fallback = "half a sample spacing",
-         .commands = kMesh,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.mesh->error_m = value.number(); }},
-        {.key = "out",
-         .value = fileValue(),
-         .help = "the line's file, .vtp or .vtk (poly data) or .txt, or -; millimetres, LPS, from the rectum",
-         .commands = kCentreline,
-         .required = true,
-         .take = takeOut},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<InfoOptions>().series = value.text; }},
     };
 }
 
@@ -308,9 +292,8 @@ std::vector<Option> tellingOptions() {
         {.key = "json",
          .value = flagValue(),
          .help = "tells what was done, or found, as one JSON document on standard output",
-         .commands = kInfo | kRender | kPlay | kReport | kMesh | kSurveying | kColonInstruments |
-                     kCentreline | kBake | kCache,
-         .take = [](OptionTargets& to, const OptionValue&) { *to.json = true; }},
+         .commands = kTelling,
+         .take = [](OptionTargets& to, const OptionValue&) { to.telling->json = true; }},
         {.key = "json",
          .value = fileValue(),
          .help = "tells what was done as one JSON document when the window is closed, into a file; -, or "
@@ -320,15 +303,14 @@ std::vector<Option> tellingOptions() {
          .inFile = false,
          .take =
              [](OptionTargets& to, const OptionValue& value) {
-                 to.view->json = value.text;
-                 *to.json = isStandardOutput(value.text);
+                 to.of<ViewOptions>().json = value.text;
+                 to.telling->json = isStandardOutput(value.text);
              }},
         {.key = "quiet",
          .value = flagValue(),
          .help = "neither progress nor notes: only what was asked for, and errors",
-         .commands =
-             kShowing | kReport | kMesh | kSurveying | kColonInstruments | kCentreline | kBake | kCache,
-         .take = [](OptionTargets& to, const OptionValue&) { *to.quiet = true; }},
+         .commands = command::kAll,
+         .take = [](OptionTargets& to, const OptionValue&) { to.telling->quiet = true; }},
     };
 }
 

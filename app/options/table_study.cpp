@@ -7,8 +7,7 @@
 namespace stereonav {
 namespace {
 
-constexpr CommandSet kReading =
-    command::kShowing | command::kCentreline | command::kColonInstruments | command::kBake;
+constexpr CommandSet kReading = command::kShowing | command::kOfColon | command::kBake;
 
 OptionRule unlessColonIsLookedFor() {
     return {[](const Asked& asked) { return asked.has("isosurface"); },

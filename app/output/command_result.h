@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command/commands.h"
+#include "app/options/shared_options.h"
 #include "app/output/output_place.h"
 #include "engine/scene/facts.h"
 

@@ -5,6 +5,9 @@
 #include <ctime>
 #include <thread>
 
+#include "app/options/command.h"
+#include "app/options/typed_values.h"
+#include "app/options/usual_words.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -159,8 +162,6 @@ int helpWithReport(const ReportOptions& options) {
     return 0;
 }
 
-}  // namespace
-
 int runReport(const ReportOptions& options) {
     if (!peersOfThisRun().first()) return helpWithReport(options);
     checkOutputFolder("--out", options.out);
@@ -216,6 +217,116 @@ int runReport(const ReportOptions& options) {
     }
     result.finish();
     return worse ? 1 : 0;
+}
+
+std::vector<Option> reportSubjects() {
+    return {
+        {.key = "scene",
+         .value = fileValue(),
+         .help = "a scene beside the built-in ones; may be given several times",
+         .rules = {{[](const Asked& asked) { return asked.has("papers"); },
+                    "expected without --papers, which has scenes of its own", "name --data"}},
+         .repeated = true,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ReportOptions>().scenes.push_back(value.text); }},
+        {.key = "up",
+         .value = wordValue({"x", "-x", "y", "-y", "z", "-z"}),
+         .help = kUpHelp,
+         .advice = kUpAdvice,
+         .fallback = "z",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ReportOptions>().up = upAxisOf(value); }},
+        {.key = "compare",
+         .value = fileValue(),
+         .help = "an earlier run's report.json: shows what moved, exit status 1 where something got worse",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ReportOptions>().compare = value.text; }},
+        {.key = "stability",
+         .value = fileValue(),
+         .help = "rows that the stability tests wrote, as JSON lines",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ReportOptions>().stability = value.text; }},
+    };
+}
+
+std::vector<Option> reportRun() {
+    return {
+        {.key = "threads",
+         .value = wholeValue(kThreadsRange),
+         .help = kThreadsHelp,
+         .advice = kThreadsAdvice,
+         .fallback = "0",
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<ReportOptions>().threads = static_cast<int>(value.whole);
+             }},
+        {.key = "seed",
+         .value = wholeValue(within(0, 9e18)),
+         .help = "of everything random",
+         .advice = "1 is the default",
+         .fallback = "1",
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<ReportOptions>().seed = static_cast<std::uint64_t>(value.whole);
+             }},
+        {.key = "minutes",
+         .value = numberValue(above(0, 1440, "minutes")),
+         .help = "for all of it",
+         .advice = "a fraction is fine",
+         .fallback = "about 9; 1 with --quick",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ReportOptions>().minutes = value.number(); }},
+        {.key = "parts",
+         .value = wordsValue(),
+         .help = "some of it, as in right-eye,light",
+         .fallback = "all",
+         .repeated = true,
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<ReportOptions>().parts.insert(to.of<ReportOptions>().parts.end(), value.words.begin(),
+                                                     value.words.end());
+             }},
+        {.key = "papers",
+         .value = flagValue(),
+         .help = "the papers' own tables beside what this program does, in the place of the charts",
+         .take = [](OptionTargets& to, const OptionValue&) { to.of<ReportOptions>().papers = true; }},
+        {.key = "data",
+         .value = fileValue(),
+         .help = "folder with real data for --papers, as docs/testing.md lists it; built-in scenes stand in",
+         .rules = {{[](const Asked& asked) { return !asked.has("papers"); }, "expected with --papers",
+                    "add it, or name scenes with --scene"}},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ReportOptions>().data = value.text; }},
+    };
+}
+
+std::vector<Option> reportOptions() {
+    std::vector<Option> all{
+        {.key = "out",
+         .value = fileValue(),
+         .help = "folder for index.html, report.json, report.csv",
+         .fallback = "report",
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<ReportOptions>().out = value.text; }},
+        {.key = "quick",
+         .value = flagValue(),
+         .help = "within a minute: fewer frames and repeats",
+         .take = [](OptionTargets& to, const OptionValue&) { to.of<ReportOptions>().quick = true; }}};
+    for (const auto& part : {reportSubjects(), reportRun()}) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+}  // namespace
+
+// Exit status 1 where a figure got worse than in the earlier run.
+Command reportCommand() {
+    return {.name = "report",
+            .help = "a page of error against time for every shortcut the program takes; up to 10 minutes",
+            .command = command::kReport,
+            .traits = command::kTelling,
+            .chapter = Chapter::Measuring,
+            .options = reportOptions,
+            .start = startOf<ReportOptions, runReport>};
 }
 
 }  // namespace stereonav

@@ -48,7 +48,7 @@ void loadWithGlass(ReportRun& run, const std::string& id, SceneOptions options) 
 }
 
 bool isOneOf(const std::string& name, SceneSet types) {
-    const std::string scene = sceneOptionsOf(name).scene;
+    const std::string scene = sceneOptionsOf(name, sceneTypeOf).scene;
     return (sceneTypeNamed(scene).optionsFor(scene) & types) != 0;
 }
 
@@ -136,7 +136,7 @@ bool isStudy(const std::string& name) {
 }
 
 SceneOptions sceneOptionsFor(const ReportOptions& report, const std::string& name) {
-    SceneOptions options = sceneOptionsOf(name);
+    SceneOptions options = sceneOptionsOf(name, sceneTypeOf);
     options.threads = report.threads;  // the same for all
     if (report.up && isStudy(name)) options.volume.up = report.up;
     if (report.curvature && isOneOf(name, scene_type::kTerrain) && !shownAs(options).swept) {

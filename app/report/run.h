@@ -7,6 +7,7 @@
 
 #include "app/report/model.h"
 #include "app/report/mood.h"
+#include "app/report/report_options.h"
 #include "app/report/untimed.h"
 #include "app/scene/scene_loading.h"
 #include "colon/scene/colon_scene.h"

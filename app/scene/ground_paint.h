@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "engine/render/eye_painter.h"
 #include "engine/render/paint_legend.h"
 #include "engine/scene/facts.h"

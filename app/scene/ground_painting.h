@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "app/scene/survey_ground.h"
 #include "engine/base/progress.h"
 #include "engine/image/color_texture.h"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/camera/eye_view.h"
 #include "engine/image/eye_image.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/command/commands.h"
+#include "app/options/bake_options.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/light/bake/bake_file.h"
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "app/scene/shown_medium.h"
 #include "engine/base/progress.h"
 #include "engine/math/constants.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "engine/medium/sweep/medium_scene.h"
 
 namespace stereonav {

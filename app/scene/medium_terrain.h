@@ -1,7 +1,7 @@
 // Terrain as a height volume (Kniss et al. 2003, section 3.4; row K7 of docs/ledger.md), and mist over it.
 #pragma once
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "engine/medium/model/medium.h"
 #include "engine/medium/sweep/sweep_setting.h"
 #include "terrain/scene/terrain_scene.h"

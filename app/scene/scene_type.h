@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command/commands.h"
+#include "app/options/bake_options.h"
 #include "app/options/scene_types.h"
 #include "app/output/output_place.h"
 #include "engine/base/progress.h"

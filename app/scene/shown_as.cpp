@@ -5,6 +5,7 @@
 #include "app/scene/medium_loading.h"
 #include "app/scene/medium_options.h"
 #include "app/scene/scene_type.h"
+#include "engine/base/error.h"
 #include "engine/frame/cast_frames.h"
 #include "engine/medium/sweep/swept_frames.h"
 
@@ -33,6 +34,16 @@ const ShownAs& shownAs(const SceneOptions& options) {
                                .check = checkMediumOptions,
                                .load = loadMediumScene};
     return !options.medium.medium.empty() || isNothingElse(options.scene) ? swept : cast;
+}
+
+std::optional<SceneSet> sceneTypeOf(const SceneOptions& options) {
+    try {
+        const SceneSet all = sceneTypeNamed(options.scene).optionsFor(options.scene);
+        const SceneSet asked = shownAs(options).swept ? all & scene_type::kMedia : all & ~scene_type::kMedia;
+        return asked != 0 ? asked : all;  // a mesh with --medium is a mesh, which has none
+    } catch (const Error&) {
+        return std::nullopt;
+    }
 }
 
 }  // namespace stereonav

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
+#include "app/options/scene_types.h"
 #include "engine/base/progress.h"
 #include "engine/scene/scene.h"
 #include "engine/simd/simd_target.h"
@@ -50,5 +52,9 @@ struct ShownAs {
 
 // As a medium where the options name one, or a scene that is nothing else.
 const ShownAs& shownAs(const SceneOptions& options);
+
+// By which of the types of options the scene is, one bit; none where its name stands for no scene, which is
+// said when it is loaded.
+std::optional<SceneSet> sceneTypeOf(const SceneOptions& options);
 
 }  // namespace stereonav

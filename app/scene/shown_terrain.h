@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "app/scene/ground_colors.h"
 #include "engine/frame/cast_frames.h"
 #include "engine/render/paint_legend.h"

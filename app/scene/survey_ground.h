@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "engine/base/progress.h"
 #include "engine/math/earth_bend.h"
 #include "terrain/ground/heightfield.h"

@@ -1,6 +1,7 @@
 // Lines and areas that a user names, as places of a ground.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,12 @@
 #include "app/scene/survey_ground.h"
 
 namespace stereonav {
+
+// A line over the ground as it is named: one of the three.
+struct SurveyLine {
+    std::vector<glm::dvec2> places;  // x, y in the reference system of the elevation model; empty: not given
+    std::string track, path;         // a GPX or GeoJSON file; a recorded flight
+};
 
 struct WorldLine {
     std::string name;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/camera/stereo_rig.h"

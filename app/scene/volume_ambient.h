@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "app/command/commands.h"
 #include "app/options/occlusion_words.h"
+#include "app/options/scene_options.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/light/occlusion/occlusion_modulation.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "app/scene/volume_world.h"
 #include "engine/base/progress.h"
 #include "engine/render/eye_painter.h"

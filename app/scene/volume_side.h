@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command/commands.h"
+#include "app/options/bake_options.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/progress.h"
 #include "engine/camera/recorded_path.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "app/scene/colon_findings.h"
 #include "app/scene/volume_flat_wall.h"
 #include "app/scene/volume_inside.h"

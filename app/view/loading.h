@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "app/command/commands.h"
+#include "app/options/picture_options.h"
 #include "app/scene/scene_loading.h"
 #include "app/view/beside_work.h"
 #include "app/view/session.h"

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/options/parsed_options.h"
+#include "app/scene/shown_as.h"
 #include "engine/text/printable.h"
 #include "engine/text/utf8.h"
 
@@ -68,13 +69,13 @@ const Option* viewOption(const std::string& key) {
 }
 
 ViewOptions viewOptionsOf(const SettingTexts& settings) {
-    ParsedOptions parsed;
+    ParsedOptions parsed(sceneTypeOf);
     chooseCommand(command::kView, parsed);
     for (const auto& [key, texts] : settings)
         if (const Option* const option = viewOption(key))
             for (const std::string& text : texts) takeOption(*option, text, option->name(), parsed);
     finishOptions(parsed);
-    return parsed.view;
+    return parsed.to.of<ViewOptions>();
 }
 
 void setText(SettingTexts& settings, const std::string& key, const std::string& text) {
@@ -102,7 +103,7 @@ std::string shellWord(const std::string& text) {
 }
 
 std::vector<std::string> commandWords(CommandSet command, const SettingTexts& settings) {
-    std::vector<std::string> words{factsOf(command).name};
+    std::vector<std::string> words{commandOf(command).name};
     if (const auto scene = settings.find(kScene); scene != settings.end() && !scene->second.empty())
         words.push_back(scene->second.back());
     for (const auto& [key, texts] : settings) {

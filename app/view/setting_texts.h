@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/command/commands.h"
 #include "app/options/option_table.h"
+#include "app/options/picture_options.h"
 #include "engine/camera/stereo_rig.h"
 
 namespace stereonav {

@@ -1,5 +1,6 @@
 // The command that opens the window.
-#include "app/command/commands.h"
+#include "app/view/view_command.h"
+
 #include "app/output/output_place.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/shown_as.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/command/commands.h"
+#include "app/options/picture_options.h"
 #include "app/view/screen_sizes.h"
 #include "app/view/worker.h"
 #include "engine/display/frame_sequence.h"

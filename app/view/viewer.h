@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "app/command/commands.h"
+#include "app/options/picture_options.h"
 #include "app/output/command_result.h"
 #include "app/output/place_labels.h"
 #include "app/view/closing_question.h"

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/options/scene_types.h"
+#include "app/options/command.h"
+#include "app/scene/shown_as.h"
 #include "app/view/viewer.h"
 #include "engine/base/cache.h"
 #include "engine/base/error.h"
@@ -89,7 +90,7 @@ void Viewer::makeMovie(const MovieWish& movie) {
 
 bool Viewer::bakes() const {
     const auto type = sceneTypeOf(mOptions.scene);
-    return type && (*type & scene_type::kCast) != 0 && (factsOf(command::kBake).scenes & *type) != 0;
+    return type && (*type & scene_type::kCast) != 0 && (commandOf(command::kBake).scenes & *type) != 0;
 }
 
 bool Viewer::bakeTakes(const std::string& key, const std::string& value) const {

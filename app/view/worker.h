@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/command/commands.h"
+#include "app/options/scene_options.h"
 #include "app/view/frame_truth.h"
 #include "engine/base/progress.h"
 #include "engine/camera/stereo_rig.h"

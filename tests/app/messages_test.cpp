@@ -1,7 +1,7 @@
 // Refusals name the file or the option that they are about, in our words and in one line.
 #include <gtest/gtest.h>
 
-#include "app/options/option_table.h"
+#include "app/options/command.h"
 #include "tests/app/volume_input.h"
 
 namespace stereonav::test {
@@ -83,7 +83,7 @@ TEST_F(Messages, OfTheCommandLineAreInOurWords) {
 }
 
 TEST_F(Messages, HelpIsThatOfTheCommandThatIsNamed) {
-    for (const CommandFacts& command : commandFacts()) {
+    for (const Command& command : commands()) {
         const Outcome asked = run({"help", command.name}), usual = run({command.name, "--help"});
         ASSERT_EQ(asked.status, 0) << command.name;
         EXPECT_EQ(asked.out, usual.out) << command.name;

@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "app/options/arguments.h"
+#include "app/command/arguments.h"
 #include "engine/base/error.h"
 #include "tests/app/program.h"
 

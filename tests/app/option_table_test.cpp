@@ -1,12 +1,11 @@
 // The table of options: every option is refused in one line where it does not apply, all that are refused are
 // told together, and what stands in the table is what help lists.
-#include "app/options/option_table.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "app/options/arguments.h"
+#include "app/command/arguments.h"
+#include "app/options/command.h"
 #include "engine/base/error.h"
 #include "tests/app/volume_input.h"
 
@@ -55,7 +54,7 @@ Words given(const Option& option) {
 }
 
 // What a command needs beside.
-Words neededBy(const CommandFacts& command) {
+Words neededBy(const Command& command) {
     Words words;
     for (const Option& option : optionTable())
         if ((option.commands & command.command) && option.required) words = words + given(option);
@@ -74,13 +73,13 @@ protected:
                 {kBuiltInMedium, {"cloud"}}};
     }
 
-    static bool takesMedium(const CommandFacts& command) {
+    static bool takesMedium(const Command& command) {
         return findOption(command.command, "medium") != nullptr;
     }
 };
 
 TEST_F(OptionTable, DeclaresEachOptionOnceForACommand) {
-    for (const CommandFacts& command : commandFacts()) {
+    for (const Command& command : commands()) {
         std::set<std::string> keys;
         for (const Option& option : optionTable()) {
             if (!(option.commands & command.command)) continue;
@@ -100,7 +99,7 @@ TEST_F(OptionTable, DeclaresEachOptionOnceForACommand) {
 
 TEST_F(OptionTable, RefusesWhatAnotherTypeOfSceneHasInOneLine) {
     int refused = 0, taken = 0;
-    for (const CommandFacts& command : commandFacts())
+    for (const Command& command : commands())
         for (const auto& [type, scene] : scenes()) {
             if (!(command.scenes & type) || (scene.size() > 1 && !takesMedium(command))) continue;
             const Words line = Words{command.name} + scene + neededBy(command);
@@ -193,7 +192,7 @@ TEST_F(OptionTable, RefusesLightOfOtherScenes) {
 }
 
 TEST_F(OptionTable, IsWhatHelpLists) {
-    for (const CommandFacts& command : commandFacts()) {
+    for (const Command& command : commands()) {
         const std::string help = run({command.name, "--help"}).out;
         for (const Option& option : optionTable())
             if (option.commands & command.command) {
@@ -207,7 +206,7 @@ TEST_F(OptionTable, IsWhatHelpLists) {
 TEST_F(OptionTable, HasForACommandWhatItReads) {
     const auto keysOf = [](const char* name) {
         std::set<std::string> keys;
-        for (const CommandFacts& command : commandFacts())
+        for (const Command& command : commands())
             if (name == std::string(command.name))
                 for (const Option& option : optionTable())
                     if (option.commands & command.command) keys.insert(option.key);

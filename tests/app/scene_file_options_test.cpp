@@ -4,11 +4,11 @@
 #include <set>
 #include <sstream>
 
-#include "app/options/arguments.h"
+#include "app/command/arguments.h"
+#include "app/options/command.h"
 #include "app/options/completion.h"
 #include "app/options/man_page.h"
 #include "app/options/option_page.h"
-#include "app/options/option_table.h"
 #include "app/options/pages.h"
 #include "engine/base/error.h"
 #include "tests/app/volume_input.h"
@@ -190,7 +190,7 @@ std::string readAsText(std::string page) {
 TEST_F(SceneFileOptionsTest, TheManPageNamesEveryCommandAndOption) {
     const std::string page = manPage(), text = readAsText(page);
     EXPECT_EQ(run({"man"}).out, page);
-    for (const CommandFacts& command : commandFacts())
+    for (const Command& command : commands())
         for (const std::string& entry : {std::string(" \\fBstereonav ") + command.name + "\\fR ",
                                          std::string(".TP \\fB") + command.name + "\\fR " + command.help})
             EXPECT_NE(text.find(entry), std::string::npos) << entry;
@@ -229,7 +229,7 @@ TEST_F(SceneFileOptionsTest, BashCompletesEveryOption) {
         EXPECT_EQ(std::system(command.c_str()), 0) << line;
         return "\n" + contentOf(out);
     };
-    for (const CommandFacts& command : commandFacts()) {
+    for (const Command& command : commands()) {
         const std::string options = offered(std::string("stereonav ") + command.name + " --");
         for (const Option& option : optionTable())
             if ((option.commands & command.command) && !option.positional()) {

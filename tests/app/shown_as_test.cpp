@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "app/options/scene_types.h"
 #include "app/scene/scene_loading.h"
 #include "engine/base/error.h"
 

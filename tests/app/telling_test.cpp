@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/options/option_table.h"
+#include "app/options/command.h"
 #include "app/output/command_result.h"
 #include "tests/app/small_runs.h"
 
@@ -19,9 +19,9 @@ class CommandTelling : public SmallRuns {};
 
 TEST_F(CommandTelling, EveryCommandIsTried) {
     const auto all = runs("");
-    for (const CommandFacts& command : commandFacts())
+    for (const Command& command : commands())
         EXPECT_TRUE(all.contains(command.name) || command.command == command::kView) << command.name;
-    for (const CommandFacts& command : commandFacts())
+    for (const Command& command : commands())
         for (const char* key : {"json", "quiet"}) {
             EXPECT_NE(findOption(command.command, key), nullptr) << command.name << " --" << key;
         }

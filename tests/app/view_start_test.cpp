@@ -6,6 +6,8 @@
 
 #include "app/options/option_table.h"
 #include "app/options/parsed_options.h"
+#include "app/options/picture_options.h"
+#include "app/scene/shown_as.h"
 #include "app/view/loading.h"
 #include "app/view/session.h"
 #include "app/view/status.h"
@@ -172,11 +174,11 @@ TEST_F(ViewStart, AHandIsFasterThanThePicture) {
 // As a desktop's menu starts it: packaging/entry.desktop.
 TEST(StartPageAtFirst, IsShownWhereViewIsGivenNothing) {
     const auto shown = [](const char* key, const std::string& text) {
-        ParsedOptions parsed;
+        ParsedOptions parsed(sceneTypeOf);
         chooseCommand(command::kView, parsed);
         if (key) takeOption(*findOption(command::kView, key), text, key, parsed);
         finishOptions(parsed);
-        return parsed.view.startPage;
+        return parsed.to.of<ViewOptions>().startPage;
     };
     EXPECT_TRUE(shown(nullptr, ""));
     EXPECT_FALSE(shown("SCENE", "colon"));

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "app/options/arguments.h"
+#include "app/command/arguments.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options/arguments.h"
+#include "app/command/arguments.h"
 #include "engine/base/error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

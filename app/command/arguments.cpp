@@ -1,6 +1,5 @@
-// The command line, through CLI11: one subcommand for each function of commands.h, its options those of the
-// table.
-#include "app/options/arguments.h"
+// The command line, through CLI11: a subcommand for each command, its options those of the table.
+#include "app/command/arguments.h"
 
 #include <fmt/format.h>
 
@@ -13,10 +12,10 @@
 #include "app/command/commands.h"
 #include "app/options/built_without.h"
 #include "app/options/number_text.h"
-#include "app/options/option_table.h"
 #include "app/options/pages.h"
 #include "app/options/parsed_options.h"
 #include "app/scene/scene_type.h"
+#include "app/scene/shown_as.h"
 #include "engine/base/error.h"
 #include "engine/text/printed.h"
 #include "engine/text/similar.h"
@@ -59,7 +58,7 @@ void addOption(CLI::App& subcommand, const Option& option, CommandSet which, Par
     if (*option.group) added->group(option.group);
 }
 
-void addCommand(CLI::App& app, const CommandFacts& facts, ParsedOptions& parsed) {
+void addCommand(CLI::App& app, const Command& facts, ParsedOptions& parsed) {
     CLI::App& subcommand = *app.add_subcommand(facts.name, facts.help);
     for (const Option& option : optionTable())
         if (option.commands & facts.command) addOption(subcommand, option, facts.command, parsed);
@@ -148,7 +147,7 @@ void addPages(CLI::App& app, ParsedOptions& parsed) {
 }
 
 void addCommands(CLI::App& app, ParsedOptions& parsed) {
-    for (const CommandFacts& facts : commandFacts()) addCommand(app, facts, parsed);
+    for (const Command& facts : commands()) addCommand(app, facts, parsed);
     addPages(app, parsed);
 }
 
@@ -209,7 +208,7 @@ int runCommandLine(int argc, char** argv) {
         "stereonav help COMMAND tells of one. Without a command: flies the built-in terrain, or, where there "
         "is "
         "no display, plays it to out/.");
-    ParsedOptions parsed;
+    ParsedOptions parsed(sceneTypeOf);
     addCommands(app, parsed);
     try {
         std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
@@ -223,19 +222,19 @@ int runCommandLine(int argc, char** argv) {
         throw refusalOf(app, error);
     }
     finishOptions(parsed);
-    return parsed.run();
+    return parsed.run ? parsed.run() : runDefault();
 }
 
 void checkCommandLine(const std::vector<std::string>& arguments) {
     CLI::App app;
-    ParsedOptions parsed;
+    ParsedOptions parsed(sceneTypeOf);
     addCommands(app, parsed);
     parse(app, arguments);
 }
 
 void checkWholeCommandLine(const std::vector<std::string>& arguments) {
     CLI::App app;
-    ParsedOptions parsed;
+    ParsedOptions parsed(sceneTypeOf);
     addCommands(app, parsed);
     parse(app, arguments);
     finishOptions(parsed);
@@ -243,7 +242,7 @@ void checkWholeCommandLine(const std::vector<std::string>& arguments) {
 
 std::vector<OptionFacts> optionsOfCommands() {
     std::vector<OptionFacts> facts;
-    for (const CommandFacts& command : commandFacts())
+    for (const Command& command : commands())
         for (const Option& option : optionTable())
             if ((option.commands & command.command) && option.value.kind != ValueKind::Flag)
                 facts.push_back({command.name, option.name(), option.value.takesNumbers()});
@@ -252,13 +251,13 @@ std::vector<OptionFacts> optionsOfCommands() {
 
 RenderOptions renderOptionsFrom(const std::vector<std::string>& arguments) {
     CLI::App app;
-    ParsedOptions parsed;
+    ParsedOptions parsed(sceneTypeOf);
     addCommands(app, parsed);
     std::vector<std::string> words{"render"};
     words.insert(words.end(), arguments.begin(), arguments.end());
     parse(app, std::move(words));
     finishOptions(parsed);
-    return parsed.render;
+    return parsed.to.of<RenderOptions>();
 }
 
 }  // namespace stereonav

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command/commands.h"
+#include "app/options/picture_options.h"
 
 namespace stereonav {
 

@@ -1,0 +1,17 @@
+// `stereonav view`, whether or not the window is built.
+#include "app/view/view_command.h"
+
+#include "app/options/command.h"
+
+namespace stereonav {
+
+Command viewCommand() {
+    return {.name = "view",
+            .help = "fly through the scene in a window",
+            .scenes = scene_type::kAll,
+            .command = command::kView,
+            .traits = command::kShowing,
+            .start = startOf<ViewOptions, runView>};
+}
+
+}  // namespace stereonav

@@ -1,0 +1,30 @@
+// How a scene is shown as a medium that light goes through.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+
+#include "app/options/option_types.h"
+#include "engine/medium/model/medium_look.h"
+
+namespace stereonav {
+
+struct MediumOptions {
+    std::string medium;                // a preset or file, or "ground"; "": none, or a built-in medium's own
+    std::optional<MediumModel> model;  // none: indirect
+    std::string phase;                 // a phase function; "": none
+    std::optional<LightPlace> lightFrom;  // where parallel light comes from
+    std::optional<LampChoice> lamp;       // none: as the scene has it
+    std::optional<glm::vec3> lightColor;  // linear
+    std::string noise;                    // a file, cloud, fur or none; "": as the scene has it
+    std::optional<Mist> mist;             // over a terrain
+    std::optional<int> slices, lightSize;
+    std::optional<double> cone_deg;      // that scattered light spreads in
+    std::optional<double> shadingWidth;  // voxels between the places where surfaces are shaded
+
+    // Whether the medium is a terrain's ground in its own colours.
+    bool ground() const { return medium == "ground"; }
+};
+
+}  // namespace stereonav

@@ -1,0 +1,64 @@
+// Where the values of one command go.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <typeinfo>
+
+#include "app/options/scene_options.h"
+#include "engine/image/stereo_compose.h"
+
+namespace stereonav {
+
+class OptionTargets {
+public:
+    // What shared rows of the table write to; null: the command has none.
+    SceneOptions* scene = nullptr;
+    SizeOption* size = nullptr;
+    Telling* telling = nullptr;
+    RayOptions* rays = nullptr;
+    OutputMode* mode = nullptr;
+    std::string *method = nullptr, *path = nullptr;
+    bool* curvature = nullptr;
+    std::optional<double>* refraction = nullptr;
+
+    // The command's structure; its members of these names are what shared rows write to. It outlives this.
+    template <typename Options>
+    void bind(Options& options) {
+        mType = &typeid(Options);
+        mOptions = &options;
+        if constexpr (requires { options.scene; }) {
+            scene = &options.scene;
+            curvature = &options.scene.curvature;
+            refraction = &options.scene.refraction;
+        }
+        if constexpr (requires { options.curvature; }) curvature = &options.curvature;
+        if constexpr (requires { options.refraction; }) refraction = &options.refraction;
+        if constexpr (requires { options.size; }) size = &options.size;
+        if constexpr (requires { options.telling; }) telling = &options.telling;
+        if constexpr (requires { options.rays; }) rays = &options.rays;
+        if constexpr (requires { options.mode; }) mode = &options.mode;
+        if constexpr (requires { options.method; }) method = &options.method;
+        if constexpr (requires { options.path; }) path = &options.path;
+    }
+
+    // The command's structure; null: it is of another type.
+    template <typename Options>
+    Options* find() const {
+        return mType && *mType == typeid(Options) ? static_cast<Options*>(mOptions) : nullptr;
+    }
+
+    // The same; throws where a row of the table is for a command that has another structure.
+    template <typename Options>
+    Options& of() const {
+        Options* const options = find<Options>();
+        if (!options) throw std::logic_error("an option is for a command without its structure");
+        return *options;
+    }
+
+private:
+    const std::type_info* mType = nullptr;
+    void* mOptions = nullptr;
+};
+
+}  // namespace stereonav
