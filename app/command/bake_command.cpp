@@ -4,6 +4,7 @@
 #include "app/options/bake_options.h"
 #include "app/options/command.h"
 #include "app/options/option_numbers.h"
+#include "app/options/option_take.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "app/scene/scene_type.h"
@@ -115,8 +116,7 @@ std::vector<Option> bakedLights() {
          .scenes = kVolumes,
          .elsewhere = chosenWhenShown(),
          .rules = bakedLightRules(),
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<BakeOptions>().probe = value.text; }},
+         .take = into<&BakeOptions::probe>},
         {.key = "sky",
          .value = numbersValue(skyNumbers()),
          .help = "of a volume: light from everywhere",
@@ -133,10 +133,7 @@ std::vector<Option> bakedLights() {
                    unlessFewOnGround(
                        [](const Asked& asked) { return beyondOnGround(asked, "bounces", within(0, 4)); },
                        "0 to 4", "bounces")},
-         .take =
-             [](OptionTargets& to, const OptionValue& value) {
-                 to.of<BakeOptions>().bounces = static_cast<int>(value.whole);
-             }},
+         .take = into<&BakeOptions::bounces>},
         {.key = "albedo",
          .value = numbersValue(albedoNumbers()),
          .help = kAlbedoHelp,
@@ -153,10 +150,7 @@ std::vector<Option> bakedLights() {
                    unlessFewOnGround(
                        [](const Asked& asked) { return beyondOnGround(asked, "order", within(1, 6)); },
                        "1 to 6", "order")},
-         .take =
-             [](OptionTargets& to, const OptionValue& value) {
-                 to.of<BakeOptions>().order = static_cast<int>(value.whole);
-             }},
+         .take = into<&BakeOptions::order>},
     };
 }
 
@@ -171,10 +165,7 @@ std::vector<Option> bakeGoals() {
                    unlessFewOnGround(
                        [](const Asked& asked) { return beyondOnGround(asked, "samples", within(1, 65536)); },
                        "1 to 65536", "samples")},
-         .take =
-             [](OptionTargets& to, const OptionValue& value) {
-                 to.of<BakeOptions>().samples = static_cast<int>(value.whole);
-             }},
+         .take = into<&BakeOptions::samples>},
         {.key = "error",
          .value = numberValue({0, 1, true, true}),
          .help = "go on until the relative error is this",
@@ -182,8 +173,7 @@ std::vector<Option> bakeGoals() {
          .scenes = kVolumes,
          .elsewhere = chosenWhenShown(),
          .rules = {{[](const Asked& asked) { return asked.has("samples"); }, kOneGoal, kGoals}},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<BakeOptions>().error = value.number(); }},
+         .take = into<&BakeOptions::error>},
         {.key = "minutes",
          .value = numberValue(above(0, 1e6, "minutes")),
          .help = "go on for so long",
@@ -192,8 +182,7 @@ std::vector<Option> bakeGoals() {
          .elsewhere = chosenWhenShown(),
          .rules = {{[](const Asked& asked) { return asked.has("samples") || asked.has("error"); }, kOneGoal,
                     kGoals}},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<BakeOptions>().minutes = value.number(); }},
+         .take = into<&BakeOptions::minutes>},
     };
 }
 
@@ -206,8 +195,7 @@ std::vector<Option> bakedPlaces() {
          .advice = "use 0.5, 1 or 2",
          .fallback = "1",
          .rules = resolutionRules(),
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<BakeOptions>().resolution = value.number(); }},
+         .take = into<&BakeOptions::resolution>},
         {.key = "isovalues",
          .value = numbersValue(isovaluesNumbers()).checked(problemOfRange),
          .help = "all surfaces between, to choose from later",
@@ -225,20 +213,19 @@ std::vector<Option> bakedPlaces() {
          .fallback = "no limit; in a colon its mean radius for openness",
          .scenes = kVolumes,
          .elsewhere = chosenWhenShown(),
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<BakeOptions>().reach_mm = value.number(); }},
+         .take = into<&BakeOptions::reach_mm>},
         {.key = "full",
          .value = flagValue(),
          .help = "every texel, for any isovalue",
          .scenes = kVolumes,
          .elsewhere = chosenWhenShown(),
          .rules = {{[](const Asked& asked) { return asked.has("isovalues"); }, kOneRange, kRanges}},
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<BakeOptions>().full = true; }},
+         .take = into<&BakeOptions::full>},
         {.key = "out",
          .value = fileValue(),
          .help = "the bake's file",
          .fallback = "in the cache",
-         .take = [](OptionTargets& to, const OptionValue& value) { to.of<BakeOptions>().out = value.text; }},
+         .take = into<&BakeOptions::out>},
     };
 }
 
@@ -254,9 +241,7 @@ std::vector<Option> bakeOptions() {
                               },
                               "expected transfer or openness for a terrain, got \"irradiance\"",
                               "transfer has shadows and bounced light, openness the sky's light alone"}},
-                   .take = [](OptionTargets& to, const OptionValue& value) {
-                       to.of<BakeOptions>().what = choiceOf<BakeKind>(value);
-                   }});
+                   .take = into<&BakeOptions::what>});
     for (const auto& part : {bakeGoals(), bakedPlaces()}) all.insert(all.end(), part.begin(), part.end());
     return all;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/options/command.h"
+#include "app/options/option_take.h"
 #include "app/output/command_result.h"
 #include "app/scene/scene_type.h"
 #include "engine/base/cache.h"
@@ -186,17 +187,16 @@ std::vector<Option> cacheOptions() {
         {.key = "clear",
          .value = flagValue(),
          .help = "removes all of it, or with --older or --of what they name",
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<CacheOptions>().clear = true; }},
+         .take = into<&CacheOptions::clear>},
         {.key = "older",
          .value = textValue().checked(problemOfAge),
          .help = "removes what was last used so long ago: 12h, 30d, 4w",
          .advice = "write 12h, 30d or 4w",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<CacheOptions>().older = value.text; }},
+         .take = into<&CacheOptions::older>},
         {.key = "of",
          .value = fileValue(),
          .help = "removes what was made of a study, a file, or all in a folder; with --older both must hold",
-         .take = [](OptionTargets& to, const OptionValue& value) { to.of<CacheOptions>().of = value.text; }}};
+         .take = into<&CacheOptions::of>}};
 }
 
 }  // namespace

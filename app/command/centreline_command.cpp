@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "app/options/command.h"
+#include "app/options/option_take.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -78,8 +79,7 @@ std::vector<Option> centrelineOptions() {
          .value = fileValue(),
          .help = "the line's file, .vtp or .vtk (poly data) or .txt, or -; millimetres, LPS, from the rectum",
          .required = true,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<CentrelineOptions>().out = value.text; }},
+         .take = into<&CentrelineOptions::out>},
     };
 }
 

@@ -11,6 +11,7 @@
 #include "app/command/narrowed_eyes.h"
 #include "app/command/scene_facts.h"
 #include "app/options/command.h"
+#include "app/options/option_take.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
@@ -148,10 +149,7 @@ std::vector<Option> compareOptions() {
          .help = "evenly over the path",
          .advice = "24 is the default",
          .fallback = "24",
-         .take =
-             [](OptionTargets& to, const OptionValue& value) {
-                 to.of<CompareOptions>().frames = static_cast<int>(value.whole);
-             }},
+         .take = into<&CompareOptions::frames>},
         {.key = "methods",
          .value = wordsValue(),
          .help = "some of them, as in full,paper,linear",
@@ -166,44 +164,34 @@ std::vector<Option> compareOptions() {
          .value = fractionValue(within(0, 10)),
          .help = "separation as a share of the zero-parallax distance, as in 1/30",
          .advice = "try 1/30",
-         .take =
-             [](OptionTargets& to, const OptionValue& value) {
-                 to.of<CompareOptions>().relativeSeparation = value.number();
-             }},
+         .take = into<&CompareOptions::relativeSeparation>},
         {.key = "json",
          .value = fileValue(),
          .help = "figures as JSON; -: to standard output",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<CompareOptions>().json = value.text; }},
+         .take = into<&CompareOptions::json>},
         {.key = "csv",
          .value = fileValue(),
          .help = "figures as CSV; -: to standard output",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<CompareOptions>().csv = value.text; }},
+         .take = into<&CompareOptions::csv>},
         {.key = "images",
          .value = fileValue(),
          .help = "folder for pictures of the flight's middle frame",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<CompareOptions>().images = value.text; }},
+         .take = into<&CompareOptions::images>},
         {.key = "plot",
          .value = fileValue(),
          .help = "error against time as a picture",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<CompareOptions>().plot = value.text; }},
+         .take = into<&CompareOptions::plot>},
         {.key = "repeats",
          .value = wholeValue(within(1, 1000, "runs")),
          .help = "timed ones of a frame, the fastest counts",
          .advice = "3 is the default",
          .fallback = "3",
-         .take =
-             [](OptionTargets& to, const OptionValue& value) {
-                 to.of<CompareOptions>().repeats = static_cast<int>(value.whole);
-             }},
+         .take = into<&CompareOptions::repeats>},
         {.key = "butteraugli",
          .value = flagValue(),
          .help =
              "how much of the error a person would notice, and a map of it among the pictures of --images",
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<CompareOptions>().butteraugli = true; }},
+         .take = into<&CompareOptions::butteraugli>},
         {.key = "truth-rays",
          .value = wordValue({"4", "16", "64", "256"}),
          .help = "rays a pixel of the finer truths",

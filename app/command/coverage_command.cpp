@@ -8,6 +8,7 @@
 
 #include "app/command/colon_of.h"
 #include "app/options/command.h"
+#include "app/options/option_take.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -145,7 +146,7 @@ std::vector<Option> coverageOptions() {
          .help = "vertical field of view",
          .advice = "90 to 140 is usual",
          .fallback = "the scene's own",
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->fov_deg = value.number(); }},
+         .take = into<&SceneOptions::fov_deg>},
         {.key = "size",
          .value = sizeValue(),
          .help = "of the picture: its shape alone counts",
@@ -159,41 +160,35 @@ std::vector<Option> coverageOptions() {
          .value = fileValue(),
          .help = "a recorded path (.gltf, .glb, .path)",
          .fallback = "along the centreline",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<CoverageOptions>().path = value.text; }},
+         .take = into<&CoverageOptions::path>},
         {.key = "step",
          .value = numberValue(within(0.1, 100, "mm")),
          .help = "between the places of the flight that are looked from",
          .advice = "2 is fine",
          .fallback = "2",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<CoverageOptions>().step_mm = value.number(); }},
+         .take = into<&CoverageOptions::step_mm>},
         {.key = "within",
          .value = numberValue(above(0, 1e6, "mm")),
          .help = "how far from the eye wall counts as seen",
          .advice = "100 is two widths of a colon",
          .fallback = "100",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<CoverageOptions>().within_mm = value.number(); }},
+         .take = into<&CoverageOptions::within_mm>},
         {.key = "angle",
          .value = numberValue(above(0, 90, "degrees")),
          .help = "how far off its normal wall counts as seen",
          .advice = "90 leaves nothing out that is on screen",
          .fallback = "85",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<CoverageOptions>().angle_deg = value.number(); }},
+         .take = into<&CoverageOptions::angle_deg>},
         {.key = "patch",
          .value = numberValue(within(0, 1e9, "mm^2")),
          .help = "the smallest unseen patch that is listed and looked at",
          .advice = "300 is usual in the literature",
          .fallback = "300",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<CoverageOptions>().patch_mm2 = value.number(); }},
+         .take = into<&CoverageOptions::patch_mm2>},
         {.key = "out",
          .value = fileValue(),
          .help = "the unseen patches as a table, .csv or -",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<CoverageOptions>().out = value.text; }},
+         .take = into<&CoverageOptions::out>},
     };
 }
 

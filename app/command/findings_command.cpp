@@ -9,6 +9,7 @@
 #include "app/command/findings_words.h"
 #include "app/options/command.h"
 #include "app/options/option_numbers.h"
+#include "app/options/option_take.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -198,16 +199,15 @@ std::vector<Option> findingsOptions() {
         {.key = "comment",
          .value = textValue(),
          .help = "on the finding of --at",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<FindingsOptions>().comment = value.text; }},
+         .take = into<&FindingsOptions::comment>},
         {.key = "at-truth",
          .value = flagValue(),
          .help = "the polyps of the built-in colon where they are, each measured size beside the true one",
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<FindingsOptions>().atTruth = true; }},
+         .take = into<&FindingsOptions::atTruth>},
         {.key = "candidates",
          .value = flagValue(),
          .help = "places that look like polyps by their shape, the most likely first: to be looked at",
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<FindingsOptions>().candidates = true; }},
+         .take = into<&FindingsOptions::candidates>},
         {.key = "between",
          .value = numbersValue(betweenNumbers()),
          .help = "two places: their distance; several are taken",
@@ -219,24 +219,20 @@ std::vector<Option> findingsOptions() {
         {.key = "file",
          .value = fileValue(),
          .help = "where findings are kept, .json: those in it are measured again, new ones are added",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<FindingsOptions>().file = value.text; }},
+         .take = into<&FindingsOptions::file>},
         {.key = "csv",
          .value = fileValue(),
          .help = "the findings as a table, .csv or -",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<FindingsOptions>().csv = value.text; }},
+         .take = into<&FindingsOptions::csv>},
         {.key = "page",
          .value = fileValue(),
          .help = "one .html page with pictures of each, or -",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<FindingsOptions>().page = value.text; }},
+         .take = into<&FindingsOptions::page>},
         {.key = "sr",
          .value = fileValue(),
          .help =
              "the findings as a DICOM structured report, .dcm or -, with the names in the study's own heads",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<FindingsOptions>().sr = value.text; }},
+         .take = into<&FindingsOptions::sr>},
     };
 }
 

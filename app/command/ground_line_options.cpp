@@ -1,6 +1,7 @@
 #include "app/command/ground_line_options.h"
 
 #include "app/options/number_text.h"
+#include "app/options/option_take.h"
 
 namespace stereonav {
 namespace {
@@ -52,39 +53,33 @@ std::vector<Option> groundLineOptions() {
          .help = "a GPX or GeoJSON file with lines, and for measure areas",
          .commands = kMeasure | kProfile,
          .excludes = {{"path"}},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<GroundLineOptions>().line.track = value.text; }},
+         .take = into<&GroundLineOptions::line, &SurveyLine::track>},
         {.key = "path",
          .value = fileValue(),
          .help = "a recorded flight (.gltf, .glb, .path): the ground under it",
          .commands = kProfile,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<GroundLineOptions>().line.path = value.text; }},
+         .take = into<&GroundLineOptions::line, &SurveyLine::path>},
         {.key = "plane",
          .value = numberValue(within(-1e6, 1e6, "metres")),
          .help = "height of the level plane that volumes lie over and under",
          .fallback = "that of the lowest ground in the area",
          .commands = kMeasure,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<GroundLineOptions>().plane_m = value.number(); }},
+         .take = into<&GroundLineOptions::plane_m>},
         {.key = "csv",
          .value = fileValue(),
          .help = "what was found as a table, .csv",
          .commands = kMeasure | kProfile,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<GroundLineOptions>().csv = value.text; }},
+         .take = into<&GroundLineOptions::csv>},
         {.key = "geojson",
          .value = fileValue(),
          .help = "what was measured, with its figures, .geojson; --track reads it again",
          .commands = kMeasure,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<GroundLineOptions>().geojson = value.text; }},
+         .take = into<&GroundLineOptions::geojson>},
         {.key = "svg",
          .value = fileValue(),
          .help = "the profile as a chart, .svg",
          .commands = kProfile,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<GroundLineOptions>().svg = value.text; }},
+         .take = into<&GroundLineOptions::svg>},
     };
 }
 

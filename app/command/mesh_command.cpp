@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "app/options/command.h"
+#include "app/options/option_take.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
@@ -91,14 +92,13 @@ std::vector<Option> meshOptions() {
          .value = fileValue(),
          .help = "the mesh's file, .glb or .gltf",
          .required = true,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.of<MeshOptions>().out = value.text; }},
+         .take = into<&MeshOptions::out>},
         {.key = "error",
          .value = numberValue(within(0, 1e9, "metres")),
          .help = "largest vertical error",
          .advice = "leave it out for half a sample spacing",
          .fallback = "half a sample spacing",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<MeshOptions>().error_m = value.number(); }},
+         .take = into<&MeshOptions::error_m>},
     };
 }
 

@@ -7,6 +7,7 @@
 #include "app/command/colon_of.h"
 #include "app/options/command.h"
 #include "app/options/option_numbers.h"
+#include "app/options/option_take.h"
 #include "app/options/typed_values.h"
 #include "app/output/command_result.h"
 #include "app/output/handed_name.h"
@@ -168,8 +169,7 @@ std::vector<Option> registerOptions() {
          .value = fileValue(),
          .help = "the other study, or colon for the built-in one",
          .required = true,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<RegisterOptions>().with = value.text; }},
+         .take = into<&RegisterOptions::with>},
         {.key = "with",
          .value = fileValue(),
          .help = "another study of the same colon, whose matching place is shown beside the eye",
@@ -190,24 +190,21 @@ std::vector<Option> registerOptions() {
          .help = "of --with colon: its loops lie elsewhere, by this much at most",
          .advice = "10 is a patient who has turned round",
          .fallback = "0",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<RegisterOptions>().bend_mm = value.number(); }},
+         .take = into<&RegisterOptions::bend_mm>},
         {.key = "inflate",
          .value = numberValue(within(0.7, 1.4)),
          .help = "of --with colon: a factor on its radii",
          .advice = "1.2 is more gas",
          .fallback = "1",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<RegisterOptions>().inflate = value.number(); }},
+         .take = into<&RegisterOptions::inflate>},
         {.key = "force",
          .value = flagValue(),
          .help = "places are told though the two studies do not match",
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<RegisterOptions>().force = true; }},
+         .take = into<&RegisterOptions::force>},
         {.key = "out",
          .value = fileValue(),
          .help = "places of both every 5 mm as a table, .csv or -",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<RegisterOptions>().out = value.text; }},
+         .take = into<&RegisterOptions::out>},
     };
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "app/options/command.h"
+#include "app/options/option_take.h"
 #include "app/options/usual_words.h"
 #include "app/options/utc_text.h"
 #include "app/output/command_result.h"
@@ -157,24 +158,22 @@ std::vector<Option> sunOptions() {
          .value = textValue().checked(problemOfTime),
          .help = "date and time in UTC, 2026-06-21T19:30",
          .required = true,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.of<SunOptions>().at = value.text; }},
+         .take = into<&SunOptions::at>},
         {.key = "step",
          .value = numberValue(within(1, 60, "minutes")),
          .help = "between the places of the sun that hours are counted from",
          .fallback = "20",
          .rules = {{[](const Asked& asked) { return !asked.has("out") && !asked.has("picture"); },
                     "has an effect on --out and --picture alone", kLeaveItOut}},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<SunOptions>().step_min = value.number(); }},
+         .take = into<&SunOptions::step_min>},
         {.key = "out",
          .value = fileValue(),
          .help = "hours of sun on that day as a GeoTIFF over the ground's samples, .tif",
-         .take = [](OptionTargets& to, const OptionValue& value) { to.of<SunOptions>().out = value.text; }},
+         .take = into<&SunOptions::out>},
         {.key = "picture",
          .value = fileValue(),
          .help = "the same as a picture, from black to white, north up",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<SunOptions>().picture = value.text; }},
+         .take = into<&SunOptions::picture>},
     };
 }
 

@@ -7,6 +7,7 @@
 #include "app/command/findings_words.h"
 #include "app/options/command.h"
 #include "app/options/option_numbers.h"
+#include "app/options/option_take.h"
 #include "app/options/typed_values.h"
 #include "app/output/command_result.h"
 #include "app/output/output_place.h"
@@ -215,26 +216,22 @@ std::vector<Option> unfoldOptions() {
          .value = fileValue(),
          .help = "the picture, .png or .ppm",
          .required = true,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<UnfoldOptions>().out = value.text; }},
+         .take = into<&UnfoldOptions::out>},
         {.key = "distortion",
          .value = fileValue(),
          .help = "a picture of how true its areas are: red is drawn too large, blue too small",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<UnfoldOptions>().distortion = value.text; }},
+         .take = into<&UnfoldOptions::distortion>},
         {.key = "panorama",
          .value = fileValue(),
          .help = "a picture of the wall as it is seen along the line, ahead from the rectum and back from "
                  "the caecum",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<UnfoldOptions>().panorama = value.text; }},
+         .take = into<&UnfoldOptions::panorama>},
         {.key = "pixel",
          .value = numberValue(within(0.1, 10, "mm")),
          .help = "of the wall, the side of a pixel",
          .advice = "0.5 is about a voxel",
          .fallback = "0.5",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<UnfoldOptions>().pixel_mm = value.number(); }},
+         .take = into<&UnfoldOptions::pixel_mm>},
         {.key = "at",
          .value = numbersValue(seedNumbers()),
          .help = "a place on the wall: which pixel shows it; several are taken",
@@ -255,16 +252,15 @@ std::vector<Option> unfoldOptions() {
         {.key = "findings",
          .value = fileValue(),
          .help = "a file of stereonav findings, .json: outlined in yellow",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<UnfoldOptions>().findings = value.text; }},
+         .take = into<&UnfoldOptions::findings>},
         {.key = "candidates",
          .value = flagValue(),
          .help = "places that look like polyps by their shape: outlined in blue",
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<UnfoldOptions>().candidates = true; }},
+         .take = into<&UnfoldOptions::candidates>},
         {.key = "truth",
          .value = flagValue(),
          .help = "the polyps of the built-in colon: outlined in green, and how each is shown",
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<UnfoldOptions>().truth = true; }},
+         .take = into<&UnfoldOptions::truth>},
     };
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/options/command.h"
 #include "app/options/option_numbers.h"
+#include "app/options/option_take.h"
 #include "app/options/usual_words.h"
 #include "app/output/command_result.h"
 #include "app/output/length_text.h"
@@ -177,20 +178,18 @@ std::vector<Option> viewshedOptions() {
          .fallback = "0, the ground itself",
          .rules = {{seesNoGround, "has an effect on --out alone",
                     "leave it out; --to has a height of its own"}},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ViewshedOptions>().targetHeight_m = value.number(); }},
+         .take = into<&ViewshedOptions::targetHeight_m>},
         {.key = "reach",
          .value = numberValue(above(0, 1e9, "metres")),
          .help = "how far one sees, over the plan",
          .fallback = "all of the ground",
          .rules = {{seesNoGround, "has an effect on --out alone", kLeaveItOut}},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ViewshedOptions>().reach_m = value.number(); }},
+         .take = into<&ViewshedOptions::reach_m>},
         {.key = "curvature",
          .value = flagValue(),
          .help = "the ground sinks as the Earth is round, or the body that it is of, less what air bends "
                  "light by",
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<ViewshedOptions>().curvature = true; }},
+         .take = into<&ViewshedOptions::curvature>},
         {.key = "refraction",
          .value = numberValue({0, 1, false, true}),
          .help = "share of the curvature that light follows",
@@ -198,13 +197,11 @@ std::vector<Option> viewshedOptions() {
          .fallback = "0.13, on other bodies than the Earth 0",
          .rules = {{[](const Asked& asked) { return !asked.has("curvature"); },
                     "has an effect with --curvature alone", "add it, or leave this out"}},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ViewshedOptions>().refraction = value.number(); }},
+         .take = into<&ViewshedOptions::refraction>},
         {.key = "out",
          .value = fileValue(),
          .help = "a GeoTIFF over the ground's samples, .tif: 255 seen, 0 hidden, 128 no ground",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ViewshedOptions>().out = value.text; }},
+         .take = into<&ViewshedOptions::out>},
     };
 }
 

@@ -1,6 +1,7 @@
 // Options: how ground is seen, what is drawn on it, and tracks over it that are flown.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/option_take.h"
 #include "app/options/usual_words.h"
 
 namespace stereonav {
@@ -47,7 +48,7 @@ std::vector<Option> groundPaintOptions() {
          .commands = kRender | kPlay | kView,
          .scenes = kTerrain,
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->ground.tracks = value.text; }},
+         .take = into<&SceneOptions::ground, &GroundPaintOptions::tracks>},
         {.key = "follow",
          .value = fileValue(),
          .help = "a GPX or GeoJSON file: its one track is the flight",
@@ -55,7 +56,7 @@ std::vector<Option> groundPaintOptions() {
          .scenes = kTerrains,
          .excludes = {{"path"}},
          .inFile = false,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->ground.follow = value.text; }},
+         .take = into<&SceneOptions::ground, &GroundPaintOptions::follow>},
         {.key = "follow-height",
          .value = numberValue(above(0, 1e6, "metres")),
          .help = "of that flight above the ground",
@@ -66,8 +67,7 @@ std::vector<Option> groundPaintOptions() {
          .rules = {{[](const Asked& asked) { return !asked.has("follow"); },
                     "has an effect with --follow alone", "add it, or leave this out"}},
          .inFile = false,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->ground.followHeight_m = value.number(); }},
+         .take = into<&SceneOptions::ground, &GroundPaintOptions::followHeight_m>},
     };
 }
 

@@ -1,6 +1,7 @@
 // Options: how a scene looks, its light and its eyes.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/option_take.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "engine/base/error.h"
@@ -132,7 +133,7 @@ std::vector<Option> lookOptions() {
          .rules = {{[](const Asked& asked) { return asked.shows(kTerrainMedium) && !isGround(asked); },
                     "has no effect on a terrain shown as another medium than ground", kGroundAdvice}},
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->image = value.text; }},
+         .take = into<&SceneOptions::image>},
         {.key = "shade-image",
          .value = flagValue(),
          .help = "light that picture by the sun, though it holds the light of its own day",
@@ -141,7 +142,7 @@ std::vector<Option> lookOptions() {
          .rules = {{[](const Asked& asked) { return asked.shows(kTerrainMedium); },
                     "a medium's own light falls on the picture's colours as they are", kLeaveItOut}},
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to, const OptionValue&) { to.scene->shadeImage = true; }},
+         .take = into<&SceneOptions::shadeImage>},
         {.key = "sky",
          .value = fileOrWordValue({kPhysicalSky}).checked(problemOfSky),
          .help = "a panorama or a light probe (.hdr); physical: a terrain's sky and its air by scattering of "
@@ -188,23 +189,21 @@ std::vector<Option> lookOptions() {
          .commands = kShowing,
          .excludes = {{"relative-separation"}},
          .panel = OptionPanel::View,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->separation_m = value.number(); }},
+         .take = into<&SceneOptions::separation_m>},
         {.key = "zero-parallax",
          .value = numberValue(kZeroParallaxRange),
          .help = "distance seen in the screen",
          .advice = "use the distance to what should lie in the screen",
          .commands = kShowing,
          .panel = OptionPanel::View,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->zeroParallax_m = value.number(); }},
+         .take = into<&SceneOptions::zeroParallax_m>},
         {.key = "fov",
          .value = numberValue(kFovRange),
          .help = "vertical field of view",
          .advice = "45 is common",
          .commands = kShowing,
          .panel = OptionPanel::View,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->fov_deg = value.number(); }},
+         .take = into<&SceneOptions::fov_deg>},
     };
 }
 

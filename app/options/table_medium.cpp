@@ -1,6 +1,7 @@
 // Options: a scene shown as a medium that light goes through; and the light of traced pictures.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/option_take.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "engine/medium/model/medium_transfer.h"
@@ -34,7 +35,7 @@ std::vector<Option> mediumItself() {
                     },
                     "ground is of terrains", "the presets are " + mediumPresetNames() + ", or name a file"}},
          .panel = OptionPanel::Medium,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.medium = value.text; }},
+         .take = into<&SceneOptions::medium, &MediumOptions::medium>},
         {.key = "model",
          .value = wordValue({"emission", "surface", "direct", "indirect"}),
          .help = "how light goes through the medium",
@@ -44,8 +45,7 @@ std::vector<Option> mediumItself() {
          .commands = kShowing,
          .scenes = kMedia,
          .panel = OptionPanel::Medium,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->medium.model = choiceOf<MediumModel>(value); }},
+         .take = into<&SceneOptions::medium, &MediumOptions::model>},
         {.key = "phase",
          .value = fileOrWordValue({}),
          .help = "how the medium scatters: none, \"hg G\", a preset or a file",
@@ -57,7 +57,7 @@ std::vector<Option> mediumItself() {
              return ownModel(asked) && !asked.is("model", "indirect") && !asked.is("model", "direct");
          })},
          .panel = OptionPanel::Medium,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.phase = value.text; }},
+         .take = into<&SceneOptions::medium, &MediumOptions::phase>},
         {.key = "noise",
          .value = fileOrWordValue({"cloud", "fur", "none"}),
          .help = "detail that moves places and properties: cloud, fur, none, or a file",
@@ -65,7 +65,7 @@ std::vector<Option> mediumItself() {
          .commands = kShowing,
          .scenes = kMedia,
          .panel = OptionPanel::Medium,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->medium.noise = value.text; }},
+         .take = into<&SceneOptions::medium, &MediumOptions::noise>},
         {.key = "mist",
          .value = numbersValue(mistNumbers()),
          .help = "over a terrain, up to a height",
@@ -128,8 +128,7 @@ std::vector<Option> mediumFineness() {
          .commands = kShowing,
          .scenes = kMedia,
          .panel = OptionPanel::Quality,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->medium.slices = static_cast<int>(value.whole); }},
+         .take = into<&SceneOptions::medium, &MediumOptions::slices>},
         {.key = "light-size",
          .value = wholeValue(within(8, 4096, "texels")),
          .help = "a side of the light's buffer",
@@ -139,10 +138,7 @@ std::vector<Option> mediumFineness() {
          .commands = kShowing,
          .scenes = kMedia,
          .panel = OptionPanel::Quality,
-         .take =
-             [](OptionTargets& to, const OptionValue& value) {
-                 to.scene->medium.lightSize = static_cast<int>(value.whole);
-             }},
+         .take = into<&SceneOptions::medium, &MediumOptions::lightSize>},
         {.key = "cone",
          .value = numberValue({0, 180, false, true, "degrees"}),
          .help = "in which scattered light spreads",
@@ -154,8 +150,7 @@ std::vector<Option> mediumFineness() {
          .rules = {unlessModel(
              [](const Asked& asked) { return ownModel(asked) && !asked.is("model", "indirect"); })},
          .panel = OptionPanel::Medium,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->medium.cone_deg = value.number(); }},
+         .take = into<&SceneOptions::medium, &MediumOptions::cone_deg>},
         {.key = "shading-width",
          .value = numberValue(within(0, 16, "voxels")),
          .help = "between the places where surfaces are shaded; 0: at each sample",
@@ -167,8 +162,7 @@ std::vector<Option> mediumFineness() {
          .rules = {{[](const Asked& asked) { return asked.shows(kTerrainMedium); },
                     "is of surfaces in volumes, a terrain's are shaded at each sample", kLeaveItOut}},
          .panel = OptionPanel::Quality,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->medium.shadingWidth = value.number(); }},
+         .take = into<&SceneOptions::medium, &MediumOptions::shadingWidth>},
     };
 }
 

@@ -3,6 +3,7 @@
 
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/option_take.h"
 #include "app/options/picture_options.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
@@ -133,8 +134,7 @@ std::vector<Option> viewOptions() {
          .help = "over a whole monitor: auto, the one that the window is on; its number, or part of its name",
          .advice = "try auto",
          .commands = kView,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ViewOptions>().fullScreen = value.text; }},
+         .take = into<&ViewOptions::fullScreen>},
         {.key = "screen-width",
          .value = numberValue(above(0, 1e5, "mm")),
          .help = "of the whole monitor or projection, for parallax in millimetres",
@@ -142,8 +142,7 @@ std::vector<Option> viewOptions() {
          .fallback = "what the monitor tells, or 500",
          .commands = kView,
          .panel = OptionPanel::View,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ViewOptions>().screenWidth_mm = value.number(); }},
+         .take = into<&ViewOptions::screenWidth_mm>},
         {.key = "viewing-distance",
          .value = numberValue(above(0, 1e6, "mm")),
          .help = "from the eyes to the screen, for parallax in degrees",
@@ -151,8 +150,7 @@ std::vector<Option> viewOptions() {
          .fallback = "600",
          .commands = kView,
          .panel = OptionPanel::View,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ViewOptions>().viewingDistance_mm = value.number(); }},
+         .take = into<&ViewOptions::viewingDistance_mm>},
         {.key = "mode",
          .value = textValue().checked(problemOfFileMode),
          .help = "how two eyes become one picture: ml, mr, sbsl, sbsr, tbl, irl, arcd, ...",
@@ -179,16 +177,14 @@ std::vector<Option> viewOptions() {
          .rules = {{[](const Asked& asked) { return !asked.is("sweep", "auto") && !asked.shows(kMedia); },
                     "expected with a medium", "leave it out, or show one with --medium"}},
          .panel = OptionPanel::Quality,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ViewOptions>().sweep = choiceOf<SweepChoice>(value); }},
+         .take = into<&ViewOptions::sweep>},
         {.key = "shots",
          .value = fileValue(),
          .help = "folder for saved pictures and recorded flights",
          .fallback = "the present one",
          .commands = kView,
          .inFile = false,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ViewOptions>().shots = value.text; }},
+         .take = into<&ViewOptions::shots>},
         {.key = "late-warp",
          .value = wordValue({"on", "off"}),
          .help =
@@ -216,15 +212,14 @@ std::vector<Option> viewOptions() {
          .rules = {{[](const Asked& asked) { return asked.is("late-warp", "off"); },
                     "has no effect beside --late-warp off, whose frames are whole", kLeaveItOut}},
          .panel = OptionPanel::Quality,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ViewOptions>().target_ms = value.number(); }},
+         .take = into<&ViewOptions::target_ms>},
         {.key = "bench",
          .value = flagValue(),
          .help = "flies --path, or 20 s of the scene's own flight at most, rests for 10 s, tells how evenly "
                  "pictures came, how old and how right they were, and closes",
          .commands = kView,
          .inFile = false,
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<ViewOptions>().bench = true; }},
+         .take = into<&ViewOptions::bench>},
     };
 }
 
@@ -235,19 +230,17 @@ std::vector<Option> pictureOptions() {
          .help = "the picture's file, .jps and .mpo for 3D viewers; -: PNG to standard output",
          .commands = kRender,
          .required = true,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<RenderOptions>().out = value.text; }},
+         .take = into<&RenderOptions::out>},
         {.key = "out",
          .value = fileValue(),
          .help = "folder for frame_00000.png and so on",
          .commands = kPlay,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.of<PlayOptions>().out = value.text; }},
+         .take = into<&PlayOptions::out>},
         {.key = "video",
          .value = fileValue(),
          .help = "a video: .mp4, .avi or .mkv (lossless)",
          .commands = kPlay,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<PlayOptions>().video = value.text; }},
+         .take = into<&PlayOptions::video>},
         {.key = "frames",
          .value = wholeOrPartValue(within(1, 1e6, "frames")),
          .help =
@@ -269,21 +262,19 @@ std::vector<Option> pictureOptions() {
                     },
                     "has no effect beside --frames, which says how many pictures there are",
                     "leave one of them out, or give --video"}},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<PlayOptions>().fps = value.number(); }},
+         .take = into<&PlayOptions::fps>},
         {.key = "hash",
          .value = flagValue(),
          .help = "print one content hash of both eyes of all frames",
          .commands = kPlay,
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<PlayOptions>().hash = true; }},
+         .take = into<&PlayOptions::hash>},
         {.key = "series-pictures",
          .value = fileValue(),
          .help = "of a DICOM folder: list its series alone, and write a picture of each into this folder",
          .commands = kInfo,
          .scenes = kStudies,
          .elsewhere = {nullptr, "expected with a folder of DICOM slices", "name one, or leave it out"},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<InfoOptions>().series = value.text; }},
+         .take = into<&InfoOptions::series>},
     };
 }
 

@@ -3,6 +3,7 @@
 
 #include "app/options/number_text.h"
 #include "app/options/option_table.h"
+#include "app/options/option_take.h"
 #include "app/options/paint_words.h"
 
 namespace stereonav {
@@ -73,7 +74,7 @@ std::vector<Option> paintOptions() {
          .scenes = scenesOfPaint(),
          .rules = std::move(rules),
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->paint = value.text; }},
+         .take = into<&SceneOptions::paint>},
     };
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/options/option_table.h"
+#include "app/options/option_take.h"
 #include "app/options/usual_words.h"
 #include "engine/frame/refined_frames.h"
 #include "engine/sampling/edge_rays.h"
@@ -66,8 +67,7 @@ std::vector<Option> qualityOptions() {
          .elsewhere = notOfMedia(),
          .rules = qualityRules(),
          .panel = OptionPanel::Quality,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->quality.quality = value.number(); }},
+         .take = into<&SceneOptions::quality, &QualityOptions::quality>},
         {.key = "target-psnr",
          .value = numberValue(within(1, kMostPsnr_db, "dB")),
          .help = "that 95 of 100 frames shall reach against a full cast",
@@ -78,8 +78,7 @@ std::vector<Option> qualityOptions() {
          .elsewhere = notOfMedia(),
          .rules = qualityRules(),
          .panel = OptionPanel::Quality,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->quality.targetPsnr_db = value.number(); }},
+         .take = into<&SceneOptions::quality, &QualityOptions::targetPsnr_db>},
         {.key = "target-ms",
          .value = numberValue(within(1e-3, 1e6, "ms")),
          .help = "time for a frame, both eyes: fewer pixels are cast, or pictures made smaller, to keep it",
@@ -90,8 +89,7 @@ std::vector<Option> qualityOptions() {
          .elsewhere = notOfMedia(),
          .rules = qualityRules(),
          .panel = OptionPanel::Quality,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->quality.target_ms = value.number(); }},
+         .take = into<&SceneOptions::quality, &QualityOptions::target_ms>},
         {.key = "edges",
          .value = wholeValue(within(0, kMostEdgeRays, "rays")),
          .help = "rays added to pixels at edges, of both eyes; 0: jagged edges, in less time",
@@ -103,8 +101,7 @@ std::vector<Option> qualityOptions() {
          .elsewhere = notOfMedia(),
          .rules = {notOfTracedLight()},
          .panel = OptionPanel::Quality,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->quality.edges = static_cast<int>(value.whole); }},
+         .take = into<&SceneOptions::quality, &QualityOptions::edges>},
         {.key = "ground-detail",
          .value = wordValue({"on", "off"}),
          .help = "shading below a terrain's sample spacing, where a pixel is finer: a fractal relief that "
@@ -130,8 +127,7 @@ std::vector<Option> qualityOptions() {
          .commands = kDialled | kCompare,
          .scenes = kTerrain,
          .panel = OptionPanel::Quality,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->levelOfDetail = value.number(); }},
+         .take = into<&SceneOptions::levelOfDetail>},
         {.key = "rays",
          .value = wholeValue(within(1, kMostRays, "rays")),
          .help = "rays a pixel of the whole picture, at places that cover the pixel evenly",

@@ -1,6 +1,7 @@
 // Options: which scene, and how it is read.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/option_take.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "terrain/read/scene_ranges.h"
@@ -17,18 +18,18 @@ std::vector<Option> sourceOptions() {
                  ".nii, .nii.gz, .mha, .mhd), a mesh (.glb, .gltf), colon, cloud or wax",
          .fallback = "the built-in terrain",
          .commands = kShowing | kBake,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->scene = value.text; }},
+         .take = into<&SceneOptions::scene>},
         {.key = "SCENE",
          .value = textValue(),
          .help = "a scene (.toml) or an elevation model",
          .fallback = "the built-in terrain",
          .commands = kOfGround,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->scene = value.text; }},
+         .take = into<&SceneOptions::scene>},
         {.key = "SCENE",
          .value = textValue(),
          .help = "a CT study (a folder of DICOM slices, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd) or colon",
          .commands = kOfColon,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->scene = value.text; }},
+         .take = into<&SceneOptions::scene>},
         {.key = "vertical-scale",
          .value = numberValue(kVerticalScaleRange),
          .help = "factor on heights",
@@ -37,15 +38,14 @@ std::vector<Option> sourceOptions() {
          .commands = kShowing | kOfGround | kBake,
          .scenes = kTerrains,
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->verticalScale = value.number(); }},
+         .take = into<&SceneOptions::verticalScale>},
         {.key = "open-holes",
          .value = flagValue(),
          .help = "leave missing ground open instead of filling it",
          .commands = kShowing | kOfGround | kBake,
          .scenes = kTerrains,
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to, const OptionValue&) { to.scene->openHoles = true; }},
+         .take = into<&SceneOptions::openHoles>},
         {.key = "tiles",
          .value = wordValue({"auto", "on", "off"}),
          .help = "an elevation model goes into tiles on disk, kept in the cache: auto where it takes more "
@@ -53,8 +53,7 @@ std::vector<Option> sourceOptions() {
          .fallback = "auto",
          .commands = kShowing | kOfGround | kBake,
          .scenes = kTerrains,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->tiles = choiceOf<TilesChoice>(value); }},
+         .take = into<&SceneOptions::tiles>},
         {.key = "memory",
          .value = textValue().checked(problemOfMemory),
          .help = "that the program may take, as 2G or 500M; what needs more is refused with what would fit",
@@ -70,8 +69,7 @@ std::vector<Option> sourceOptions() {
          .fallback = "0",
          .commands = kWithScene,
          .panel = OptionPanel::Quality,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->threads = static_cast<int>(value.whole); }},
+         .take = into<&SceneOptions::threads>},
         {.key = "simd",
          .value = wordValue({"auto", "plain", "avx2", "avx512"}),
          .help = "instruction set",
@@ -79,8 +77,7 @@ std::vector<Option> sourceOptions() {
          .fallback = "auto",
          .commands = kShowing,
          .panel = OptionPanel::Quality,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->simd = choiceOf<SimdTarget>(value); }},
+         .take = into<&SceneOptions::simd>},
     };
 }
 

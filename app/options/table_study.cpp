@@ -1,6 +1,7 @@
 // Options: which study, where the colon is in it, and which surface is shown instead.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
+#include "app/options/option_take.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 
@@ -59,7 +60,7 @@ std::vector<Option> studyOptions() {
          .commands = kReading,
          .scenes = kStudies,
          .panel = OptionPanel::Study,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.series = value.text; }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::series>},
         {.key = "label",
          .value = textValue(),
          .help = "the label of a mask with several: its number, or its name where the header names it",
@@ -68,7 +69,7 @@ std::vector<Option> studyOptions() {
          .commands = kReading,
          .scenes = kStudies,
          .panel = OptionPanel::Study,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.label = value.text; }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::label>},
         {.key = "seed",
          .value = numbersValue(seedNumbers()),
          .help = "a place inside the colon: left, back, head (of RAS turn the first two signs); several are "
@@ -104,7 +105,7 @@ std::vector<Option> studyOptions() {
          .commands = kReading,
          .scenes = kStudies,
          .panel = OptionPanel::Study,
-         .take = [](OptionTargets& to, const OptionValue&) { to.scene->volume.resample = true; }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::resample>},
         {.key = "backwards",
          .value = flagValue(),
          .help = "fly from the caecum to the rectum",
@@ -113,7 +114,7 @@ std::vector<Option> studyOptions() {
          .scenes = kVolumes,
          .rules = {unlessColonIsLookedFor()},
          .panel = OptionPanel::Study,
-         .take = [](OptionTargets& to, const OptionValue&) { to.scene->volume.backwards = true; }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::backwards>},
         {.key = "no-cache",
          .value = flagValue(),
          .help = "neither read nor keep what was computed",
@@ -131,7 +132,7 @@ std::vector<Option> studyOptions() {
          .commands = kShowing | kBake,
          .scenes = kVolumes,
          .panel = OptionPanel::Study,
-         .take = [](OptionTargets& to, const OptionValue&) { to.scene->volume.isosurface = true; }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::isosurface>},
         {.key = "isovalue",
          .value = numberValue(kValueRange),
          .help = "the value of that surface",
@@ -140,8 +141,7 @@ std::vector<Option> studyOptions() {
          .commands = kShowing | kBake,
          .scenes = kVolumes,
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.isovalue = value.number(); }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::isovalue>},
         {.key = "up",
          .value = wordValue({"x", "-x", "y", "-y", "z", "-z"}),
          .help = kUpHelp,

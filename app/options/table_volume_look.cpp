@@ -1,7 +1,7 @@
 // Options: how a volume looks. Transfer function, shading, ambient light, modulated opacity, baked light.
 #include "app/options/occlusion_words.h"
 #include "app/options/option_table.h"
-#include "app/options/typed_values.h"
+#include "app/options/option_take.h"
 #include "app/options/usual_words.h"
 #include "colon/scene/transfer_presets.h"
 #include "engine/base/error.h"
@@ -88,8 +88,7 @@ std::vector<Option> ambientOptions() {
          .rules = {{[](const Asked& asked) { return asked.has("light"); },
                     "expected without baked light, --light was given too", kLeaveOneOut}},
          .panel = OptionPanel::Light,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.ambient_mm = value.number(); }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::ambient_mm>},
         {.key = "ambient-method",
          .value = textValue().checked(problemOfOcclusionText),
          .help = "how openness is estimated: " + occlusionMethodNames() +
@@ -118,8 +117,7 @@ std::vector<Option> ambientOptions() {
          .scenes = kSurfaces,
          .rules = {unlessAmbient()},
          .panel = OptionPanel::Light,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.ambientStrength = value.number(); }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::ambientStrength>},
         {.key = "ambient-lamp",
          .value = numberValue(kShareRange),
          .help = "share of the lamp's direct light beside it",
@@ -130,8 +128,7 @@ std::vector<Option> ambientOptions() {
          .scenes = kSurfaces,
          .rules = {unlessAmbient()},
          .panel = OptionPanel::Light,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.ambientLamp = value.number(); }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::ambientLamp>},
     };
 }
 
@@ -149,8 +146,7 @@ std::vector<Option> modulationOptions() {
          .rules = {{[](const Asked& asked) { return isModulated(asked) && !isSeenThrough(asked); },
                     "expected with a translucent volume", "add --transfer or --opacity, or leave it out"}},
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.modulate = choiceOf<Modulation>(value); }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::modulate>},
         {.key = "modulate-radius",
          .value = numberValue(kLookRange),
          .help = "how far that looks around",
@@ -161,8 +157,7 @@ std::vector<Option> modulationOptions() {
          .scenes = kSurfaces,
          .rules = {unlessModulated()},
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.modulateRadius_mm = value.number(); }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::modulateRadius_mm>},
         {.key = "modulate-sigma",
          .value = numberValue(above(0, 1e6)),
          .help = "from where on opacity stays whole: a deviation of values, or for gradient a change of "
@@ -180,8 +175,7 @@ std::vector<Option> modulationOptions() {
                     "expected " + rangeText(kSteepestRange) + " beside gradient, got {modulate-sigma}",
                     "a change of openness a voxel; 0.05 is usual on surfaces"}},
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.modulateSigma = value.number(); }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::modulateSigma>},
     };
 }
 
@@ -197,8 +191,7 @@ std::vector<Option> bakedLookOptions() {
          .scenes = kVolumes,
          .rules = {unlessBaked()},
          .panel = OptionPanel::Light,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.exposure = value.number(); }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::exposure>},
         {.key = "turn",
          .value = numberValue(kTurnRange),
          .help = "by which the sky over baked transfer is turned about the vertical",
@@ -209,8 +202,7 @@ std::vector<Option> bakedLookOptions() {
          .scenes = kVolumes,
          .rules = {unlessItStands(), unlessBaked()},
          .panel = OptionPanel::Light,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.turn_deg = value.number(); }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::turn_deg>},
         {.key = "tilt",
          .value = numberValue(kUprightRange),
          .help = "by which that sky is tilted before it is turned: what lies north rises",
@@ -221,8 +213,7 @@ std::vector<Option> bakedLookOptions() {
          .scenes = kVolumes,
          .rules = {unlessItStands(), unlessBaked()},
          .panel = OptionPanel::Light,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.tilt_deg = value.number(); }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::tilt_deg>},
     };
 }
 
@@ -240,7 +231,7 @@ std::vector<Option> volumeLookOptions() {
          .commands = kShowing,
          .scenes = kSurfaces,
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to, const OptionValue& value) { to.scene->volume.transfer = value.text; }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::transfer>},
         {.key = "opacity",
          .value = numberValue(above(0, 1)),
          .help = "a translucent wall that takes this share of light a mm",
@@ -250,8 +241,7 @@ std::vector<Option> volumeLookOptions() {
          .scenes = kSurfaces,
          .excludes = {{"transfer"}},
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->volume.opacity = value.number(); }},
+         .take = into<&SceneOptions::volume, &VolumeOptions::opacity>},
         {.key = "shading",
          .value = wordValue(shadingNames()),
          .help = "how a surface is lit, to compare",
@@ -262,9 +252,7 @@ std::vector<Option> volumeLookOptions() {
          .scenes = kSurfaces,
          .rules = shadingRules(),
          .panel = OptionPanel::Material,
-         .take = [](OptionTargets& to, const OptionValue& value) {
-             to.scene->volume.shading = choiceOf<Shading>(value);
-         }}};
+         .take = into<&SceneOptions::volume, &VolumeOptions::shading>}};
     for (const auto& part : {ambientOptions(), modulationOptions(), bakedLookOptions()})
         all.insert(all.end(), part.begin(), part.end());
     return all;

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "app/options/command.h"
+#include "app/options/option_take.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "app/output/command_result.h"
@@ -227,8 +228,7 @@ std::vector<Option> reportSubjects() {
          .rules = {{[](const Asked& asked) { return asked.has("papers"); },
                     "expected without --papers, which has scenes of its own", "name --data"}},
          .repeated = true,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ReportOptions>().scenes.push_back(value.text); }},
+         .take = into<&ReportOptions::scenes>},
         {.key = "up",
          .value = wordValue({"x", "-x", "y", "-y", "z", "-z"}),
          .help = kUpHelp,
@@ -239,13 +239,11 @@ std::vector<Option> reportSubjects() {
         {.key = "compare",
          .value = fileValue(),
          .help = "an earlier run's report.json: shows what moved, exit status 1 where something got worse",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ReportOptions>().compare = value.text; }},
+         .take = into<&ReportOptions::compare>},
         {.key = "stability",
          .value = fileValue(),
          .help = "rows that the stability tests wrote, as JSON lines",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ReportOptions>().stability = value.text; }},
+         .take = into<&ReportOptions::stability>},
     };
 }
 
@@ -256,26 +254,19 @@ std::vector<Option> reportRun() {
          .help = kThreadsHelp,
          .advice = kThreadsAdvice,
          .fallback = "0",
-         .take =
-             [](OptionTargets& to, const OptionValue& value) {
-                 to.of<ReportOptions>().threads = static_cast<int>(value.whole);
-             }},
+         .take = into<&ReportOptions::threads>},
         {.key = "seed",
          .value = wholeValue(within(0, 9e18)),
          .help = "of everything random",
          .advice = "1 is the default",
          .fallback = "1",
-         .take =
-             [](OptionTargets& to, const OptionValue& value) {
-                 to.of<ReportOptions>().seed = static_cast<std::uint64_t>(value.whole);
-             }},
+         .take = into<&ReportOptions::seed>},
         {.key = "minutes",
          .value = numberValue(above(0, 1440, "minutes")),
          .help = "for all of it",
          .advice = "a fraction is fine",
          .fallback = "about 9; 1 with --quick",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ReportOptions>().minutes = value.number(); }},
+         .take = into<&ReportOptions::minutes>},
         {.key = "parts",
          .value = wordsValue(),
          .help = "some of it, as in right-eye,light",
@@ -289,29 +280,26 @@ std::vector<Option> reportRun() {
         {.key = "papers",
          .value = flagValue(),
          .help = "the papers' own tables beside what this program does, in the place of the charts",
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<ReportOptions>().papers = true; }},
+         .take = into<&ReportOptions::papers>},
         {.key = "data",
          .value = fileValue(),
          .help = "folder with real data for --papers, as docs/testing.md lists it; built-in scenes stand in",
          .rules = {{[](const Asked& asked) { return !asked.has("papers"); }, "expected with --papers",
                     "add it, or name scenes with --scene"}},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ReportOptions>().data = value.text; }},
+         .take = into<&ReportOptions::data>},
     };
 }
 
 std::vector<Option> reportOptions() {
-    std::vector<Option> all{
-        {.key = "out",
-         .value = fileValue(),
-         .help = "folder for index.html, report.json, report.csv",
-         .fallback = "report",
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.of<ReportOptions>().out = value.text; }},
-        {.key = "quick",
-         .value = flagValue(),
-         .help = "within a minute: fewer frames and repeats",
-         .take = [](OptionTargets& to, const OptionValue&) { to.of<ReportOptions>().quick = true; }}};
+    std::vector<Option> all{{.key = "out",
+                             .value = fileValue(),
+                             .help = "folder for index.html, report.json, report.csv",
+                             .fallback = "report",
+                             .take = into<&ReportOptions::out>},
+                            {.key = "quick",
+                             .value = flagValue(),
+                             .help = "within a minute: fewer frames and repeats",
+                             .take = into<&ReportOptions::quick>}};
     for (const auto& part : {reportSubjects(), reportRun()}) all.insert(all.end(), part.begin(), part.end());
     return all;
 }

@@ -1,0 +1,57 @@
+// Option::take of an option whose value goes to one field as it is.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "app/options/option_targets.h"
+#include "app/options/typed_values.h"
+
+namespace stereonav {
+
+template <typename Field>
+void takeValue(Field& field, const OptionValue& value) {
+    if constexpr (std::is_same_v<Field, bool>)
+        field = true;  // a flag that was given
+    else if constexpr (std::is_same_v<Field, std::string>)
+        field = value.text;
+    else if constexpr (std::is_enum_v<Field>)
+        field = choiceOf<Field>(value);
+    else if constexpr (std::is_floating_point_v<Field>)
+        field = value.number();
+    else
+        field = static_cast<Field>(value.whole);
+}
+
+template <typename Field>
+void takeValue(std::optional<Field>& field, const OptionValue& value) {
+    takeValue(field.emplace(), value);
+}
+
+inline void takeValue(std::vector<std::string>& fields, const OptionValue& value) {
+    fields.push_back(value.text);
+}
+
+// The structure that a field of one of this type is in.
+template <typename Options>
+Options& targetOf(const OptionTargets& to) {
+    if constexpr (std::is_same_v<Options, SceneOptions>)
+        return *to.scene;
+    else
+        return to.of<Options>();
+}
+
+template <typename Options, typename Field>
+Options optionsOf(Field Options::*);
+
+// The field of a scene's or the command's own structure that is reached by these members:
+// into<&MeshOptions::out>, into<&SceneOptions::volume, &VolumeOptions::opacity>.
+template <auto first, auto... rest>
+void into(OptionTargets& to, const OptionValue& value) {
+    auto& options = targetOf<decltype(optionsOf(first))>(to);
+    takeValue(((options.*first).*....*rest), value);
+}
+
+}  // namespace stereonav
