@@ -10,13 +10,16 @@
 namespace stereonav {
 namespace {
 
-constexpr int kWidth = 1180, kHeight = 760;  // screen units: both columns and a picture between them
-constexpr glm::vec3 kGround{0.06f};          // behind the picture, as in the first window nearly black
+constexpr int kControlsWidth = 1180,
+              kControlsHeight = 760;  // screen units: both columns and a picture between them
+constexpr glm::vec3 kGround{0.06f};   // behind the picture, as in the first window nearly black
 
 }  // namespace
 
 ControlWindow::ControlWindow(const Window& first, const InterfaceLook& look)
-    : mFirst(first), mWindow("stereonav - controls", kWidth, kHeight, first), mInterface(mWindow) {
+    : mFirst(first),
+      mWindow("stereonav - controls", kControlsWidth, kControlsHeight, first),
+      mInterface(mWindow) {
     InterfaceLook own = look;
     own.scale = mInterface.look().scale;  // of the monitor it is on
     own.grey = false;                     // nobody looks at it through coloured glasses

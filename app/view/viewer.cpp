@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <mutex>
 
 #include "app/output/output_place.h"
 #include "app/output/stereo_frame.h"
@@ -42,11 +40,8 @@ FrameCost costOf(const ViewFrame& frame) {
 }  // namespace
 
 Viewer::Viewer(const ViewOptions& options)
-    : mResult("view", options.telling, {}),
-      mJson(options.json),
-      mOptions(options),
-      mGiven(settingTextsOf(options.scene.given)),
-      mSaid(fileTextsOf(options.scene.given)),
+    : mNotices(options),
+      mSettings(options, mSession),
       mFlight(options.path.empty() ? std::nullopt : std::optional(readPath(options.path))),
       mWindow(titleOf(options.scene),
               composedSize(options.mode, options.size.width, options.size.height).first,
@@ -70,29 +65,21 @@ Viewer::Viewer(const ViewOptions& options)
 
 // What is left is deleted in the first window's context.
 Viewer::~Viewer() {
-    cancelJob();  // ends while the rest does
+    mJobs.cancel();  // ends while the rest does
     mControls.reset();
     mWindow.use();
     mLateGpu.reset();
     mPanels.forget();
 }
 
-void Viewer::tell(const std::string& text) {
-    constexpr std::size_t kMost = 10'000;
-    if (text.empty()) return;
-    if (mTold.size() < kMost) mTold.push_back(text);
-    mResult.say(text + "\n");
-    std::fflush(stdout);
-}
-
 void Viewer::run() {
-    if (!mOptions.shots.empty()) makeOutputFolder(mOptions.shots);
+    if (!mSettings.options().shots.empty()) makeOutputFolder(mSettings.options().shots);
     while (!ends()) {
         mWindow.handleEvents(waitSeconds());
         throwIfStopped();
         const double dt = mClock.lap_ms() / 1000;
         const Stopwatch turn;
-        mSettings.reset();
+        mSettings.look();
         takeScene();
         takeDrops();
         takeKeys(dt);
@@ -105,10 +92,7 @@ void Viewer::run() {
     endSession();
     while (mScreenshots.waiting() && mFrame) finishScreenshots();
     keepConfig();
-    mResult.addScene(sceneName());
-    mResult.add("told", mTold);
-    mResult.finish();
-    if (!mJson.empty() && !isStandardOutput(mJson)) mResult.writeTo(mJson);
+    mNotices.finish(mSettings.sceneName());
 }
 
 double Viewer::waitSeconds() const {
@@ -132,35 +116,29 @@ void Viewer::takeScene() {
     if (!scene || scene == mScene) return;
     mScene = std::move(scene);
     mFacts.reset();
-    mSettings.reset();
-    mApplies.clear();
-    if (!loading.busy) mBefore.reset();
+    mSettings.lookAtScene();
+    if (!loading.busy) mSettings.arrived();
     if (mSession && !mAnother) return replaceScene();
-    if (!mSession && mBefore) {
+    if (!mSession && mSettings.begun()) {
         // Another one was chosen while the first was loaded: this is the first, and is shown until then.
-        const Made next{mOptions, mGiven, mSaid};
+        const SceneMade next = mSettings.made();
         keepBefore();
         beginSession();
-        mBefore = Made{mOptions, mGiven, mSaid};
-        mOptions = mChanged = next.options;
-        mGiven = next.given;
-        mSaid = next.said;
-        mSettings.reset();
-        mApplies.clear();
+        mSettings.begin(next);
     } else {
         beginSession();
     }
-    mAnother = mBefore.has_value();
+    mAnother = mSettings.begun();
 }
 
 void Viewer::beginSession() {
     const bool first = !mSession;
     const std::string kept = mSession ? mSession->keepWork() : "";
     mSlices.abandon();
-    mSession.emplace(mScene,
-                     ViewSession::Options{mMode, std::exchange(mFlight, std::nullopt), mOptions.shots,
-                                          mWindow.quadBuffered(),
-                                          mSession ? mSession->speedByDistance() : mConfig.speedByDistance});
+    mSession.emplace(
+        mScene, ViewSession::Options{mMode, std::exchange(mFlight, std::nullopt), mSettings.options().shots,
+                                     mWindow.quadBuffered(),
+                                     mSession ? mSession->speedByDistance() : mConfig.speedByDistance});
     mSession->continueVersions(mAsked);
     mSessionSince = mAsked;
     mKeyframes.start({});
@@ -168,16 +146,16 @@ void Viewer::beginSession() {
     mCosts.clear();
     mGovernor.forget();
     mRestSize.reset();
-    mWindow.setTitle(titleOf(mOptions.scene));
-    mSettings.reset();
-    mHistory.start(settings());
-    mPlaces.emplace(fullName().string());
+    mWindow.setTitle(titleOf(mSettings.options().scene));
+    mSettings.look();
+    mSettings.startSteps();
+    mPlaces.emplace(mSettings.fullName().string());
     openInstruments();
     mRecentDue = true;
     reportKept();
     beginSecond();
     greet(first);
-    tell(kept);
+    mNotices.tell(kept);
     if (!kept.empty()) mSession->notify(kept);
 }
 
@@ -278,7 +256,7 @@ void Viewer::drawPanels(const std::function<void()>& drawn) {
 
 void Viewer::act(const ViewAction& action) {
     if (mInPanels) return mActsOfPanels.push_back(action);
-    mSettings.reset();
+    mSettings.look();
     mLayoutDue = true;
     if (actOnInterface(action) || !mSession) return;
     if (action.command == ViewCommand::Quit && mSlices.busy()) {
@@ -295,15 +273,15 @@ void Viewer::update(double dt) {
     const Window* const controls = mControls ? &mControls->window() : nullptr;
     mSession->step(withSpaceMouse(mInput.flightOf(mWindow, controls, mWindow.gamepad()), mSpaceMouse.state()),
                    dt);
-    mSettings.reset();
-    mHistory.observe(settings(), panelled().active(), dt);
+    mSettings.look();
+    mSettings.observe(panelled().active(), dt);
     followKeyframes();
     followInstruments();
     followPaint();
     askFor();
     followWishes();
     followSecond();
-    lookAtJob();
+    if (const auto light = mJobs.look()) set("light", *light);
     takeFrame();
 }
 
@@ -311,7 +289,7 @@ void Viewer::takeDrops() {
     std::vector<std::string> drops = mWindow.takeDrops();
     if (mControls)
         for (std::string& drop : mControls->window().takeDrops()) drops.push_back(std::move(drop));
-    if (drops.size() > 1) mFailure = "one file or folder at a time: the first one is opened";
+    if (drops.size() > 1) mNotices.fail("one file or folder at a time: the first one is opened");
     if (!drops.empty()) open(drops.front());
 }
 
@@ -352,16 +330,16 @@ void Viewer::takeFrame() {
 void Viewer::reportSweep() {
     const std::string notice = mSweep ? mSweep->takeNotice() : "";
     if (!notice.empty()) mSession->notify(notice);
-    tell(notice);
+    mNotices.tell(notice);
     if (!mFrame || mFrame->sweep.empty() || mFrame->sweep == mSwept) return;
     mSwept = mFrame->sweep;
-    tell(mSwept);
+    mNotices.tell(mSwept);
 }
 
 void Viewer::reportDisplay() {
     const std::string notice = mDisplay.takeNotice();
     if (!notice.empty()) mSession->notify(notice);
-    tell(notice);
+    mNotices.tell(notice);
 }
 
 ScreenWords Viewer::onScreen(const ViewFrame& frame) const {
@@ -381,7 +359,7 @@ void Viewer::leaveScreenUnknown() {
 void Viewer::reportScreenshots() {
     if (const std::string text = mScreenshots.report(); !text.empty()) {
         mSession->notify(text);
-        tell(text);
+        mNotices.tell(text);
     }
 }
 

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <deque>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "app/command/commands.h"
-#include "app/output/command_result.h"
 #include "app/output/place_labels.h"
 #include "app/view/closing_question.h"
 #include "app/view/control_window.h"
@@ -19,20 +17,21 @@
 #include "app/view/late_view.h"
 #include "app/view/live_coverage.h"
 #include "app/view/loading.h"
+#include "app/view/notices.h"
 #include "app/view/panel/panel_host.h"
 #include "app/view/panel/panels.h"
 #include "app/view/picture_place.h"
 #include "app/view/scene_preparation.h"
+#include "app/view/scene_settings.h"
 #include "app/view/screenshots.h"
 #include "app/view/second_study.h"
 #include "app/view/session.h"
-#include "app/view/settings_history.h"
 #include "app/view/sweep.h"
 #include "app/view/view_bench.h"
 #include "app/view/view_display.h"
 #include "app/view/window_config.h"
+#include "app/view/window_jobs.h"
 #include "app/view/window_times.h"
-#include "engine/base/new_file.h"
 #include "engine/base/stopwatch.h"
 #include "engine/display/eye_overlay.h"
 #include "engine/display/interface.h"
@@ -57,11 +56,11 @@ public:
     std::string ageText() const override;
     Facts pointedFacts() const override;
     const std::deque<FrameCost>& costs() const override { return mCosts; }
-    std::string sceneName() const override;
-    const SettingTexts& settings() const override;
+    SceneSettings& settings() override { return mSettings; }
+    WindowJobs& jobs() override { return mJobs; }
+    Notices& notices() override { return mNotices; }
     SettingTexts settingsToOpen() const override;
     std::optional<std::string> valueOf(const Option& option) const override;
-    bool applies(const Option& option) const override;
     bool live(const Option& option) const override;
     SizeOption pictureSize() const override;
     ViewWorker::Loading loading() const override { return mWorker->loading(); }
@@ -71,8 +70,6 @@ public:
         return mSlices.busy() ? std::optional(mSlices.fraction()) : std::nullopt;
     }
     void cancelSlices() override { mSlices.cancel(); }
-    const std::string& failure() const override { return mFailure; }
-    void forgetFailure() override { mFailure.clear(); }
     void act(const ViewAction& action) override;
     void set(const std::string& key, const std::optional<std::string>& text) override;
     void open(const std::string& scene) override;
@@ -106,26 +103,18 @@ public:
     SecondStudy* secondStudy() override { return &mSecond; }
     void openOther(const std::string& study) override;
     void swapStudies() override;
-    void saveMeasured(const std::string& file) override;
     std::optional<double> seesFromClicks() const override { return mSeesFrom; }
     void seeFromClicks(const std::optional<double>& height) override { mSeesFrom = height; }
     std::optional<PaintWork> painting() const override;
     std::optional<PaintWork> preparing() const override { return mPreparation.work(); }
     void cancelPreparing() override { mPreparation.cancel(); }
-    bool canUndo() const override { return mSession && (mKeyframes.canUndo() || mHistory.canUndo()); }
-    bool canRedo() const override { return mSession && (mKeyframes.canRedo() || mHistory.canRedo()); }
+    bool canUndo() const override { return mSession && (mKeyframes.canUndo() || mSettings.canUndo()); }
+    bool canRedo() const override { return mSession && (mKeyframes.canRedo() || mSettings.canRedo()); }
     void undo() override;
     void redo() override;
     const InterfaceLook& look() const override { return panelled().look(); }
     void setLook(const InterfaceLook& look) override { panelled().setLook(look); }
     const Facts* facts() override;
-    const Job* job() const override { return mJob.get(); }
-    void cancelJob() override;
-    void makeMovie(const MovieWish& movie) override;
-    void savePicture(const PictureWish& picture) override;
-    bool bakes() const override;
-    bool bakeTakes(const std::string& key, const std::string& value) const override;
-    void bakeLight(const std::string& what, double minutes) override;
     ScreenWords onScreen(const ViewFrame& frame) const override;
     ScreenAnswer screen() const override;
     void leaveScreenUnknown() override;
@@ -135,13 +124,7 @@ public:
 private:
     struct FactsWish;
     struct BenchJudgement;
-    struct Made {  // what the scene that is shown was made of
-        ViewOptions options;
-        SettingTexts given, said;
-    };
 
-    // What stays useful after the window is closed.
-    void tell(const std::string& text);
     double waitSeconds() const;
     void takeScene();
     void beginSession();
@@ -168,27 +151,17 @@ private:
     void readConfig();
     void keepConfig();
     void noteRecent();
-    // Of what is shown: in full, so that it is found from anywhere; built-in scenes by their names.
-    std::filesystem::path fullName() const;
     void keepBefore();
     // What would end with the window, and what becomes of it.
     std::vector<std::string> workAtHand() const;
     void leave();  // closes the window, unless there is something to ask first
     bool ends();
     void endSession();
-    void checkNoJob() const;
-    std::string modeOfFiles() const;
-    // place: of the file that it makes, where that is to be a new one.
-    void startJob(const std::string& what, const std::vector<std::string>& words,
-                  std::unique_ptr<HeldPlace> place = nullptr);
-    void lookAtJob();
     void reportKept();
     void takeDrops();
-    void load(const ViewOptions& options, bool another);
+    void load(const ViewOptions& options, SettingTexts given, bool another);
     void goTo(const SettingTexts& settings);
-    bool wouldApply(const Option& option) const;
     bool setScreen(const std::string& key, const std::optional<std::string>& text);
-    void tryTo(const std::function<void()>& what);
     void askFor();
     void takeFrame();
     void showFrame();
@@ -235,14 +208,8 @@ private:
     void addLineMarks(std::vector<OverlayMark>& marks) const;
     bool drawOverlay(const OutputModeInfo& mode);
 
-    CommandResult mResult;
-    FactWords mTold;
-    std::string mJson;                          // the document's file; "": none
-    ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed in place since
-    // Asked for by every control of every layout: made once a turn, or once a scene.
-    mutable std::optional<SettingTexts> mSettings;
-    mutable std::map<const Option*, bool> mApplies;
-    SettingTexts mGiven, mSaid;  // what is shown was made of; what its scene file says
+    Notices mNotices;
+    SceneSettings mSettings;
     std::optional<RecordedPath> mFlight;
     Window mWindow;
     ViewDisplay mDisplay;
@@ -258,7 +225,6 @@ private:
     Screenshots mScreenshots;
     ViewInput mInput;
     SpaceMouse mSpaceMouse;
-    SettingsHistory mHistory;
     Stopwatch mClock, mLoadingWatch;
     double mSinceLayout = 0;  // seconds
     WindowTimes mTimes;
@@ -267,13 +233,10 @@ private:
     WindowConfig mConfig;  // as it was read, and is kept at the end
     RecentFiles mRecent;
     std::optional<Bookmarks> mPlaces;
-    std::unique_ptr<JobFile> mJobPath;     // of the flight that the job plays; goes after it
-    std::unique_ptr<HeldPlace> mJobPlace;  // of the file that it makes; the same
-    std::unique_ptr<Job> mJob;
+    WindowJobs mJobs{mSession, mSettings, mNotices};
     ClosingQuestion mClosing;
-    bool mEnds = false;               // the window closes, whatever is at work
-    std::string mBaked, mBakedScene;  // the file of a bake at work, and what it is of
-    bool mRecentDue = false;          // the file that is shown goes among them with its first picture
+    bool mEnds = false;       // the window closes, whatever is at work
+    bool mRecentDue = false;  // the file that is shown goes among them with its first picture
     std::shared_ptr<const ViewFrame> mFrame;
     FrameRequest mPresent;  // what the session wants to see now
     ShownPicture mPicture;  // what the presenter has; without eyes where that is none of the scene
@@ -293,12 +256,11 @@ private:
     std::shared_ptr<BenchJudgement> mJudgement;
     ComposeSetting mDrawn;
     PicturePlace mDrawnPlace;
-    std::string mSwept = kCpuSweep, mFailure;
+    std::string mSwept = kCpuSweep;
     long long mAsked = 0, mSliceVersion = 0;
     long long mSessionSince = 0;  // asked for later: frames of this session
     std::shared_ptr<const OpenScene> mScene;
     std::shared_ptr<FactsWish> mFacts;
-    std::optional<Made> mBefore;  // while another one is loaded
     SliceReading mSlices;
     bool mLabels = true;  // of places, over the picture
     mutable struct {
@@ -324,7 +286,7 @@ private:
     ScenePreparation mPreparation{[] { Window::wake(); }};
     bool mPrepared = false;                                        // what is shown is to be loaded again
     SecondStudy mSecond{[] { Window::wake(); }};                   // after the window, as the worker
-    Made mSecondMade;                                              // what it is, or is being, made of
+    SceneMade mSecondMade;                                         // what it is, or is being, made of
     std::optional<Pose> mSwapTo;                                   // where the flight goes on in it
     std::shared_ptr<const SliceStudy> mSecondSlices, mSwapSlices;  // its own, once read; those to go on with
     FileLooks mLooks{[] { Window::wake(); }};                      // after the window, as the worker

@@ -25,7 +25,8 @@ void Viewer::stepBench() {
         return;
     }
     const RecordedPath& path = mSession->path();
-    const bool animated = mSession->open().scene->offered<Animation>() != nullptr && !mOptions.refine;
+    const bool animated =
+        mSession->open().scene->offered<Animation>() != nullptr && !mSettings.options().refine;
     const bool rests = animated || !mSession->moving();
     const bool ready =
         mFrame && rests && !mWorker->loading().busy && (animated || mFrame->request.version == mAsked);
@@ -65,16 +66,16 @@ void Viewer::endBench() {
     const bool judged = !mJudgement || mJudgement->done;
     if (!judged) mJudgement->progress.cancel();
     const SizeOption eye = pictureSize();
-    mResult.add("size", FactIntegers{eye.width, eye.height});
-    mResult.add("mode", std::string(infoOf(shownMode()).shortName));
-    mResult.add("threads", static_cast<std::int64_t>(threadCount()));
-    mResult.add("simd", std::string(nameOf(availableTarget(SimdTarget::Auto))));
+    mNotices.result().add("size", FactIntegers{eye.width, eye.height});
+    mNotices.result().add("mode", std::string(infoOf(shownMode()).shortName));
+    mNotices.result().add("threads", static_cast<std::int64_t>(threadCount()));
+    mNotices.result().add("simd", std::string(nameOf(availableTarget(SimdTarget::Auto))));
     const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    mResult.add("renderer", std::string(renderer ? renderer : ""));
+    mNotices.result().add("renderer", std::string(renderer ? renderer : ""));
     for (Fact& fact : judged ? mBench->facts() : mJudgement->times) {
         if (const auto* number = std::get_if<double>(&fact.value); number && std::isfinite(*number))
-            mResult.say(fmt::format("{:17} {:8.2f}\n", fact.key, *number));
-        mResult.add(fact.key, std::move(fact.value));
+            mNotices.result().say(fmt::format("{:17} {:8.2f}\n", fact.key, *number));
+        mNotices.result().add(fact.key, std::move(fact.value));
     }
 }
 

@@ -9,8 +9,7 @@ std::vector<std::string> Viewer::workAtHand() const {
     std::vector<std::string> work;
     if (mSession && mSession->recording())
         work.push_back(fmt::format("a recording of {:.0f} s, which is kept", mSession->recorded()));
-    if (mJob && mJob->running())
-        work.push_back(mJob->what() + (mBaked.empty() ? ", which is lost" : ", which goes on the next time"));
+    if (const std::string job = mJobs.atWork(); !job.empty()) work.push_back(job);
     if (mFindings.writes()) work.push_back(mFindings.doing() + " of findings, which is lost");
     return work;
 }
@@ -33,7 +32,7 @@ bool Viewer::ends() {
 }
 
 void Viewer::endSession() {
-    if (mSession) tell(mSession->keepWork());
+    if (mSession) mNotices.tell(mSession->keepWork());
 }
 
 std::string Viewer::closingQuestion() const {

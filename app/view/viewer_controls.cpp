@@ -13,7 +13,7 @@ void Viewer::toggleControls() {
         mWindow.use();
         return;
     }
-    tryTo([&] { mControls = std::make_unique<ControlWindow>(mWindow, mInterface.look()); });
+    mNotices.tryTo([&] { mControls = std::make_unique<ControlWindow>(mWindow, mInterface.look()); });
     mNewPreview = true;
 }
 
@@ -37,7 +37,7 @@ void Viewer::useControls() {
     for (const glm::dvec2& click : window.takeClicks()) {
         const glm::dvec2 at = mControls->placeInPicture(click);
         if (at.x < 0 || at.y < 0 || at.x >= 1 || at.y >= 1) continue;
-        tell(mSession->click(at.x * eye.width, at.y * eye.height));
+        mNotices.tell(mSession->click(at.x * eye.width, at.y * eye.height));
     }
 }
 

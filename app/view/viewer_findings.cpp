@@ -51,11 +51,11 @@ std::vector<FlatMark> Viewer::flatMarks() const {
 }
 
 void Viewer::writeFindingsPage(const std::filesystem::path& file) {
-    tryTo([&] { mFindings.writePage(file); });
+    mNotices.tryTo([&] { mFindings.writePage(file); });
 }
 
 void Viewer::writeFindingsReport(const std::filesystem::path& file) {
-    tryTo([&] { mFindings.writeReport(file); });
+    mNotices.tryTo([&] { mFindings.writeReport(file); });
 }
 
 }  // namespace stereonav

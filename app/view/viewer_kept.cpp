@@ -24,7 +24,7 @@ bool contains(const std::vector<std::string>& names, const char* name) {
 void Viewer::readConfig() {
     const ReadConfig read = readWindowConfig();
     mConfig = read.config;
-    mFailure = read.problem;
+    mNotices.fail(read.problem);
     InterfaceLook look = mInterface.look();
     look.dark = mConfig.theme != "light";
     if (mConfig.scale) look.scale = static_cast<float>(*mConfig.scale);
@@ -56,22 +56,13 @@ void Viewer::keepConfig() {
     if (!(config == mConfig)) writeWindowConfig(config);
 }
 
-// A folder of a built-in scene's name is not that scene.
-std::filesystem::path Viewer::fullName() const {
-    const std::string& scene = mOptions.scene.scene;
-    if (scene.empty()) return "terrain";
-    std::error_code code;
-    if (isBuiltIn(scene) || !std::filesystem::exists(scene, code)) return scene;
-    return std::filesystem::absolute(scene, code).lexically_normal();
-}
-
 // With the first picture that was made of it.
 void Viewer::noteRecent() {
-    if (!mRecentDue || mBefore) return;
+    if (!mRecentDue || mSettings.begun()) return;
     mRecentDue = false;
-    tryTo([&] {
-        const std::string kind(sceneTypeNamed(mOptions.scene.scene).noun);
-        mRecent.add(fullName(), kind, &mFrame->left.color);
+    mNotices.tryTo([&] {
+        const std::string kind(sceneTypeNamed(mSettings.options().scene.scene).noun);
+        mRecent.add(mSettings.fullName(), kind, &mFrame->left.color);
     });
     reportKept();
 }
@@ -79,12 +70,12 @@ void Viewer::noteRecent() {
 void Viewer::reportKept() {
     for (const std::string& problem :
          {mRecent.takeProblem(), mPlaces ? mPlaces->takeProblem() : std::string()})
-        if (!problem.empty()) mFailure = problem;
+        if (!problem.empty()) mNotices.fail(problem);
 }
 
 void Viewer::addPlace() {
     if (!mSession || !mPlaces) return;
-    tryTo([&] {
+    mNotices.tryTo([&] {
         Bookmark place;
         place.pose = mSession->pose();
         place.settings = groundSettings(*mScene->scene);

@@ -18,15 +18,16 @@ void Viewer::askFor() {
     const glm::ivec2 all = composedAt(mode, placeFor(mode));
     if (mWindow.minimised()) return;
     const bool screenshot = mSession->takeScreenshotWish();
-    mSession->driftAtRest(!mOptions.refine);
+    mSession->driftAtRest(!mSettings.options().refine);
     const auto [scale, effort] = sizeNow(screenshot);
-    const bool late = mOptions.lateWarp && mSession->flying() && !screenshot && !mScreenshots.waiting();
+    const bool late =
+        mSettings.options().lateWarp && mSession->flying() && !screenshot && !mScreenshots.waiting();
     if (late && !mPresent.flying) mLead.begin(mGovernor.usual_ms() / 1000);
     const double ahead = late ? mLead.seconds() : 0;
     if (!late) mGuard.forget();
     FrameRequest request = mSession->requestFor(all.x, all.y, ahead, scale, mGuard.shares());
-    request.late = mOptions.lateWarp;
-    request.refines = mOptions.refine;
+    request.late = mSettings.options().lateWarp;
+    request.refines = mSettings.options().refine;
     request.flying = late;
     request.effort = effort;
     request.asked_s = request.version == mPresent.version ? mPresent.asked_s : Window::now();
@@ -56,12 +57,12 @@ FrameGovernor::Size Viewer::sizeNow(bool screenshot) {
     const bool swept = scene.offered<SweepPlace>() != nullptr;
     mGovernor.setMedium(swept, scene.offered<FrameEffort>() != nullptr);
     const double usual = std::min(2000 * mDisplay.refreshPeriod(), kMost) * (swept ? kMedium : 1);
-    mGovernor.setTarget(mOptions.target_ms.value_or(usual));
+    mGovernor.setTarget(mSettings.options().target_ms.value_or(usual));
     const glm::dvec2 wide = 1.0 + 2.0 * mGuard.shares();
     mGovernor.setArea(mSession->flying() ? wide.x * wide.y : 1);
     const bool whole = screenshot || mScreenshots.waiting() || mSession->truth() != TruthView::None;
     if (mSession->flying()) mRestSize.reset();
-    if (!mOptions.lateWarp || whole) return {};
+    if (!mSettings.options().lateWarp || whole) return {};
     if (mSession->flying()) return {mGovernor.scale(), mGovernor.effort()};
     if (!swept) return {};
     if (!mRestSize) mRestSize = mGovernor.sizeWithin(kFirst);  // until something moves again
@@ -70,7 +71,7 @@ FrameGovernor::Size Viewer::sizeNow(bool screenshot) {
 
 // Whether the newest frame is not of this moment, and can be seen from where the eyes are now.
 bool Viewer::warps() const {
-    return mOptions.lateWarp && mFrame && mFrame->request.version > mSessionSince &&
+    return mSettings.options().lateWarp && mFrame && mFrame->request.version > mSessionSince &&
            !sameView(mFrame->request, mPresent) && LateView::fits(*mFrame, mPresent);
 }
 

@@ -94,7 +94,7 @@ void Viewer::usePointer() {
             if (mFindings.clicks()) findHere();
             continue;
         }
-        tell(mSession->click(at.x, at.y));
+        mNotices.tell(mSession->click(at.x, at.y));
     }
 }
 

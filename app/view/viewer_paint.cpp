@@ -14,7 +14,7 @@ void Viewer::followPaint() {
     auto* const paint = mScene->scene->offered<LivePaint>();
     if (!paint) return;
     if (!paint->work()) mPaintWatch.lap_ms();
-    if (const std::string problem = paint->takeProblem(); !problem.empty()) mFailure = problem;
+    if (const std::string problem = paint->takeProblem(); !problem.empty()) mNotices.fail(problem);
     if (paint->version() == mPaintSeen) return;
     mPaintSeen = paint->version();
     mFacts.reset();  // they tell what is painted
@@ -50,30 +50,6 @@ const std::vector<LabelledPlace>& Viewer::namedPlaces() const {
     for (const PaintedPlace& place : paint->legend()->places)
         if (!place.name.empty()) mNames.list.push_back({place.name, place.world});
     return mNames.list;
-}
-
-void Viewer::saveMeasured(const std::string& file) {
-    tryTo([&] {
-        checkNoJob();
-        const std::filesystem::path wanted = std::filesystem::absolute(file).lexically_normal();
-        const std::string kind = wanted.extension();
-        const bool profile = kind == ".svg" || kind == ".csv";
-        if (!profile && kind != ".geojson")
-            throw Error(file, "", "expected a name that ends in .svg, .csv or .geojson", "as in profile.svg");
-        if (profile && mMeasured.closed())
-            throw Error(file, "", "an area has no profile", "name a .geojson, or take Area away");
-        SettingTexts settings;
-        for (const char* const key : {"SCENE", "open-holes"})
-            if (const auto said = this->settings().find(key); said != this->settings().end())
-                settings.insert(*said);
-        std::vector<std::string> words =
-            commandWords(profile ? command::kProfile : command::kMeasure, settings);
-        words.push_back(measuredWords(*mScene->scene, mMeasured));
-        auto held = std::make_unique<HeldPlace>(wanted, HeldPlace::Kind::File);
-        const std::filesystem::path place = held->path();
-        words.push_back(fmt::format("--{}={}", kind.substr(1), place.string()));
-        startJob(place.string(), words, std::move(held));
-    });
 }
 
 }  // namespace stereonav

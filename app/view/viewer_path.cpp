@@ -12,7 +12,7 @@ void Viewer::followKeyframes() {
     if (mKeyframes.version() == mKeyframesSeen || mKeyframes.dragging()) return;
     mKeyframesSeen = mKeyframes.version();
     if (mKeyframes.keys().size() > 1)
-        tryTo([this] {
+        mNotices.tryTo([this] {
             FlownPath flown = flownThrough(mKeyframes.keys(), mSession->flight());
             // What was played before them can be had back.
             if (mKeyframesFlown)
@@ -26,7 +26,7 @@ void Viewer::followKeyframes() {
 
 void Viewer::openPath(const std::filesystem::path& file) {
     if (!mSession) return;
-    tryTo([&] { mSession->openPath(readPath(file)); });
+    mNotices.tryTo([&] { mSession->openPath(readPath(file)); });
 }
 
 }  // namespace stereonav

@@ -35,26 +35,6 @@ struct Viewer::FactsWish {
     std::optional<Facts> facts;
 };
 
-void Viewer::tryTo(const std::function<void()>& what) {
-    try {
-        what();
-    } catch (const std::exception& error) {
-        mFailure = error.what();
-    }
-}
-
-std::string Viewer::sceneName() const {
-    const std::string& scene = mOptions.scene.scene;
-    if (scene.empty()) return "terrain";
-    const std::string name = std::filesystem::path(scene).filename().string();
-    return name.empty() ? scene : name;
-}
-
-const SettingTexts& Viewer::settings() const {
-    if (!mSettings) mSettings = mSession ? withLive(*mSession, mGiven) : mGiven;
-    return *mSettings;
-}
-
 std::optional<std::string> Viewer::valueOf(const Option& option) const {
     if (option.key == kScreenWidthKey)
         return fmt::format("{:.6g}", mDisplay.sizes().of(mDisplay.told()).width_mm);
@@ -77,36 +57,16 @@ bool Viewer::setScreen(const std::string& key, const std::optional<std::string>&
     else
         mDisplay.sizes().setDistance(monitor, mm);
     // What the command line said counts no longer.
-    for (ViewOptions* options : {&mOptions, &mChanged}) {
-        (key == kScreenWidthKey ? options->screenWidth_mm : options->viewingDistance_mm).reset();
-        options->scene.given.forget(key);
-    }
-    mGiven.erase(key);
+    mSettings.forgetScreen(
+        key, key == kScreenWidthKey ? &ViewOptions::screenWidth_mm : &ViewOptions::viewingDistance_mm);
     return true;
-}
-
-bool Viewer::applies(const Option& option) const {
-    const auto [known, fresh] = mApplies.try_emplace(&option, false);
-    if (fresh) known->second = wouldApply(option);
-    return known->second;
-}
-
-bool Viewer::wouldApply(const Option& option) const {
-    const auto type = sceneTypeOf(mOptions.scene);
-    if (!type || (option.scenes & *type) == 0) return false;
-    // What would be refused beside what is set now is not offered.
-    GivenOptions given = mChanged.scene.given;
-    if (!given.has(option.key)) given.add(option.key, OptionValue{}, option.name());
-    const Asked asked{given, *type};
-    return std::none_of(option.rules.begin(), option.rules.end(),
-                        [&](const OptionRule& rule) { return rule.broken(asked); });
 }
 
 bool Viewer::live(const Option& option) const {
     return isOfScreen(option.key) || (mSession && isLive(*mSession, option.key));
 }
 
-void Viewer::load(const ViewOptions& options, bool another) {
+void Viewer::load(const ViewOptions& options, SettingTexts given, bool another) {
     ViewOptions shown = options;
     const bool swept = shownAs(shown.scene).swept;
     shown.scene.skyTurns = !swept;
@@ -116,12 +76,9 @@ void Viewer::load(const ViewOptions& options, bool another) {
     checkSize(windowSize(), shown.scene, kViewBytes);
     mDisplay.follow(shown);
     if (swept && !mSweep) mSweep = std::make_unique<ViewSweep>(shown.sweep);
-    if (!mBefore) mBefore = Made{mOptions, mGiven, mSaid};
     mAnother = mAnother || another;
     mSwapTo.reset();
-    mOptions = mChanged = shown;
-    mSettings.reset();
-    mApplies.clear();
+    mSettings.begin({shown, std::move(given), fileTextsOf(options.scene.given)});
     mWorker->reload([options = shown, size = windowSize(), sweep = swept ? mSweep.get() : nullptr](
                         Progress& progress) { return openScene(options, false, size, sweep, progress); });
 }
@@ -139,20 +96,19 @@ void Viewer::replaceScene() {
 }
 
 void Viewer::open(const std::string& scene) {
-    mFailure.clear();
-    tryTo([&] {
+    mNotices.forgetFailure();
+    mNotices.tryTo([&] {
         SettingTexts settings;
         if (scene != "terrain") settings["SCENE"] = {scene};
         // What is of the person and the screen stays.
         for (const char* key : {"shots", "size", "threads", "simd", "full-screen", "screen-width",
                                 "viewing-distance", "late-warp", "target-ms"})
-            if (const auto kept = mGiven.find(key); kept != mGiven.end()) settings.insert(*kept);
+            if (const auto kept = mSettings.given().find(key); kept != mSettings.given().end())
+                settings.insert(*kept);
         ViewOptions options = viewOptionsOf(settings);
         mMode = mSession ? mSession->mode() : mMode;
         options.mode = mMode;
-        load(options, true);
-        mGiven = settingTextsOf(options.scene.given);
-        mSaid = fileTextsOf(options.scene.given);
+        load(options, settingTextsOf(options.scene.given), true);
         mPanels.showStart(false);
     });
 }
@@ -166,38 +122,31 @@ void Viewer::cancelLoading() {
 // What is shown stays what it was.
 void Viewer::keepBefore() {
     mAnother = false;
-    if (!mBefore) return;
-    mOptions = mChanged = mBefore->options;
-    mGiven = mBefore->given;
-    mSaid = mBefore->said;
-    mBefore.reset();
-    mSettings.reset();
-    mApplies.clear();
-    if (mSession) mHistory.backTo(settings());
+    mSettings.keepBefore();
 }
 
 void Viewer::set(const std::string& key, const std::optional<std::string>& text) {
     if (!mSession) return;
-    tryTo([&] {
+    mNotices.tryTo([&] {
         if (setScreen(key, text)) return;
         if (isLive(*mSession, key, text)) {
             setLive(*mSession, key, text);
-            if (!text) mGiven.erase(key);
+            if (!text) mSettings.forgetGiven(key);
             return;
         }
-        SettingTexts settings = this->settings();
+        SettingTexts settings = mSettings.now();
         if (text)
             setText(settings, key, *text);
         else
             settings.erase(key);
         goTo(settings);
     });
-    mSettings.reset();
+    mSettings.look();
 }
 
 // Throws Error, and nothing is changed then.
 void Viewer::goTo(const SettingTexts& settings) {
-    const SettingTexts now = this->settings();
+    const SettingTexts now = mSettings.now();
     bool again = false;
     std::vector<std::pair<std::string, std::optional<std::string>>> changes;
     const auto note = [&](const std::string& key) {
@@ -212,25 +161,20 @@ void Viewer::goTo(const SettingTexts& settings) {
     for (const auto& [key, texts] : now) note(key);
     for (const auto& [key, texts] : settings)
         if (!now.contains(key)) note(key);
-    if (again) {
-        const ViewOptions options = viewOptionsOf(settings);
-        load(options, false);
-        mGiven = settings;
-        mSaid = fileTextsOf(options.scene.given);
-    }
+    if (again) load(viewOptionsOf(settings), settings, false);
     for (const auto& [key, text] : changes) {
-        if (!again && !text) mGiven.erase(key);
+        if (!again && !text) mSettings.forgetGiven(key);
         if (isLive(*mSession, key, text)) setLive(*mSession, key, text);
     }
     if (again) mSession->takeSceneChange();  // the scene that is loaded has it
-    mSettings.reset();
+    mSettings.look();
 }
 
 // What was guessed of the scene comes before what helps to begin.
 void Viewer::greet(bool first) {
     const auto* const terrain = mScene->scene->offered<const TerrainScene>();
     const std::vector<std::string> notes = terrain ? terrain->report.notes : std::vector<std::string>();
-    for (const std::string& note : notes) tell(note);
+    for (const std::string& note : notes) mNotices.tell(note);
     if (!notes.empty())
         mSession->notify(notes.front());
     else if (first)
@@ -240,17 +184,17 @@ void Viewer::greet(bool first) {
 void Viewer::undo() {
     if (!mSession) return;
     if (mKeyframes.canUndo()) return mKeyframes.undo();
-    const auto settings = mHistory.undo();
+    const auto settings = mSettings.undo();
     if (!settings) return mSession->notify("there is nothing to undo");
-    tryTo([&] { goTo(*settings); });
+    mNotices.tryTo([&] { goTo(*settings); });
 }
 
 void Viewer::redo() {
     if (!mSession) return;
     if (mKeyframes.canRedo()) return mKeyframes.redo();
-    const auto settings = mHistory.redo();
+    const auto settings = mSettings.redo();
     if (!settings) return mSession->notify("there is nothing to redo");
-    tryTo([&] { goTo(*settings); });
+    mNotices.tryTo([&] { goTo(*settings); });
 }
 
 void Viewer::copy(const std::string& text) {
@@ -259,31 +203,8 @@ void Viewer::copy(const std::string& text) {
 }
 
 void Viewer::saveScene(const std::filesystem::path& file) {
-    tryTo([&] {
-        std::filesystem::path place = file;
-        if (place.extension() != ".toml") place += ".toml";
-        SettingTexts settings = this->settings();
-        const auto scene = settings.find("SCENE");
-        const std::string name = scene == settings.end() ? "" : scene->second.back();
-        std::error_code code;
-        const bool isToml = std::filesystem::path(name).extension() == ".toml";
-        const bool there = std::filesystem::exists(place, code);
-        const bool same = isToml && there && std::filesystem::equivalent(name, place, code);
-        if (there && !same)
-            throw Error(place.string(), "", "there is a file already", "choose another name, or delete it");
-        // A copy of a scene file is one beside it: the files that it names are relative to it.
-        if (isToml && !same &&
-            std::filesystem::absolute(name).parent_path() != std::filesystem::absolute(place).parent_path())
-            throw Error(place.string(), "", "a copy of a scene file must lie beside it",
-                        "choose a name in " + std::filesystem::absolute(name).parent_path().string());
-        const std::string before = isToml ? readTextFile(name) : "";
-        std::string named = isToml ? "" : name.empty() ? "terrain" : name;
-        if (!named.empty() && std::filesystem::exists(named, code))
-            named = std::filesystem::absolute(named).lexically_normal().string();
-        settings.erase("SCENE");
-        const std::string text = savedScene(before, named, isToml ? mSaid : SettingTexts(), settings);
-        // The scene file itself was read, and is to be written: what else was read is not.
-        writeTextFile(place, text, Flush::ToDisk, same ? Over::Anything : Over::NothingRead);
+    mNotices.tryTo([&] {
+        const std::filesystem::path place = mSettings.save(file);
         mSession->notify("saved " + place.string());
     });
 }
@@ -305,9 +226,8 @@ const Facts* Viewer::facts() {
 
 // The same settings.
 void Viewer::loadAgain() {
-    mWorker->reload([options = mChanged, size = windowSize(), sweep = mSweep.get()](Progress& progress) {
-        return openScene(options, false, size, sweep, progress);
-    });
+    mWorker->reload([options = mSettings.changed(), size = windowSize(), sweep = mSweep.get()](
+                        Progress& progress) { return openScene(options, false, size, sweep, progress); });
 }
 
 // A coarser scene stands in until what it lacks is there; not while another one is being loaded.
@@ -318,7 +238,7 @@ void Viewer::followPreparation() {
     } catch (const Cancelled&) {
         mSession->notify("the ground stays coarse until it is opened again");
     } catch (const std::exception& error) {
-        mFailure = error.what();
+        mNotices.fail(error.what());
     }
     if (!mPrepared || mWorker->loading().busy) return;
     mPrepared = false;
@@ -328,19 +248,18 @@ void Viewer::followPreparation() {
 // What the session wants that takes longer than a frame.
 void Viewer::followWishes() {
     if (const auto change = mSession->takeSceneChange()) {
-        applyChange(*change, mOptions.scene, mChanged.scene);
-        mApplies.clear();
+        mSettings.change(*change);
         if (mScene->scene->offered<SurfaceChoices>() && !change->pieces)
-            mWorker->change(
-                [options = mChanged, surface = change->surface](const OpenScene& now, Progress& progress) {
-                    return changedScene(now, surface, options, progress);
-                });
+            mWorker->change([options = mSettings.changed(), surface = change->surface](const OpenScene& now,
+                                                                                       Progress& progress) {
+                return changedScene(now, surface, options, progress);
+            });
         else
             loadAgain();
     }
     if (const std::string problem = mWorker->takeReloadProblem(); !problem.empty()) {
         mSession->forgetSceneChange();
-        mFailure = problem;
+        mNotices.fail(problem);
         keepBefore();
     }
     followPreparation();
@@ -368,7 +287,7 @@ void Viewer::takeStudy() {
     } catch (const std::exception& error) {
         mStudyFailed = true;
         mSession->dropStudyWish();
-        mFailure = error.what();
+        mNotices.fail(error.what());
     }
 }
 

@@ -10,13 +10,13 @@ namespace stereonav {
 // What was chosen in the flown study is not of the other one.
 void Viewer::openOther(const std::string& study) {
     if (!mSession) return;
-    mFailure.clear();
-    tryTo([&] {
+    mNotices.forgetFailure();
+    mNotices.tryTo([&] {
         const Scene& flown = *mScene->scene;
         if (!flown.offered<const MatchingLine>() || !flown.offered<RayCast>())
             throw Error(study, "", "what is open has no line to match it with", "open a colon first");
-        SettingTexts settings = this->settings();
-        const std::string name = mOptions.scene.scene;
+        SettingTexts settings = mSettings.now();
+        const std::string name = mSettings.options().scene.scene;
         for (const char* key : {"series", "label", "seed", "include", "exclude", "path", "pose", "paint"})
             settings.erase(key);
         settings["SCENE"] = {study};
@@ -44,12 +44,13 @@ void Viewer::beginSecond() {
     }
     mSecond.close();
     mSecondSlices.reset();
-    if (const auto with = mGiven.find("with"); with != mGiven.end() && !with->second.empty())
+    if (const auto with = mSettings.given().find("with");
+        with != mSettings.given().end() && !with->second.empty())
         openOther(std::string(with->second.back()));
 }
 
 SettingTexts Viewer::settingsToOpen() const {
-    SettingTexts texts = settings();
+    SettingTexts texts = mSettings.now();
     if (mSecond.other()) texts["with"] = {mSecondMade.options.scene.scene};
     return texts;
 }
@@ -62,7 +63,7 @@ void Viewer::followSecond() {
     } catch (const Cancelled&) {
         mSession->notify("the other study was not opened");
     } catch (const std::exception& error) {
-        mFailure = error.what();
+        mNotices.fail(error.what());
     }
 }
 
@@ -72,16 +73,10 @@ void Viewer::swapStudies() {
     if (!place) return;
     const Pose pose = mSecond.poseAt(*place);
     const std::shared_ptr<const OpenScene> next = mSecond.swap(mScene);
-    Made flown{mOptions, settings(), mSaid};
+    SceneMade flown{mSettings.options(), mSettings.now(), mSettings.made().said};
     mMode = mSession->mode();
-    mBefore = flown;
     mAnother = true;
-    mOptions = mChanged = mSecondMade.options;
-    mGiven = mSecondMade.given;
-    mSaid = mSecondMade.said;
-    mSecondMade = std::move(flown);
-    mSettings.reset();
-    mApplies.clear();
+    mSettings.begin(std::exchange(mSecondMade, flown), flown);
     mSwapTo = pose;
     mSwapSlices = std::exchange(mSecondSlices, mSession->study());
     mWorker->reload([next](Progress&) { return *next; });

@@ -17,10 +17,11 @@ public:
     const ViewFrame* frame() const override { return nullptr; }
     double framesPerSecond() const override { return 0; }
     const std::deque<FrameCost>& costs() const override { return mCosts; }
-    std::string sceneName() const override { return "test"; }
-    const SettingTexts& settings() const override { return mSettings; }
+    SceneSettings& settings() override { return mSettings; }
+    SettingTexts settingsToOpen() const override { return mSettings.now(); }
+    WindowJobs& jobs() override { return mJobs; }
+    Notices& notices() override { return mNotices; }
     std::optional<std::string> valueOf(const Option&) const override { return std::nullopt; }
-    bool applies(const Option&) const override { return false; }
     bool live(const Option&) const override { return false; }
     SizeOption pictureSize() const override { return {320, 200}; }
     ViewWorker::Loading loading() const override { return {}; }
@@ -28,8 +29,6 @@ public:
     void cancelLoading() override {}
     std::optional<double> readingSlices() const override { return std::nullopt; }
     void cancelSlices() override {}
-    const std::string& failure() const override { return mFailure; }
-    void forgetFailure() override {}
     Bookmarks* places() override { return nullptr; }
     void addPlace() override {}
     void goToPlace(const Bookmark&) override {}
@@ -38,13 +37,6 @@ public:
     KeyframeEdit& keyframes() override { return mKeyframes; }
     void openPath(const std::filesystem::path&) override {}
     std::shared_ptr<const SliceStudy> study() override { return slices; }
-    const Job* job() const override { return nullptr; }
-    void cancelJob() override {}
-    void makeMovie(const MovieWish&) override {}
-    void savePicture(const PictureWish&) override {}
-    bool bakes() const override { return false; }
-    bool bakeTakes(const std::string&, const std::string&) const override { return false; }
-    void bakeLight(const std::string&, double) override {}
     void act(const ViewAction& action) override { mSession.act(action); }
     void set(const std::string&, const std::optional<std::string>&) override {}
     void open(const std::string&) override {}
@@ -77,8 +69,10 @@ private:
     ViewSession& mSession;
     KeyframeEdit mKeyframes;
     std::deque<FrameCost> mCosts;
-    SettingTexts mSettings;
-    std::string mFailure;
+    std::optional<ViewSession> mNone;
+    SceneSettings mSettings{ViewOptions{}, mNone};
+    Notices mNotices{ViewOptions{}};
+    WindowJobs mJobs{mNone, mSettings, mNotices};
     std::vector<RecentFile> mRecent;
     InterfaceLook mLook;
 };

@@ -191,7 +191,7 @@ void quietText(const PanelHost& host, const std::string& text) {
 
 void optionControl(PanelHost& host, const Option& option) {
     ImGui::PushID(option.key);
-    const SettingTexts& settings = host.settings();
+    const SettingTexts& settings = host.settings().now();
     const auto given = settings.find(option.key);
     const bool isGiven = given != settings.end() && !given->second.empty();
     const std::string now = host.valueOf(option).value_or(isGiven ? given->second.back() : "");

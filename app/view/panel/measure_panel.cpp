@@ -74,13 +74,13 @@ void drawEyeHeight(PanelHost& host, MeasuredLine& line) {
 // Of the line, as the commands `profile` and `measure` write it.
 void drawSaving(PanelHost& host) {
     static std::string file = "profile.svg";
-    const bool busy = host.job() && host.job()->running();
+    const bool busy = host.jobs().busy();
     ImGui::SetNextItemWidth(-5 * ImGui::GetFontSize());
     ImGui::InputTextWithHint("##measured file", "profile.svg", &file);
     tooltip("A .svg or .csv of the profile, or a .geojson of the line with its figures.");
     ImGui::SameLine();
     ImGui::BeginDisabled(busy || file.empty());
-    if (ImGui::Button("Save##measured")) host.saveMeasured(file);
+    if (ImGui::Button("Save##measured")) host.jobs().saveMeasured(*host.measured(), file);
     ImGui::EndDisabled();
     tooltip("Written beside the flight; where a file is there already, the new one gets a number.");
 }

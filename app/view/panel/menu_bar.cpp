@@ -163,7 +163,7 @@ float drawMenuBar(PanelHost& host, MenuWishes& wishes) {
     if (ImGui::MenuItem("Help")) wishes.help = true;
     tooltip("All keys: F1");
     // What is open, where there is room for it.
-    const std::string name = printable(host.sceneName());
+    const std::string name = printable(host.settings().sceneName());
     const float width = ImGui::CalcTextSize(name.c_str()).x, left = ImGui::GetContentRegionAvail().x;
     if (const float margin = ImGui::GetFontSize(); width + 2 * margin < left) {
         ImGui::SameLine(ImGui::GetCursorPosX() + left - width - margin);

@@ -11,13 +11,14 @@
 #include "app/view/bookmarks.h"
 #include "app/view/file_looks.h"
 #include "app/view/finding_list.h"
-#include "app/view/job.h"
 #include "app/view/live_coverage.h"
 #include "app/view/measured_line.h"
+#include "app/view/notices.h"
 #include "app/view/recent_files.h"
+#include "app/view/scene_settings.h"
 #include "app/view/session.h"
-#include "app/view/setting_texts.h"
 #include "app/view/view_display.h"
+#include "app/view/window_jobs.h"
 #include "engine/display/interface_theme.h"
 #include "engine/scene/flat_wall.h"
 
@@ -30,17 +31,6 @@ class SecondStudy;
 struct FrameCost {
     double left_ms = 0, right_ms = 0;            // of eyes made together the left one has it all
     double warp_ms = 0, fill_ms = 0, holes = 0;  // holes: percent of the right eye's pixels
-};
-
-struct MovieWish {
-    std::string file;                // .mp4, .mkv, .avi; or a folder's name, for pictures
-    int width = 1280, height = 720;  // pixels of an eye
-    double fps = 25;
-};
-
-struct PictureWish {
-    std::string file;                // .png, .jps, .mpo
-    int width = 1280, height = 720;  // pixels of an eye
 };
 
 // The screen that the window is on.
@@ -61,24 +51,21 @@ public:
     // Of the place under the pointer; none while it is over no surface, or the picture moves.
     virtual Facts pointedFacts() const { return {}; }
     virtual const std::deque<FrameCost>& costs() const = 0;  // newest last
-    virtual std::string sceneName() const = 0;
-    virtual const SettingTexts& settings() const = 0;  // given and live; until something is set
+    virtual SceneSettings& settings() = 0;
+    virtual WindowJobs& jobs() = 0;
+    virtual Notices& notices() = 0;
     // What opens all that is open again: with the study, too, that was opened beside the flight.
-    virtual SettingTexts settingsToOpen() const { return settings(); }
+    virtual SettingTexts settingsToOpen() const = 0;
     // None where it is not known, or "" where the option is not given and has no default in the table.
     virtual std::optional<std::string> valueOf(const Option& option) const = 0;
-    virtual bool applies(const Option& option) const = 0;  // to what is shown
-    virtual bool live(const Option& option) const = 0;     // taken at once, while it is dragged
-    virtual SizeOption pictureSize() const = 0;            // of an eye, pixels
+    virtual bool live(const Option& option) const = 0;  // taken at once, while it is dragged
+    virtual SizeOption pictureSize() const = 0;         // of an eye, pixels
 
     virtual ViewWorker::Loading loading() const = 0;
     virtual double loadingSeconds() const = 0;  // since it began
     virtual void cancelLoading() = 0;
     virtual std::optional<double> readingSlices() const = 0;  // how much of them, while they are read
     virtual void cancelSlices() = 0;
-    // A line that stays until it is read, "" for none.
-    virtual const std::string& failure() const = 0;
-    virtual void forgetFailure() = 0;
 
     // Places of this file; null before a scene is there.
     virtual Bookmarks* places() = 0;
@@ -93,19 +80,6 @@ public:
         const std::filesystem::path& file) = 0;  // takes the path's place; failures are told
     // What slices are of; asked for, it is read beside the frames. Null until then, or where there is none.
     virtual std::shared_ptr<const SliceStudy> study() = 0;
-
-    // A movie or a bake that is being made, or was made last; null before the first.
-    virtual const Job* job() const = 0;
-    virtual void cancelJob() = 0;
-    // Of the path that Play plays, as the window is set. Failures are told.
-    virtual void makeMovie(const MovieWish& movie) = 0;
-    // Of what is seen, as the window is set. Failures are told.
-    virtual void savePicture(const PictureWish& picture) = 0;
-    // Light of this scene, to be shown when it is done.
-    virtual bool bakes() const = 0;  // whether it has light to bake
-    // Whether `bake` takes this of the scene.
-    virtual bool bakeTakes(const std::string& key, const std::string& value) const = 0;
-    virtual void bakeLight(const std::string& what, double minutes) = 0;
 
     virtual void act(const ViewAction& action) = 0;
     // none: as it begins. Failures are told.
@@ -142,9 +116,6 @@ public:
     virtual void addFinding(const glm::dvec3& /*place*/) {}
     virtual void writeFindingsPage(const std::filesystem::path& /*file*/) {}    // failures are told
     virtual void writeFindingsReport(const std::filesystem::path& /*file*/) {}  // the same
-    // Into a file of what is measured, by its name: .csv and .svg of the profile, .geojson. Failures are
-    // told.
-    virtual void saveMeasured(const std::string& /*file*/) {}
     // Clicks on the picture paint what is seen from there, so high above the ground; none: they do not.
     virtual std::optional<double> seesFromClicks() const { return std::nullopt; }
     virtual void seeFromClicks(const std::optional<double>& /*height*/) {}

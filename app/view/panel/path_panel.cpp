@@ -140,9 +140,9 @@ void drawMovie(PanelHost& host, ViewSession& session) {
     movie.fps = std::clamp(movie.fps, 1.0, 240.0);
     tooltip("Frames a second.");
     ImGui::SameLine();
-    const bool busy = host.job() && host.job()->running();
+    const bool busy = host.jobs().busy();
     ImGui::BeginDisabled(busy || movie.file.empty() || session.path().samples().size() < 2);
-    if (ImGui::Button("Make movie")) host.makeMovie(movie);
+    if (ImGui::Button("Make movie")) host.jobs().makeMovie(movie);
     ImGui::EndDisabled();
     tooltip("Of this path, in the mode that is shown. It goes on beside the flight.");
 }

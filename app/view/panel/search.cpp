@@ -75,7 +75,7 @@ void SearchBox::draw(PanelHost& host) {
         if (!matches(labelOf(option) + " " + option.help, mWords)) continue;
         ImGui::PushID(&option);
         ++row;
-        if (host.applies(option)) {
+        if (host.settings().applies(option)) {
             optionControl(host, option);
         } else {
             quietText(host, labelOf(option) + ": not of this scene");

@@ -20,10 +20,10 @@
 namespace stereonav {
 namespace {
 
-std::vector<const Option*> optionsOf(const PanelHost& host, OptionPanel panel) {
+std::vector<const Option*> optionsOf(PanelHost& host, OptionPanel panel) {
     std::vector<const Option*> options;
     for (const Option& option : optionTable())
-        if ((option.commands & command::kView) && option.panel == panel && host.applies(option))
+        if ((option.commands & command::kView) && option.panel == panel && host.settings().applies(option))
             options.push_back(&option);
     return options;
 }
@@ -71,29 +71,29 @@ void drawOptions(PanelHost& host, OptionPanel panel) {
 void drawBake(PanelHost& host, ViewSession&) {
     const Option* const light = viewOption("light");
     const Option* const what = findOption(command::kBake, "what");
-    if (!light || !what || !host.bakes()) return;
+    if (!light || !what || !host.jobs().bakes()) return;
     static int chosen = 1;
     static double minutes = 2;
     const std::vector<std::string>& words = what->value.words;
     ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
     if (ImGui::BeginCombo("##what", words[static_cast<std::size_t>(chosen)].c_str())) {
         for (std::size_t n = 0; n < words.size(); ++n)
-            if (host.bakeTakes("what", words[n]) && ImGui::Selectable(words[n].c_str()))
+            if (host.jobs().bakeTakes("what", words[n]) && ImGui::Selectable(words[n].c_str()))
                 chosen = static_cast<int>(n);
         ImGui::EndCombo();
     }
     tooltip(what->help);
     ImGui::SameLine();
-    if (host.bakeTakes("minutes", "1")) {
+    if (host.jobs().bakeTakes("minutes", "1")) {
         ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
         ImGui::DragScalar("##minutes", ImGuiDataType_Double, &minutes, 0.05f, nullptr, nullptr, "%.1f min");
         minutes = std::clamp(minutes, 0.1, 600.0);
         tooltip("It takes this long, or less where all is done before.");
         ImGui::SameLine();
     }
-    const bool busy = host.job() && host.job()->running();
+    const bool busy = host.jobs().busy();
     ImGui::BeginDisabled(busy);
-    if (ImGui::Button("Bake")) host.bakeLight(words[static_cast<std::size_t>(chosen)], minutes);
+    if (ImGui::Button("Bake")) host.jobs().bakeLight(words[static_cast<std::size_t>(chosen)], minutes);
     ImGui::EndDisabled();
     tooltip(
         "Computes light with its shadows and reflections beforehand, and shows it. It goes on beside the "
@@ -204,9 +204,9 @@ void drawPicture(PanelHost& host) {
     picture.width = static_cast<int>(std::lround(times * shown.width));
     picture.height = static_cast<int>(std::lround(times * shown.height));
     ImGui::SameLine();
-    const bool busy = host.job() && host.job()->running();
+    const bool busy = host.jobs().busy();
     ImGui::BeginDisabled(busy || picture.file.empty());
-    if (ImGui::Button("Save picture")) host.savePicture(picture);
+    if (ImGui::Button("Save picture")) host.jobs().savePicture(picture);
     ImGui::EndDisabled();
     tooltip(
         "Of what is seen now; both eyes are made in full, unless a method is set. It goes on beside the "
@@ -247,7 +247,8 @@ void drawSidePanels(PanelHost& host, SideTools& tools) {
         ImGui::SameLine();
         const std::string at = poseText(session->pose());
         if (ImGui::Button("Copy for a picture"))
-            host.copy(renderLineOf(withEyes(host.settings(), session->stereo()), at, host.pictureSize()));
+            host.copy(
+                renderLineOf(withEyes(host.settings().now(), session->stereo()), at, host.pictureSize()));
         tooltip("Writes what is seen now into view.png, as it is set now.");
     }
 }

@@ -173,25 +173,25 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
     ViewSession* const session = host.session();
     const std::string notice = session ? session->notice() : "";
     const bool waits = loading.busy && (host.loadingSeconds() > kPatience || !session);
-    const Job* const job = host.job() && host.job()->running() ? host.job() : nullptr;
+    const Job* const job = host.jobs().busy() ? host.jobs().job() : nullptr;
     const bool asks = asksForScreen(host);
     const std::optional<PaintWork> painting = host.painting();
     const std::optional<PaintWork> preparing = host.preparing();
     const std::string closing = host.closingQuestion();
     const bool works = waits || job || host.readingSlices() || painting || preparing || !closing.empty();
-    if (notice.empty() && host.failure().empty() && !works && !asks) return;
+    if (notice.empty() && host.notices().failure().empty() && !works && !asks) return;
     const float wrap =
         std::max(std::min(width - 2 * margin, 46 * ImGui::GetFontSize()) - 4 * ImGui::GetFontSize(), 60.0f);
     ImGui::SetNextWindowPos({left + width / 2, top + margin}, ImGuiCond_Always, {0.5f, 0});
     ImGui::Begin("##notices", nullptr, kBar | ImGuiWindowFlags_AlwaysAutoResize);
     if (!closing.empty()) askBeforeClosing(host, closing, wrap);
-    if (!host.failure().empty()) {
+    if (!host.notices().failure().empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, warningColor(host.look()));
-        wrappedText(host.failure(), wrap);
+        wrappedText(host.notices().failure(), wrap);
         ImGui::PopStyleColor();
-        if (ImGui::Button("Dismiss")) host.forgetFailure();
+        if (ImGui::Button("Dismiss")) host.notices().forgetFailure();
         ImGui::SameLine();
-        if (ImGui::Button("Copy")) host.copy(host.failure());
+        if (ImGui::Button("Copy")) host.copy(host.notices().failure());
     }
     if (!notice.empty()) wrappedText(notice, wrap);
     if (waits) {
@@ -225,7 +225,7 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
                            {std::min(wrap, 20 * ImGui::GetFontSize()), 0}, text.c_str());
         tooltip(job->progress());
         ImGui::SameLine();
-        if (ImGui::Button("Cancel##job")) host.cancelJob();
+        if (ImGui::Button("Cancel##job")) host.jobs().cancel();
     }
     ImGui::End();
 }

@@ -22,10 +22,10 @@ const Option* sunOption(PanelHost& host) {
     const ViewSession* const session = host.session();
     if (!session) return nullptr;
     const Option *const sun = viewOption("sun"), *const light = viewOption("light-from");
-    const bool ofSun = sun && host.applies(*sun);
+    const bool ofSun = sun && host.settings().applies(*sun);
     // Of ground that is shown as a medium; of clouds there is no sun by date.
     const bool ofGround = ofSun || session->open().scene->offered<OnEarth>();
-    const bool ofLight = light && host.applies(*light) && ofGround;
+    const bool ofLight = light && host.settings().applies(*light) && ofGround;
     if (ofLight && (!ofSun || (host.live(*light) && !host.live(*sun)))) return light;
     return ofSun ? sun : nullptr;
 }
@@ -164,8 +164,8 @@ void SunPanel::draw(PanelHost& host) {
     quietText(host, describe(mThen));
     drawHoursButton(host, dateText(*mClock));
     if (host.valueOf(*option).value_or("") != text) {
-        const auto given = host.settings().find(option->key);
-        const bool isSet = given != host.settings().end() && given->second.back() == text;
+        const auto given = host.settings().now().find(option->key);
+        const bool isSet = given != host.settings().now().end() && given->second.back() == text;
         if (!isSet && ImGui::Button("Set the sun")) host.set(option->key, text);
         if (!isSet) tooltip("The light is set otherwise now: this sets it to the date and time.");
     }
