@@ -20,21 +20,9 @@ constexpr double kShortestWait = 0.0005;   // seconds, between pictures that are
 constexpr double kIdleWait = 0.1;          // seconds; events and frames end the wait at once
 constexpr double kFiguresWait = 0.1;       // seconds that figures and notices may be old in flight
 constexpr double kMostFiguresWait = 0.3;   // where no new picture comes
-constexpr std::size_t kKeptCosts = 240;    // frames
 
 std::string titleOf(const SceneOptions& scene) {
     return "stereonav - " + (scene.scene.empty() ? "built-in terrain" : scene.scene);
-}
-
-FrameCost costOf(const ViewFrame& frame) {
-    const FrameTimings& timings = frame.timings;
-    FrameCost cost{timings.left_ms > 0 ? timings.left_ms : timings.both_ms, timings.right_ms, 0, 0, 0};
-    if (!timings.warped) return cost;
-    cost.warp_ms = timings.warped->warp_ms;
-    cost.fill_ms = timings.warped->fill_ms;
-    const double pixels = static_cast<double>(frame.left.width()) * frame.left.height();
-    if (pixels > 0) cost.holes = 100 * static_cast<double>(timings.warped->holePixels) / pixels;
-    return cost;
 }
 
 }  // namespace
@@ -50,11 +38,12 @@ Viewer::Viewer(const ViewOptions& options)
       mDisplay(mWindow, options),
       mMode(mDisplay.mode()),
       mInterface(mWindow),
-      mScreenshots(options.shots) {
+      mScreenshots(options.shots),
+      mPictures(mWindow, options.bench),
+      mBench(options.bench, !options.path.empty()) {
     if (shownAs(options.scene).swept) mSweep = std::make_unique<ViewSweep>(options.sweep);
     checkSize(windowSize(), options.scene, kViewBytes);
     mPanels.showStart(options.startPage);
-    if (options.bench) mBench = std::make_shared<ViewBench>(!options.path.empty());
     readConfig();
     mWorker = std::make_unique<ViewWorker>(
         [options, size = windowSize(), sweep = mSweep.get()](Progress& progress) {
@@ -68,7 +57,6 @@ Viewer::~Viewer() {
     mJobs.cancel();  // ends while the rest does
     mControls.reset();
     mWindow.use();
-    mLateGpu.reset();
     mPanels.forget();
 }
 
@@ -86,11 +74,13 @@ void Viewer::run() {
         if (mSession) update(dt);
         drawControls(dt);
         if (!mWindow.minimised()) draw(dt, turn);
-        stepBench();
+        if (mSession &&
+            mBench.step(*mSession, *mWorker, mPictures.frame(), mAsked, mSettings.options().refine))
+            mWindow.close();
     }
-    endBench();
+    mBench.end(mNotices.result(), shownMode(), pictureSize());
     endSession();
-    while (mScreenshots.waiting() && mFrame) finishScreenshots();
+    while (mScreenshots.waiting() && mPictures.frame()) finishScreenshots();
     keepConfig();
     mNotices.finish(mSettings.sceneName());
 }
@@ -99,8 +89,8 @@ double Viewer::waitSeconds() const {
     if (!mActsOfPanels.empty()) return 0;
     if (mWindow.minimised() && !mControls) return kIdleWait;
     if (const auto turn = mDisplay.wait()) return *turn;
-    if (mSession && warps() && mSession->flying())
-        return std::clamp(mLateShown + latePeriod() - Window::now(), kShortestWait, kActiveWait);
+    const auto late = mPictures.wait(mAsked, mSettings.options().lateWarp, mDisplay.refreshPeriod());
+    if (mSession && late && mSession->flying()) return std::clamp(*late, kShortestWait, kActiveWait);
     const bool flows = mSession && (mSession->moving() || mWindow.gamepad().present ||
                                     mSpaceMouse.state().moved() || mScreenshots.waiting());
     return flows || panelled().active() || mPanels.startShown() ? kActiveWait : kIdleWait;
@@ -115,7 +105,7 @@ void Viewer::takeScene() {
     mWasBusy = loading.busy;
     if (!scene || scene == mScene) return;
     mScene = std::move(scene);
-    mFacts.reset();
+    mFacts.forget();
     mSettings.lookAtScene();
     if (!loading.busy) mSettings.arrived();
     if (mSession && !mAnother) return replaceScene();
@@ -139,13 +129,10 @@ void Viewer::beginSession() {
         mScene, ViewSession::Options{mMode, std::exchange(mFlight, std::nullopt), mSettings.options().shots,
                                      mWindow.quadBuffered(),
                                      mSession ? mSession->speedByDistance() : mConfig.speedByDistance});
-    mSession->continueVersions(mAsked);
-    mSessionSince = mAsked;
+    mAsked.begin(*mSession);
     mKeyframes.start({});
     mStudyFailed = false;
-    mCosts.clear();
-    mGovernor.forget();
-    mRestSize.reset();
+    mPictures.forgetCosts();
     mWindow.setTitle(titleOf(mSettings.options().scene));
     mSettings.look();
     mSettings.startSteps();
@@ -293,46 +280,52 @@ void Viewer::takeDrops() {
     if (!drops.empty()) open(drops.front());
 }
 
+void Viewer::askFor() {
+    const glm::ivec2 composed =
+        composedAt(infoOf(mSession->compose().mode), placeFor(infoOf(mSession->compose().mode)));
+    if (mWindow.minimised()) return;
+    const auto request = mAsked.next(*mSession, mScreenshots, mSettings.options(), composed,
+                                     mDisplay.refreshPeriod(), Window::now());
+    if (request) mWorker->request(*request);
+}
+
 void Viewer::takeFrame() {
-    auto frame = mWorker->takeFrame();
-    if (frame && frame->request.version <= mSessionSince) {
-        // Of the scene before: its eyes would become this one's. It is saved where that was asked for.
-        mScreenshots.take(frame, mSession->compose());
-        frame.reset();
+    if (auto frame = mWorker->takeFrame()) {
+        if (mAsked.ofSession(*frame))
+            takeOwnFrame(std::move(frame));
+        else  // of the scene before: its eyes would become this one's. It is saved where that was asked for
+            mScreenshots.take(frame, mSession->compose());
     }
-    if (frame) {
-        mFrame = std::move(frame);
-        mLead.came(mFrame->request.asked_s, Window::now());
-        mGovernor.took({mFrame->request.scale, mFrame->request.effort}, mFrame->made_ms,
-                       areaOf(mFrame->request));
-        mSession->observe(*mFrame);
-        if (!mSession->slicesShown() && !warps()) showFrame();
-        if (mBench) mBench->cast(*mFrame);
-        showToCoverage();
-        if (!warps()) mRate.count(mFrame->request.version < mAsked);
-        mCosts.push_back(costOf(*mFrame));
-        if (mCosts.size() > kKeptCosts) mCosts.pop_front();
-        noteRecent();
-        mNewPreview = true;
-    }
-    if (!mSession->slicesShown() && lateDue()) showLate();
+    mPictures.show(*mSession, mAsked, mSettings.options().lateWarp, mDisplay.refreshPeriod());
     if (const auto truth = mWorker->takeTruth()) mSession->observe(*truth);
-    if (mSession->slicesShown())
-        takeSlice();
-    else
-        mScreenshots.take(mFrame, mSession->compose());
-    if (!mSession->slicesShown() && mSliceVersion != 0) endSlices();
+    if (mSession->slicesShown()) {
+        const OutputModeInfo& mode = infoOf(mSession->compose().mode);
+        mPictures.showSlices(*mSession, eyeSizeAt(mode, placeFor(mode)), mScreenshots);
+    } else {
+        mScreenshots.take(mPictures.shared(), mSession->compose());
+        mPictures.leaveSlices();
+    }
     reportScreenshots();
     reportSweep();
     reportDisplay();
+}
+
+void Viewer::takeOwnFrame(std::shared_ptr<const ViewFrame> frame) {
+    mAsked.came(*frame, Window::now());
+    mSession->observe(*frame);
+    mBench.cast(*frame);
+    mPictures.take(std::move(frame), mAsked, mSettings.options().lateWarp);
+    showToCoverage();
+    noteRecent();
+    mNewPreview = true;
 }
 
 void Viewer::reportSweep() {
     const std::string notice = mSweep ? mSweep->takeNotice() : "";
     if (!notice.empty()) mSession->notify(notice);
     mNotices.tell(notice);
-    if (!mFrame || mFrame->sweep.empty() || mFrame->sweep == mSwept) return;
-    mSwept = mFrame->sweep;
+    if (!mPictures.frame() || mPictures.frame()->sweep.empty() || mPictures.frame()->sweep == mSwept) return;
+    mSwept = mPictures.frame()->sweep;
     mNotices.tell(mSwept);
 }
 
@@ -392,10 +385,11 @@ OutputMode Viewer::shownMode() const {
 // The mode of the session; but until a picture made for it is there, that of the one shown.
 ComposeSetting Viewer::shownSetting() const {
     ComposeSetting setting = mSession ? mSession->compose() : ComposeSetting{mMode, false, false};
-    if (!mSession || mSession->slicesShown() || !mPicture.left) return setting;
-    const OutputModeInfo &now = infoOf(setting.mode), &then = infoOf(mPicture.of.mode);
+    if (!mSession || mSession->slicesShown() || !mPictures.picture().left) return setting;
+    const OutputModeInfo &now = infoOf(setting.mode), &then = infoOf(mPictures.picture().of.mode);
     const SizeOption wanted = eyeSizeAt(now, placeFor(now)), made = eyeSizeAt(then, placeFor(then));
-    if (wanted.width != made.width || wanted.height != made.height) setting.mode = mPicture.of.mode;
+    if (wanted.width != made.width || wanted.height != made.height)
+        setting.mode = mPictures.picture().of.mode;
     return setting;
 }
 
@@ -405,7 +399,7 @@ ComposeSetting Viewer::shownSetting() const {
 bool Viewer::layOut(const InterfacePlaces& places, double dt) {
     mSinceLayout += dt;
     const bool flying = mSession && mSession->moving() && mWorker->loading().busy == mLaidOutBusy;
-    const bool due = mNewFrame ? mSinceLayout >= kFiguresWait : mSinceLayout >= kMostFiguresWait;
+    const bool due = mPictures.fresh() ? mSinceLayout >= kFiguresWait : mSinceLayout >= kMostFiguresWait;
     if (flying && !mLayoutDue && !due && !mInterface.waits(places)) return false;
     mLaidOutBusy = mWorker->loading().busy;
     mLayoutDue = false;
@@ -427,17 +421,17 @@ void Viewer::draw(double dt, const Stopwatch& turn) {
     const double layout = turn.elapsed_ms() - before;
     const PicturePlace place = placeFor(mode);
     const bool marked = drawOverlay(mode);
-    const bool same = setting == mDrawn && place == mDrawnPlace && !mNewFrame && !laidOut && !marked;
+    const bool same = setting == mDrawn && place == mDrawnPlace && !mPictures.fresh() && !laidOut && !marked;
     if (!mWindow.redrawNeeded() && same && !ViewDisplay::alternates(setting))
         return mTimes.add(layout, 0, turn.elapsed_ms(), false);
-    mNewFrame = false;
+    mPictures.takeFresh();
     mDrawn = setting;
     mDrawnPlace = place;
     show(setting);
     if (mTimes.on()) glFinish();
-    noteShown();
+    mBench.shown(mPictures.picture(), mAsked.present());
     const double all = turn.elapsed_ms();
-    if (mPicture.warped) mLatePace.took(all / 1000);
+    mPictures.drew(all / 1000);
     mTimes.add(layout, all - layout - before, all, true);
 }
 
@@ -451,11 +445,11 @@ void Viewer::show(const ComposeSetting& setting) {
         glDisable(GL_SCISSOR_TEST);
         glViewport(0, 0, size.width, size.height);
         // Pictures and panels cover both parts; where these do not cover the window, it is black.
-        if (!mPresenter.hasPicture() || !partsCover(one.mode, size)) {
+        if (!mPictures.eyes().hasPicture() || !partsCover(one.mode, size)) {
             glClearColor(0, 0, 0, 1);
             glClear(GL_COLOR_BUFFER_BIT);
         }
-        mPresenter.draw(one, {0, 0, size.width, size.height}, origin.x, origin.y, inset);
+        mPictures.eyes().draw(one, {0, 0, size.width, size.height}, origin.x, origin.y, inset);
         mInterface.render(InterfaceOpening{place.corner, place.size});
     });
 }

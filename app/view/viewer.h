@@ -1,33 +1,32 @@
 // The window: events and drawing on this thread, loading and rendering on the worker's.
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "app/command/commands.h"
 #include "app/output/place_labels.h"
+#include "app/view/asked_frames.h"
+#include "app/view/bench_flight.h"
 #include "app/view/closing_question.h"
 #include "app/view/control_window.h"
-#include "app/view/frame_governor.h"
-#include "app/view/frame_rate.h"
+#include "app/view/frame_presenter.h"
 #include "app/view/input.h"
 #include "app/view/keyframe_edit.h"
-#include "app/view/late_view.h"
 #include "app/view/live_coverage.h"
 #include "app/view/loading.h"
 #include "app/view/notices.h"
 #include "app/view/panel/panel_host.h"
 #include "app/view/panel/panels.h"
 #include "app/view/picture_place.h"
+#include "app/view/scene_facts.h"
 #include "app/view/scene_preparation.h"
 #include "app/view/scene_settings.h"
 #include "app/view/screenshots.h"
 #include "app/view/second_study.h"
 #include "app/view/session.h"
 #include "app/view/sweep.h"
-#include "app/view/view_bench.h"
 #include "app/view/view_display.h"
 #include "app/view/window_config.h"
 #include "app/view/window_jobs.h"
@@ -35,10 +34,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/display/eye_overlay.h"
 #include "engine/display/interface.h"
-#include "engine/display/late_warp_gpu.h"
-#include "engine/display/stereo_presenter.h"
 #include "engine/display/window.h"
-#include "engine/late/late_guard.h"
 
 namespace stereonav {
 
@@ -51,11 +47,9 @@ public:
 
     // PanelHost
     ViewSession* session() override { return mSession ? &*mSession : nullptr; }
-    const ViewFrame* frame() const override { return mFrame.get(); }
-    double framesPerSecond() const override { return mRate.value(); }
-    std::string ageText() const override;
+    const ViewFrame* frame() const override { return mPictures.frame(); }
+    FramePresenter& pictures() override { return mPictures; }
     Facts pointedFacts() const override;
-    const std::deque<FrameCost>& costs() const override { return mCosts; }
     SceneSettings& settings() override { return mSettings; }
     WindowJobs& jobs() override { return mJobs; }
     Notices& notices() override { return mNotices; }
@@ -114,7 +108,7 @@ public:
     void redo() override;
     const InterfaceLook& look() const override { return panelled().look(); }
     void setLook(const InterfaceLook& look) override { panelled().setLook(look); }
-    const Facts* facts() override;
+    const Facts* facts() override { return mScene ? mFacts.of(*mWorker) : nullptr; }
     ScreenWords onScreen(const ViewFrame& frame) const override;
     ScreenAnswer screen() const override;
     void leaveScreenUnknown() override;
@@ -122,9 +116,6 @@ public:
     bool controlsApart() const override { return mControls != nullptr; }
 
 private:
-    struct FactsWish;
-    struct BenchJudgement;
-
     double waitSeconds() const;
     void takeScene();
     void beginSession();
@@ -164,19 +155,7 @@ private:
     bool setScreen(const std::string& key, const std::optional<std::string>& text);
     void askFor();
     void takeFrame();
-    void showFrame();
-    bool warps() const;
-    bool lateDue() const;
-    void showLate();
-    bool showLateOnGpu();  // false: there is none that can
-    bool drawsLateOnGpu();
-    FrameGovernor::Size sizeNow(bool screenshot);
-    double latePeriod() const;  // seconds between pictures that are warped
-    void stepBench();
-    void noteShown();
-    void endBench();
-    void takeSlice();
-    void endSlices();
+    void takeOwnFrame(std::shared_ptr<const ViewFrame> frame);
     void reportSweep();
     void reportDisplay();
     void reportScreenshots();
@@ -215,7 +194,6 @@ private:
     ViewDisplay mDisplay;
     OutputMode mMode;
     std::unique_ptr<ViewSweep> mSweep;  // of media; before the scenes, which use it to their end
-    StereoPresenter mPresenter;
     Interface mInterface;
     EyeOverlay mOverlay;
     Panels mPanels;
@@ -223,13 +201,14 @@ private:
     bool mInPanels = false;
     std::vector<ViewAction> mActsOfPanels;  // asked for while they were drawn
     Screenshots mScreenshots;
+    AskedFrames mAsked;
+    FramePresenter mPictures;
+    BenchFlight mBench;
     ViewInput mInput;
     SpaceMouse mSpaceMouse;
     Stopwatch mClock, mLoadingWatch;
     double mSinceLayout = 0;  // seconds
     WindowTimes mTimes;
-    FrameRate mRate;
-    std::deque<FrameCost> mCosts;
     WindowConfig mConfig;  // as it was read, and is kept at the end
     RecentFiles mRecent;
     std::optional<Bookmarks> mPlaces;
@@ -237,30 +216,11 @@ private:
     ClosingQuestion mClosing;
     bool mEnds = false;       // the window closes, whatever is at work
     bool mRecentDue = false;  // the file that is shown goes among them with its first picture
-    std::shared_ptr<const ViewFrame> mFrame;
-    FrameRequest mPresent;  // what the session wants to see now
-    ShownPicture mPicture;  // what the presenter has; without eyes where that is none of the scene
-    LateView mLate;
-    LateLead mLead;
-    FrameGovernor mGovernor;
-    GuardBand mGuard;
-    // Where a graphics card draws; null else.
-    std::unique_ptr<LateWarpGpu> mLateGpu;
-    bool mLateGpuDecided = false;
-    bool mOnGpu = false;  // what is shown was warped there: mPicture's eyes are those that were cast
-    std::shared_ptr<const ViewFrame> mLateGpuHas;
-    std::optional<FrameGovernor::Size> mRestSize;  // of the first picture at rest
-    LatePace mLatePace;
-    double mLateShown = 0;  // when the last picture came: seconds
-    std::shared_ptr<ViewBench> mBench;
-    std::shared_ptr<BenchJudgement> mJudgement;
     ComposeSetting mDrawn;
     PicturePlace mDrawnPlace;
     std::string mSwept = kCpuSweep;
-    long long mAsked = 0, mSliceVersion = 0;
-    long long mSessionSince = 0;  // asked for later: frames of this session
     std::shared_ptr<const OpenScene> mScene;
-    std::shared_ptr<FactsWish> mFacts;
+    SceneFacts mFacts;
     SliceReading mSlices;
     bool mLabels = true;  // of places, over the picture
     mutable struct {
@@ -269,8 +229,8 @@ private:
         long long paint = 0;
         std::vector<LabelledPlace> list;
     } mNames;  // of those places
-    bool mNewFrame = false, mNewPreview = false, mLayoutDue = true, mLaidOutBusy = false, mAnother = false,
-         mWasBusy = false, mStudyFailed = false;
+    bool mNewPreview = false, mLayoutDue = true, mLaidOutBusy = false, mAnother = false, mWasBusy = false,
+         mStudyFailed = false;
     bool mMeasuring = false;
     std::optional<glm::dvec3> mMarked;  // world
     std::optional<double> mSeesFrom;    // metres above the ground

@@ -20,7 +20,7 @@ void Viewer::toggleControls() {
 void Viewer::drawControls(double dt) {
     if (mControls && mControls->window().shouldClose()) toggleControls();
     if (!mControls) return;
-    drawPanels([&] { mControls->draw(mPanels, *this, mFrame.get(), mNewPreview, dt); });
+    drawPanels([&] { mControls->draw(mPanels, *this, mPictures.frame(), mNewPreview, dt); });
     mNewPreview = false;
 }
 

@@ -21,8 +21,8 @@ bool Viewer::actOnCoverage(ViewCommand command) {
 
 // The left eye's picture: the right one shows little more.
 void Viewer::showToCoverage() {
-    if (!mCoverage.on() || mSession->slicesShown() || mFrame->request.version <= mSessionSince) return;
-    const FrameRequest& of = mFrame->request;
+    if (!mCoverage.on() || mSession->slicesShown() || !mAsked.ofSession(*mPictures.frame())) return;
+    const FrameRequest& of = mPictures.frame()->request;
     mCoverage.show(
         of.twoEyes ? makeStereoViews(of.pose, of.lens, of.stereo).left : makeEyeView(of.pose, of.lens),
         Window::now(), !of.flying);
@@ -34,7 +34,7 @@ void Viewer::toggleCoverage() {
     if (!mCoverage.can()) return mSession->notify("coverage is of an opaque colon's wall");
     mCoverage.switchOn(!mCoverage.on());
     mSession->notify(mCoverage.on() ? "coverage is on: F3 has it" : "coverage is off");
-    if (mCoverage.on() && mFrame) showToCoverage();
+    if (mCoverage.on() && mPictures.frame()) showToCoverage();
 }
 
 void Viewer::flyToUnseen(int step) {

@@ -62,7 +62,7 @@ void Viewer::noteRecent() {
     mRecentDue = false;
     mNotices.tryTo([&] {
         const std::string kind(sceneTypeNamed(mSettings.options().scene.scene).noun);
-        mRecent.add(mSettings.fullName(), kind, &mFrame->left.color);
+        mRecent.add(mSettings.fullName(), kind, &mPictures.frame()->left.color);
     });
     reportKept();
 }
@@ -80,7 +80,8 @@ void Viewer::addPlace() {
         place.pose = mSession->pose();
         place.settings = groundSettings(*mScene->scene);
         if (!mSession->followsClearance()) place.stereo = mSession->stereo();
-        const std::string name = mPlaces->add(place, mFrame ? &mFrame->left.color : nullptr);
+        const std::string name =
+            mPlaces->add(place, mPictures.frame() ? &mPictures.frame()->left.color : nullptr);
         mSession->notify("kept as " + name);
     });
     reportKept();

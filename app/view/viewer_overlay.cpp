@@ -15,8 +15,8 @@ namespace stereonav {
 
 // Where two eyes' pictures are shown, of which slices have none.
 bool Viewer::drawsPointer(const OutputModeInfo& mode) const {
-    return mSession && mFrame && mPicture.left && mPicture.of.twoEyes && !mSession->slicesShown() &&
-           !mWindow.captured() && mode.layout != OutputLayout::OneEye;
+    return mSession && mPictures.frame() && mPictures.picture().left && mPictures.picture().of.twoEyes &&
+           !mSession->slicesShown() && !mWindow.captured() && mode.layout != OutputLayout::OneEye;
 }
 
 std::optional<glm::dvec2> Viewer::pointedShare(const OutputModeInfo& mode) const {
@@ -28,21 +28,22 @@ std::optional<glm::dvec2> Viewer::pointedShare(const OutputModeInfo& mode) const
 
 // A picture that was warped has the depths of another moment: what lies there waits until it stands still.
 std::optional<glm::dvec3> Viewer::pointedWorld() const {
-    if (!mSession || !mFrame || !mPicture.left || mPicture.warped || mSession->slicesShown() ||
-        mWindow.captured())
+    if (!mSession || !mPictures.frame() || !mPictures.picture().left || mPictures.picture().warped ||
+        mSession->slicesShown() || mWindow.captured())
         return std::nullopt;
     const OutputMode mode = shownMode();
     if (mode == OutputMode::Right) return std::nullopt;
     const std::optional<glm::dvec2> share = pointedShare(infoOf(mode));
     if (!share) return std::nullopt;
-    return worldUnder(viewsOf(mPicture.of), mFrame->left.viewDepth, *share, mFrame->request.guard);
+    return worldUnder(viewsOf(mPictures.picture().of), mPictures.frame()->left.viewDepth, *share,
+                      mPictures.frame()->request.guard);
 }
 
 Facts Viewer::pointedFacts() const {
     const auto world = pointedWorld();
     if (!world) return {};
     return factsOfPlace(*mSession->open().scene, mSession->study().get(), *world,
-                        viewsOf(mPicture.of).left.head);
+                        viewsOf(mPictures.picture().of).left.head);
 }
 
 void Viewer::measureHere() {
@@ -58,9 +59,10 @@ void Viewer::measureHere() {
 // left out.
 void Viewer::addLineMarks(std::vector<OverlayMark>& marks) const {
     constexpr std::size_t kMostPoints = 300, kMostNumbers = 60;
-    const StereoViews views = viewsOf(mPicture.of);
+    const StereoViews views = viewsOf(mPictures.picture().of);
     const auto add = [&](const glm::dvec3& world, const std::string& text, bool dot) {
-        const auto at = markOf(views, mFrame->left.viewDepth, world, mFrame->request.guard);
+        const auto at =
+            markOf(views, mPictures.frame()->left.viewDepth, world, mPictures.frame()->request.guard);
         if (!at) return;
         const glm::vec2 beside(0.6f * mInterface.textSize("0").y, -1.2f * mInterface.textSize("0").y);
         marks.push_back({glm::vec2(at->mark.left), glm::vec2(at->mark.right), text, beside, dot});
@@ -106,33 +108,30 @@ void Viewer::copyPlace() {
 
 std::vector<OverlayMark> Viewer::marks(const OutputModeInfo& mode) const {
     std::vector<OverlayMark> marks;
-    if (!mSession || !mFrame || !mPicture.left || mSession->slicesShown()) return marks;
-    const Plane<float>& depth = mFrame->left.viewDepth;
-    const glm::ivec2& guard = mFrame->request.guard;
+    if (!mSession || !mPictures.frame() || !mPictures.picture().left || mSession->slicesShown()) return marks;
+    const Plane<float>& depth = mPictures.frame()->left.viewDepth;
+    const glm::ivec2& guard = mPictures.frame()->request.guard;
     if (mLabels && !mPanels.hidden() && !mPanels.startShown()) {
         const auto sizeOf = [this](const std::string& text) { return glm::dvec2(mInterface.textSize(text)); };
         const double margin = 0.3 * sizeOf("0").y;
         for (const PlaceLabel& label :
-             labelsInView(viewsOf(mPicture.of), depth, namedPlaces(), sizeOf, margin, guard))
+             labelsInView(viewsOf(mPictures.picture().of), depth, namedPlaces(), sizeOf, margin, guard))
             marks.push_back({glm::vec2(label.mark.left), glm::vec2(label.mark.right), label.text,
                              glm::vec2(label.textAt)});
     }
     if (!mPanels.hidden() && (!mMeasured.places().empty() || mMarked)) addLineMarks(marks);
     if (!mPanels.hidden())
-        addFindingMarks(mFindings, mPicture.of, depth, guard, mInterface.textSize("0").y, marks);
+        addFindingMarks(mFindings, mPictures.picture().of, depth, guard, mInterface.textSize("0").y, marks);
     const std::optional<glm::dvec2> share = drawsPointer(mode) ? pointedShare(mode) : std::nullopt;
     if (!share) return marks;
-    const EyeMark under = markUnder(viewsOf(mPicture.of), depth, *share, guard);
+    const EyeMark under = markUnder(viewsOf(mPictures.picture().of), depth, *share, guard);
     marks.push_back({glm::vec2(under.left), glm::vec2(under.right), "", {}});
     return marks;
 }
 
 bool Viewer::drawOverlay(const OutputModeInfo& mode) {
-    const glm::ivec2 size = mOnGpu          ? glm::ivec2(mPicture.of.lens.width, mPicture.of.lens.height)
-                            : mPicture.left ? glm::ivec2(mPicture.left->width(), mPicture.left->height())
-                                            : glm::ivec2(0);
-    const bool changed = mOverlay.draw(mInterface, size, marks(mode));
-    mPresenter.setLayers(mOverlay.layers());
+    const bool changed = mOverlay.draw(mInterface, mPictures.eyeSize(), marks(mode));
+    mPictures.eyes().setLayers(mOverlay.layers());
     return changed;
 }
 

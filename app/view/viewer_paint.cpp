@@ -17,7 +17,7 @@ void Viewer::followPaint() {
     if (const std::string problem = paint->takeProblem(); !problem.empty()) mNotices.fail(problem);
     if (paint->version() == mPaintSeen) return;
     mPaintSeen = paint->version();
-    mFacts.reset();  // they tell what is painted
+    mFacts.forget();  // they tell what is painted
     mLayoutDue = true;
 }
 

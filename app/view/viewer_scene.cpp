@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <mutex>
 #include <string_view>
 
 #include "app/options/option_value.h"
@@ -28,12 +27,6 @@ bool isOfScreen(std::string_view key) {
 }
 
 }  // namespace
-
-// Collected beside the frames, by the thread that makes them.
-struct Viewer::FactsWish {
-    std::mutex mutex;
-    std::optional<Facts> facts;
-};
 
 std::optional<std::string> Viewer::valueOf(const Option& option) const {
     if (option.key == kScreenWidthKey)
@@ -71,7 +64,7 @@ void Viewer::load(const ViewOptions& options, SettingTexts given, bool another) 
     const bool swept = shownAs(shown.scene).swept;
     shown.scene.skyTurns = !swept;
     shown.scene.detailLater = true;
-    shown.scene.standInFirst = !mBench;
+    shown.scene.standInFirst = !mBench.on();
     checkMethod(shown.scene, shown.method);
     checkSize(windowSize(), shown.scene, kViewBytes);
     mDisplay.follow(shown);
@@ -209,21 +202,6 @@ void Viewer::saveScene(const std::filesystem::path& file) {
     });
 }
 
-const Facts* Viewer::facts() {
-    if (!mScene) return nullptr;
-    if (!mFacts) {
-        mFacts = std::make_shared<FactsWish>();
-        mWorker->ask([wish = mFacts](const OpenScene& open) {
-            Facts facts = open.scene->describe();
-            const std::lock_guard lock(wish->mutex);
-            wish->facts = std::move(facts);
-        });
-        return nullptr;
-    }
-    const std::lock_guard lock(mFacts->mutex);
-    return mFacts->facts ? &*mFacts->facts : nullptr;
-}
-
 // The same settings.
 void Viewer::loadAgain() {
     mWorker->reload([options = mSettings.changed(), size = windowSize(), sweep = mSweep.get()](
@@ -294,27 +272,8 @@ void Viewer::takeStudy() {
 std::shared_ptr<const SliceStudy> Viewer::study() {
     if (!mSession) return nullptr;
     // Not before the first picture, which is what is waited for.
-    if (!mSession->study() && !mSlices.busy() && mFrame) mSession->wishStudy();
+    if (!mSession->study() && !mSlices.busy() && mPictures.frame()) mSession->wishStudy();
     return mSession->study();
-}
-
-void Viewer::takeSlice() {
-    const OutputModeInfo& mode = infoOf(mSession->compose().mode);
-    const SizeOption eye = eyeSizeAt(mode, placeFor(mode));
-    const Plane<PackedColor>& picture = mSession->slicePicture(eye.width, eye.height);
-    mScreenshots.take(picture, mSession->compose());
-    if (mSession->sliceVersion() == mSliceVersion) return;
-    mSliceVersion = mSession->sliceVersion();
-    mPresenter.upload(picture, {});
-    mPicture = {};
-    mOnGpu = false;
-    mNewFrame = true;
-}
-
-void Viewer::endSlices() {
-    mSliceVersion = 0;
-    if (mFrame) showFrame();
-    mNewFrame = true;
 }
 
 }  // namespace stereonav

@@ -1,6 +1,7 @@
 // A host for panels that are tested by themselves: a session, keyframes, and nothing else.
 #pragma once
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,7 @@ public:
 
     ViewSession* session() override { return &mSession; }
     const ViewFrame* frame() const override { return nullptr; }
-    double framesPerSecond() const override { return 0; }
-    const std::deque<FrameCost>& costs() const override { return mCosts; }
+    FramePresenter& pictures() override { std::abort(); }
     SceneSettings& settings() override { return mSettings; }
     SettingTexts settingsToOpen() const override { return mSettings.now(); }
     WindowJobs& jobs() override { return mJobs; }
@@ -68,7 +68,6 @@ public:
 private:
     ViewSession& mSession;
     KeyframeEdit mKeyframes;
-    std::deque<FrameCost> mCosts;
     std::optional<ViewSession> mNone;
     SceneSettings mSettings{ViewOptions{}, mNone};
     Notices mNotices{ViewOptions{}};

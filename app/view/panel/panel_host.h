@@ -11,6 +11,7 @@
 #include "app/view/bookmarks.h"
 #include "app/view/file_looks.h"
 #include "app/view/finding_list.h"
+#include "app/view/frame_presenter.h"
 #include "app/view/live_coverage.h"
 #include "app/view/measured_line.h"
 #include "app/view/notices.h"
@@ -27,12 +28,6 @@ namespace stereonav {
 class KeyframeEdit;
 class SecondStudy;
 
-// Figures of one frame, for small plots.
-struct FrameCost {
-    double left_ms = 0, right_ms = 0;            // of eyes made together the left one has it all
-    double warp_ms = 0, fill_ms = 0, holes = 0;  // holes: percent of the right eye's pixels
-};
-
 // The screen that the window is on.
 struct ScreenAnswer {
     std::string words;    // how large it is, and who says so
@@ -44,13 +39,11 @@ class PanelHost {
 public:
     virtual ~PanelHost() = default;
 
-    virtual ViewSession* session() = 0;                 // null until the first scene is there
-    virtual const ViewFrame* frame() const = 0;         // null until the first one
-    virtual double framesPerSecond() const = 0;         // 0: not known
-    virtual std::string ageText() const { return ""; }  // of a picture that was warped; "": cast as it is
+    virtual ViewSession* session() = 0;          // null until the first scene is there
+    virtual const ViewFrame* frame() const = 0;  // null until the first one
+    virtual FramePresenter& pictures() = 0;
     // Of the place under the pointer; none while it is over no surface, or the picture moves.
     virtual Facts pointedFacts() const { return {}; }
-    virtual const std::deque<FrameCost>& costs() const = 0;  // newest last
     virtual SceneSettings& settings() = 0;
     virtual WindowJobs& jobs() = 0;
     virtual Notices& notices() = 0;

@@ -134,7 +134,7 @@ void drawMaterial(PanelHost& host, ViewSession& session, TransferPanel& transfer
 // One quantity over the last frames, with its newest value.
 void plot(PanelHost& host, const char* label, double FrameCost::*what, const char* unit) {
     std::array<float, 120> values{};
-    const auto& costs = host.costs();
+    const auto& costs = host.pictures().costs();
     const std::size_t count = std::min(values.size(), costs.size());
     for (std::size_t n = 0; n < count; ++n)
         values[n] = static_cast<float>(costs[costs.size() - count + n].*what);
@@ -178,7 +178,7 @@ void drawQuality(PanelHost& host, ViewSession& session) {
     plot(host, "fill", &FrameCost::fill_ms, "ms");
     plot(host, "holes", &FrameCost::holes, "%");
     if (const ViewFrame* const frame = host.frame())
-        quietText(host, frameText(*frame, host.framesPerSecond()));
+        quietText(host, frameText(*frame, host.pictures().framesPerSecond()));
 }
 
 void drawFacts(PanelHost& host) {

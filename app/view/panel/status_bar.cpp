@@ -134,10 +134,10 @@ float drawStatusBar(PanelHost& host, float left, float right) {
     if (session && session->slicesShown()) {
         row.text(session->sliceStatus());
     } else if (session && frame) {
-        const double rate = host.framesPerSecond();
+        const double rate = host.pictures().framesPerSecond();
         row.text(rate > 0 ? fmt::format("{:5.1f} /s", rate) : "  rest ",
                  "frames a second, while something moves");
-        if (const std::string age = host.ageText(); !age.empty())
+        if (const std::string age = host.pictures().ageText(); !age.empty())
             row.text(age,
                      "since the picture was asked for that is shown, warped to where the eyes are now; and "
                      "how much of the width and height it was cast in");
