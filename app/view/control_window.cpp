@@ -41,13 +41,14 @@ void ControlWindow::takePicture(const ViewFrame& frame) {
     mStale = false;
 }
 
-void ControlWindow::draw(Panels& panels, PanelHost& host, const ViewFrame* frame, bool fresh, double dt) {
+void ControlWindow::draw(const Panels& panels, const std::function<void()>& drawPanels,
+                         const ViewFrame* frame, bool fresh, double dt) {
     mStale = mStale || fresh;
     if (mWindow.minimised()) return;
     mWindow.use();
     bool drawn = false;
     const bool changed = mInterface.layOut({}, dt, [&] {
-        panels.draw(host);
+        drawPanels();
         if (!frame || frame->left.color.empty()) return;
         const glm::vec2 whole(ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y);
         const Panels::Rest rest = panels.rest(whole);

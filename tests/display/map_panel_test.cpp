@@ -12,7 +12,6 @@
 #include "engine/nav/navigator.h"
 #include "tests/support/wait_for.h"
 #include "tests/view/fake_frames.h"
-#include "tests/view/fake_panel_host.h"
 #include "tests/view/fake_scene.h"
 
 namespace stereonav {
@@ -83,7 +82,7 @@ protected:
     }
 
     static Pose at(double x, double y, double z) { return poseFromAngles({x, y, z}, 0, 0, 0); }
-    KeyframeEdit& edit() { return mHost.keyframes(); }
+    KeyframeEdit& edit() { return mEdit; }
     void layOut() {
         mInterface->layOut({}, 0.02, [&] {
             ImGui::SetNextWindowPos({0, 0});
@@ -91,7 +90,7 @@ protected:
             ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10, 10});
             ImGui::Begin("map", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
             const float before = ImGui::GetCursorPosY();
-            mPanel->draw(mHost);
+            mPanel->draw(mSession, mEdit, {320, 200});
             const float height = ImGui::GetCursorPosY() - before - ImGui::GetStyle().ItemSpacing.y;
             mSide = height > kMapSide / 2 ? height : 0;
             ImGui::End();
@@ -138,7 +137,7 @@ protected:
 
     ViewSession mSession{std::make_shared<OpenScene>(OpenScene{std::make_shared<Rising>(), {}, {}, 0, false}),
                          {}};
-    FakePanelHost mHost{mSession};
+    KeyframeEdit mEdit;
     std::unique_ptr<Window> mWindow;
     std::unique_ptr<Interface> mInterface;
     std::unique_ptr<MapPanel> mPanel;

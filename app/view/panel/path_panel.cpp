@@ -25,7 +25,7 @@ bool button(const char* label, const char* tip) {
     return pressed;
 }
 
-void drawEdits(PanelHost& host, ViewSession& session) {
+void drawEdits(ViewSession& session, KeyframeEdit& edit) {
     const RecordedPath& path = session.path();
     static double from = 0, to = 1;  // shares of the duration
     ImGui::SetNextItemWidth(-FLT_MIN);
@@ -50,8 +50,8 @@ void drawEdits(PanelHost& host, ViewSession& session) {
     if (button("Even pace", "The same way in the same time, at one speed."))
         session.editPath([](const RecordedPath& all) { return evenlyPaced(all, std::nullopt); });
     if (button("Undo##path", "The path before the last change.")) {
-        if (host.keyframes().canUndo())
-            host.keyframes().undo();
+        if (edit.canUndo())
+            edit.undo();
         else
             session.undoPath();
     }
@@ -75,8 +75,7 @@ void drawKeyframeHeight(KeyframeEdit& edit, const Flight& flight) {
     tooltip("How high the chosen keyframe is over where the flight may come to the ground.");
 }
 
-void drawKeyframes(PanelHost& host, ViewSession& session) {
-    KeyframeEdit& edit = host.keyframes();
+void drawKeyframes(ViewSession& session, KeyframeEdit& edit, const Bookmarks* places) {
     const auto tried = [&](const auto& what) {
         try {
             what();
@@ -91,7 +90,7 @@ void drawKeyframes(PanelHost& host, ViewSession& session) {
         if (button("Keyframes of the path", "A few that the path is kept with, to be moved on the map (F3)."))
             tried([&] { edit.start(keyframesToEdit(session.path())); });
         ImGui::EndDisabled();
-        if (const Bookmarks* const places = host.places(); places && places->list().size() > 1) {
+        if (places && places->list().size() > 1) {
             if (button(
                     "Fly through the places",
                     "A path through the kept places, in their order, smooth and eased. Its keyframes can be "
@@ -106,9 +105,9 @@ void drawKeyframes(PanelHost& host, ViewSession& session) {
         return;
     }
     const std::size_t count = edit.keys().size();
-    quietText(host, edit.chosen() ? fmt::format("keyframe {} of {}", *edit.chosen() + 1, count)
-                    : count == 1  ? "one keyframe: a path needs two"
-                                  : fmt::format("{} keyframes: drag them on the map (F3)", count));
+    quietText(edit.chosen() ? fmt::format("keyframe {} of {}", *edit.chosen() + 1, count)
+              : count == 1  ? "one keyframe: a path needs two"
+                            : fmt::format("{} keyframes: drag them on the map (F3)", count));
     if (button("Add this eye", "As a keyframe, after the chosen one or at the end."))
         tried([&] { edit.add(session.pose(), speed); });
     ImGui::SameLine();
@@ -120,7 +119,7 @@ void drawKeyframes(PanelHost& host, ViewSession& session) {
     if (edit.chosen()) drawKeyframeHeight(edit, session.flight());
 }
 
-void drawMovie(PanelHost& host, ViewSession& session) {
+void drawMovie(const ViewSession& session, WindowJobs& jobs) {
     static MovieWish movie{"flight.mp4"};
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##movie", "flight.mp4", &movie.file);
@@ -140,39 +139,41 @@ void drawMovie(PanelHost& host, ViewSession& session) {
     movie.fps = std::clamp(movie.fps, 1.0, 240.0);
     tooltip("Frames a second.");
     ImGui::SameLine();
-    const bool busy = host.jobs().busy();
+    const bool busy = jobs.busy();
     ImGui::BeginDisabled(busy || movie.file.empty() || session.path().samples().size() < 2);
-    if (ImGui::Button("Make movie")) host.jobs().makeMovie(movie);
+    if (ImGui::Button("Make movie")) jobs.makeMovie(movie);
     ImGui::EndDisabled();
     tooltip("Of this path, in the mode that is shown. It goes on beside the flight.");
 }
 
 }  // namespace
 
-void drawPathPanel(PanelHost& host, ViewSession& session) {
-    if (button(session.recording() ? "End recording" : "Record", "Key: z")) host.act({ViewCommand::Record});
+void drawPathPanel(ViewSession& session, KeyframeEdit& edit, const Bookmarks* places, WindowJobs& jobs,
+                   AskedActions& actions) {
+    if (button(session.recording() ? "End recording" : "Record", "Key: z"))
+        actions.ask({ViewCommand::Record});
     ImGui::SameLine();
-    if (button(session.playing() ? "Stop" : "Play", "Key: Shift+Z")) host.act({ViewCommand::Play});
+    if (button(session.playing() ? "Stop" : "Play", "Key: Shift+Z")) actions.ask({ViewCommand::Play});
     ImGui::SameLine();
-    if (button("Home", "Key: Space")) host.act({ViewCommand::Home});
+    if (button("Home", "Key: Space")) actions.ask({ViewCommand::Home});
     ImGui::SameLine();
-    if (button("Open...", "A flight from a file, in the path's place.")) host.act({ViewCommand::OpenPath});
+    if (button("Open...", "A flight from a file, in the path's place.")) actions.ask({ViewCommand::OpenPath});
     const RecordedPath& path = session.path();
     const bool any = path.samples().size() > 1;
-    quietText(host,
-              any ? fmt::format("A flight of {:.1f} s, {} places.", path.duration(), path.samples().size())
+    quietText(any ? fmt::format("A flight of {:.1f} s, {} places.", path.duration(), path.samples().size())
                   : "No flight yet: Record makes one.");
-    if (any) drawEdits(host, session);
-    drawKeyframes(host, session);
-    drawMovie(host, session);
+    if (any) drawEdits(session, edit);
+    drawKeyframes(session, edit, places);
+    drawMovie(session, jobs);
     bool byDistance = session.speedByDistance();
-    if (ImGui::Checkbox("speed by the distance ahead", &byDistance)) host.act({ViewCommand::SpeedByDistance});
+    if (ImGui::Checkbox("speed by the distance ahead", &byDistance))
+        actions.ask({ViewCommand::SpeedByDistance});
     tooltip(
         "What is ahead is reached in about four seconds, near or far; over the sky the speed is as ever. "
         "Key: "
         "Shift+F");
-    quietText(host, fmt::format("speed {}/s: the wheel changes it, Shift is four times",
-                                lengthText(session.speed())));
+    quietText(
+        fmt::format("speed {}/s: the wheel changes it, Shift is four times", lengthText(session.speed())));
 }
 
 }  // namespace stereonav

@@ -1,23 +1,17 @@
-// The viewer's part that changes what is shown: other files, other settings, back and forth.
+#include "app/view/scene_changes.h"
+
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <string_view>
+#include <utility>
 
 #include "app/options/option_value.h"
-#include "app/options/scene_types.h"
 #include "app/scene/shown_as.h"
 #include "app/view/live_settings.h"
-#include "app/view/raised_ground.h"
-#include "app/view/viewer.h"
 #include "engine/base/error.h"
-#include "engine/base/file.h"
 #include "engine/scene/capabilities.h"
-#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
-
 namespace {
 
 constexpr std::string_view kScreenWidthKey = "screen-width", kViewingDistanceKey = "viewing-distance";
@@ -28,7 +22,28 @@ bool isOfScreen(std::string_view key) {
 
 }  // namespace
 
-std::optional<std::string> Viewer::valueOf(const Option& option) const {
+SceneChanges::SceneChanges(std::optional<ViewSession>& session, SceneSettings& settings, Notices& notices,
+                           ViewDisplay& display, PanelStage& stage)
+    : mSession(session),
+      mSettings(settings),
+      mNotices(notices),
+      mDisplay(display),
+      mStage(stage),
+      mBenches(settings.options().bench),
+      mPreparation([] { Window::wake(); }) {}
+
+void SceneChanges::begin() {
+    const ViewOptions& options = mSettings.options();
+    if (shownAs(options.scene).swept) mSweep = std::make_unique<ViewSweep>(options.sweep);
+    checkSize(mStage.windowSize(), options.scene, kViewBytes);
+    mWorker = std::make_unique<ViewWorker>(
+        [options, size = mStage.windowSize(), sweep = mSweep.get()](Progress& progress) {
+            return openScene(options, true, size, sweep, progress);
+        },
+        [] { Window::wake(); });
+}
+
+std::optional<std::string> SceneChanges::valueOf(const Option& option) const {
     if (option.key == kScreenWidthKey)
         return fmt::format("{:.6g}", mDisplay.sizes().of(mDisplay.told()).width_mm);
     if (option.key == kViewingDistanceKey)
@@ -36,9 +51,13 @@ std::optional<std::string> Viewer::valueOf(const Option& option) const {
     return mSession ? valueNow(*mSession, option.key) : std::nullopt;
 }
 
+bool SceneChanges::live(const Option& option) const {
+    return isOfScreen(option.key) || (mSession && isLive(*mSession, option.key));
+}
+
 // The screen's size is the person's, not the scene's: it is kept for the monitor, and nothing is loaded for
 // it. False: the option is another.
-bool Viewer::setScreen(const std::string& key, const std::optional<std::string>& text) {
+bool SceneChanges::setScreen(const std::string& key, const std::optional<std::string>& text) {
     if (!isOfScreen(key)) return false;
     const Option& option = *viewOption(key);
     const std::optional<double> mm =
@@ -55,70 +74,67 @@ bool Viewer::setScreen(const std::string& key, const std::optional<std::string>&
     return true;
 }
 
-bool Viewer::live(const Option& option) const {
-    return isOfScreen(option.key) || (mSession && isLive(*mSession, option.key));
-}
-
-void Viewer::load(const ViewOptions& options, SettingTexts given, bool another) {
+void SceneChanges::load(const ViewOptions& options, SettingTexts given, bool another) {
     ViewOptions shown = options;
     const bool swept = shownAs(shown.scene).swept;
     shown.scene.skyTurns = !swept;
     shown.scene.detailLater = true;
-    shown.scene.standInFirst = !mBench.on();
+    shown.scene.standInFirst = !mBenches;
     checkMethod(shown.scene, shown.method);
-    checkSize(windowSize(), shown.scene, kViewBytes);
+    checkSize(mStage.windowSize(), shown.scene, kViewBytes);
     mDisplay.follow(shown);
     if (swept && !mSweep) mSweep = std::make_unique<ViewSweep>(shown.sweep);
     mAnother = mAnother || another;
-    mSwapTo.reset();
+    mArrival.reset();
     mSettings.begin({shown, std::move(given), fileTextsOf(options.scene.given)});
-    mWorker->reload([options = shown, size = windowSize(), sweep = swept ? mSweep.get() : nullptr](
+    mWorker->reload([options = shown, size = mStage.windowSize(), sweep = swept ? mSweep.get() : nullptr](
                         Progress& progress) { return openScene(options, false, size, sweep, progress); });
 }
 
-// In the same session.
-void Viewer::replaceScene() {
-    const auto raised = RaisedGround::between(*mSession->open().scene, *mScene->scene);
-    mMeasured.replaceScene(mScene->scene);
-    mCoverage.replaceScene(mScene->scene);
-    mFindings.replaceScene(mScene->scene);
-    mSession->replaceScene(mScene);
-    if (!raised || !mKeyframes.any()) return;
-    mKeyframes.start(raised->moved(mKeyframes.keys()));
-    mKeyframesPath = mSession->pathVersion();
+// The same settings.
+void SceneChanges::loadAgain() {
+    mWorker->reload([options = mSettings.changed(), size = mStage.windowSize(), sweep = mSweep.get()](
+                        Progress& progress) { return openScene(options, false, size, sweep, progress); });
 }
 
-void Viewer::open(const std::string& scene) {
+void SceneChanges::open(const std::string& scene) {
     mNotices.forgetFailure();
     mNotices.tryTo([&] {
         SettingTexts settings;
         if (scene != "terrain") settings["SCENE"] = {scene};
         // What is of the person and the screen stays.
+        const SettingTexts& given = mSettings.given();
         for (const char* key : {"shots", "size", "threads", "simd", "full-screen", "screen-width",
                                 "viewing-distance", "late-warp", "target-ms"})
-            if (const auto kept = mSettings.given().find(key); kept != mSettings.given().end())
-                settings.insert(*kept);
+            if (const auto kept = given.find(key); kept != given.end()) settings.insert(*kept);
         ViewOptions options = viewOptionsOf(settings);
-        mMode = mSession ? mSession->mode() : mMode;
-        options.mode = mMode;
+        options.mode = mStage.keepMode();
         load(options, settingTextsOf(options.scene.given), true);
-        mPanels.showStart(false);
+        mStage.panels().showStart(false);
     });
 }
 
-void Viewer::cancelLoading() {
-    if (!mSession) return mWindow.close();
+void SceneChanges::goTo(std::shared_ptr<const OpenScene> scene, const SceneMade& next, const SceneMade& flown,
+                        Arrival arrival) {
+    mStage.keepMode();
+    mAnother = true;
+    mSettings.begin(next, flown);
+    mArrival = std::move(arrival);
+    mWorker->reload([next = std::move(scene)](Progress&) { return *next; });
+}
+
+void SceneChanges::cancelLoading() {
+    if (!mSession) return mStage.close();
     mWorker->cancelLoading();
     if (mWorker->scene() == mScene) keepBefore();  // else it was there already
 }
 
-// What is shown stays what it was.
-void Viewer::keepBefore() {
+void SceneChanges::keepBefore() {
     mAnother = false;
     mSettings.keepBefore();
 }
 
-void Viewer::set(const std::string& key, const std::optional<std::string>& text) {
+void SceneChanges::set(const std::string& key, const std::optional<std::string>& text) {
     if (!mSession) return;
     mNotices.tryTo([&] {
         if (setScreen(key, text)) return;
@@ -132,13 +148,13 @@ void Viewer::set(const std::string& key, const std::optional<std::string>& text)
             setText(settings, key, *text);
         else
             settings.erase(key);
-        goTo(settings);
+        change(settings);
     });
     mSettings.look();
 }
 
 // Throws Error, and nothing is changed then.
-void Viewer::goTo(const SettingTexts& settings) {
+void SceneChanges::change(const SettingTexts& settings) {
     const SettingTexts now = mSettings.now();
     bool again = false;
     std::vector<std::pair<std::string, std::optional<std::string>>> changes;
@@ -163,68 +179,43 @@ void Viewer::goTo(const SettingTexts& settings) {
     mSettings.look();
 }
 
-// What was guessed of the scene comes before what helps to begin.
-void Viewer::greet(bool first) {
-    const auto* const terrain = mScene->scene->offered<const TerrainScene>();
-    const std::vector<std::string> notes = terrain ? terrain->report.notes : std::vector<std::string>();
-    for (const std::string& note : notes) mNotices.tell(note);
-    if (!notes.empty())
-        mSession->notify(notes.front());
-    else if (first)
-        mSession->notify("F1 shows the keys, F2 and F3 the panels");
-}
-
-void Viewer::undo() {
-    if (!mSession) return;
-    if (mKeyframes.canUndo()) return mKeyframes.undo();
+void SceneChanges::undo() {
     const auto settings = mSettings.undo();
     if (!settings) return mSession->notify("there is nothing to undo");
-    mNotices.tryTo([&] { goTo(*settings); });
+    mNotices.tryTo([&] { change(*settings); });
 }
 
-void Viewer::redo() {
-    if (!mSession) return;
-    if (mKeyframes.canRedo()) return mKeyframes.redo();
+void SceneChanges::redo() {
     const auto settings = mSettings.redo();
     if (!settings) return mSession->notify("there is nothing to redo");
-    mNotices.tryTo([&] { goTo(*settings); });
+    mNotices.tryTo([&] { change(*settings); });
 }
 
-void Viewer::copy(const std::string& text) {
-    mWindow.setClipboard(text);
-    if (mSession) mSession->notify("copied");
+bool SceneChanges::takeScene() {
+    auto scene = mWorker->scene();
+    const bool busy = mWorker->loading().busy;  // after the scene: it is of that, or of a newer one
+    if (busy && !mWasBusy) mLoadingWatch.lap_ms();
+    mWasBusy = busy;
+    if (!scene || scene == mScene) return false;
+    mScene = std::move(scene);
+    mSettings.lookAtScene();
+    if (!busy) mSettings.arrived();
+    return true;
 }
 
-void Viewer::saveScene(const std::filesystem::path& file) {
-    mNotices.tryTo([&] {
-        const std::filesystem::path place = mSettings.save(file);
-        mSession->notify("saved " + place.string());
-    });
+std::optional<SceneMade> SceneChanges::interrupt() {
+    if (mSession || !mSettings.begun()) return std::nullopt;
+    SceneMade next = mSettings.made();
+    keepBefore();
+    return next;
 }
 
-// The same settings.
-void Viewer::loadAgain() {
-    mWorker->reload([options = mSettings.changed(), size = windowSize(), sweep = mSweep.get()](
-                        Progress& progress) { return openScene(options, false, size, sweep, progress); });
+void SceneChanges::resume(const std::optional<SceneMade>& next) {
+    if (next) mSettings.begin(*next);
+    mAnother = mSettings.begun();
 }
 
-// A coarser scene stands in until what it lacks is there; not while another one is being loaded.
-void Viewer::followPreparation() {
-    try {
-        mPreparation.follow(mScene);
-        mPrepared = mPreparation.take() || mPrepared;
-    } catch (const Cancelled&) {
-        mSession->notify("the ground stays coarse until it is opened again");
-    } catch (const std::exception& error) {
-        mNotices.fail(error.what());
-    }
-    if (!mPrepared || mWorker->loading().busy) return;
-    mPrepared = false;
-    if (mScene->scene->offered<const StandIn>()) loadAgain();
-}
-
-// What the session wants that takes longer than a frame.
-void Viewer::followWishes() {
+void SceneChanges::follow() {
     if (const auto change = mSession->takeSceneChange()) {
         mSettings.change(*change);
         if (mScene->scene->offered<SurfaceChoices>() && !change->pieces)
@@ -241,39 +232,21 @@ void Viewer::followWishes() {
         keepBefore();
     }
     followPreparation();
-    takeStudy();
 }
 
-void Viewer::takeStudy() {
-    // A panel asks with each layout, and not again for what failed; the key V does.
-    if (!mSlices.busy() && mSession->takeStudyWish() && (!mStudyFailed || mSession->wantsSliceView())) {
-        mStudyFailed = false;
-        mSlices.start(mScene, [] { Window::wake(); });
-    }
+// A coarser scene stands in until what it lacks is there; not while another one is being loaded.
+void SceneChanges::followPreparation() {
     try {
-        auto study = mSlices.take();
-        if (!study) return;
-        mSession->takeStudyWish();  // asked for again meanwhile
-        if (mSession->wantsSliceView())
-            mSession->showSlices(std::move(study));
-        else
-            mSession->keepStudy(std::move(study));
+        mPreparation.follow(mScene);
+        mPrepared = mPreparation.take() || mPrepared;
     } catch (const Cancelled&) {
-        mStudyFailed = true;
-        mSession->dropStudyWish();
-        mSession->notify("the slices were not read; V reads them again");
+        mSession->notify("the ground stays coarse until it is opened again");
     } catch (const std::exception& error) {
-        mStudyFailed = true;
-        mSession->dropStudyWish();
         mNotices.fail(error.what());
     }
-}
-
-std::shared_ptr<const SliceStudy> Viewer::study() {
-    if (!mSession) return nullptr;
-    // Not before the first picture, which is what is waited for.
-    if (!mSession->study() && !mSlices.busy() && mPictures.frame()) mSession->wishStudy();
-    return mSession->study();
+    if (!mPrepared || mWorker->loading().busy) return;
+    mPrepared = false;
+    if (mScene->scene->offered<const StandIn>()) loadAgain();
 }
 
 }  // namespace stereonav
