@@ -30,14 +30,14 @@ bool BenchFlight::step(ViewSession& session, ViewWorker& worker, const ViewFrame
                        const AskedFrames& asked, bool refines) {
     if (!mBench) return false;
     if (mJudgement) return mJudgement->done;
-    const RecordedPath& path = session.path();
+    const RecordedPath& path = session.paths().path();
     const bool animated = session.open().scene->offered<Animation>() != nullptr && !refines;
     const bool rests = animated || !session.moving();
     const bool ready = frame && rests && !worker.loading().busy && (animated || asked.isNewest(*frame));
     if (ready && path.samples().size() < 2)
         throw Error("--bench", "", "this scene has no flight of its own", "give --path FILE");
     const double duration = path.samples().size() < 2 ? 0 : path.duration();
-    switch (mBench->step(Window::now(), ready, session.playing(), duration)) {
+    switch (mBench->step(Window::now(), ready, session.paths().playing(), duration)) {
         case ViewBench::Wish::Fly:
         case ViewBench::Wish::Stop:
             session.act({ViewCommand::Play});

@@ -9,11 +9,11 @@ namespace stereonav {
 void FlownKeyframes::raise(const RaisedGround& raised, const ViewSession& session) {
     if (!mEdit.any()) return;
     mEdit.start(raised.moved(mEdit.keys()));
-    mPath = session.pathVersion();
+    mPath = session.paths().version();
 }
 
 void FlownKeyframes::follow(ViewSession& session, Notices& notices) {
-    if (mEdit.any() && mEdit.version() == mSeen && session.pathVersion() != mPath) mEdit.start({});
+    if (mEdit.any() && mEdit.version() == mSeen && session.paths().version() != mPath) mEdit.start({});
     if (!mEdit.any() && !mEdit.canUndo()) mFlown = false;
     if (mEdit.version() == mSeen || mEdit.dragging()) return;
     mSeen = mEdit.version();
@@ -22,12 +22,12 @@ void FlownKeyframes::follow(ViewSession& session, Notices& notices) {
             FlownPath flown = flownThrough(mEdit.keys(), session.flight());
             // What was played before them can be had back.
             if (mFlown)
-                session.setPath(std::move(flown.path));
+                session.paths().set(std::move(flown.path));
             else
-                session.editPath([&](const RecordedPath&) { return std::move(flown.path); });
+                session.paths().edit([&](const RecordedPath&) { return std::move(flown.path); });
             mFlown = true;
         });
-    mPath = session.pathVersion();
+    mPath = session.paths().version();
 }
 
 }  // namespace stereonav

@@ -44,7 +44,7 @@ void FramePresenter::take(std::shared_ptr<const ViewFrame> frame, const AskedFra
 }
 
 PictureWay FramePresenter::wayOf(const ViewSession& session, const AskedFrames& asked, bool lateWarp) {
-    if (session.slicesShown()) return PictureWay::Slices;
+    if (session.slices().shown()) return PictureWay::Slices;
     if (!asked.warps(mFrame.get(), lateWarp)) return PictureWay::Cast;
     return mCard.works() ? PictureWay::LateByCard : PictureWay::LateByProcessor;
 }
@@ -109,10 +109,10 @@ void FramePresenter::showLate(PictureWay way, const FrameRequest& now) {
 }
 
 void FramePresenter::showSlices(ViewSession& session, const SizeOption& eye, Screenshots& screenshots) {
-    const Plane<PackedColor>& picture = session.slicePicture(eye.width, eye.height);
+    const Plane<PackedColor>& picture = session.slices().picture(eye.width, eye.height);
     screenshots.take(picture, session.compose());
-    if (session.sliceVersion() == mSlices) return;
-    mSlices = session.sliceVersion();
+    if (session.slices().version() == mSlices) return;
+    mSlices = session.slices().version();
     mEyes.upload(picture, {});
     mPicture = {};
     mWay = PictureWay::Slices;

@@ -29,7 +29,7 @@ bool Instruments::follow() {
     bool fresh = mMeasured.poll() || mMeasured.busy();
     fresh = mCoverage.poll() || fresh;
     mSession->setPaint(mCoverage.soFar().painter);
-    return mFindings.poll(mSession->study()) || mFindings.busy() || fresh;
+    return mFindings.poll(mSession->slices().study()) || mFindings.busy() || fresh;
 }
 
 LivePaint* Instruments::paint() const {
@@ -53,7 +53,7 @@ std::optional<PaintWork> Instruments::painting() const {
 
 // The left eye's picture: the right one shows little more.
 void Instruments::see(const ViewFrame& frame, const AskedFrames& asked) {
-    if (!mCoverage.on() || mSession->slicesShown() || !asked.ofSession(frame)) return;
+    if (!mCoverage.on() || mSession->slices().shown() || !asked.ofSession(frame)) return;
     const FrameRequest& of = frame.request;
     mCoverage.show(
         of.twoEyes ? makeStereoViews(of.pose, of.lens, of.stereo).left : makeEyeView(of.pose, of.lens),

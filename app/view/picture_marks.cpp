@@ -71,7 +71,7 @@ std::vector<OverlayMark> PictureMarks::marks(const ViewSession& session, const O
     std::vector<OverlayMark> marks;
     const ViewFrame* const frame = mPictures.frame();
     const ShownPicture& picture = mPictures.picture();
-    if (!frame || !picture.left || session.slicesShown()) return marks;
+    if (!frame || !picture.left || session.slices().shown()) return marks;
     const Plane<float>& depth = frame->left.viewDepth;
     const glm::ivec2& guard = frame->request.guard;
     const bool panels = !mStage.panels().hidden();

@@ -12,8 +12,8 @@ namespace stereonav {
 
 bool PicturePointer::isOfPicture(const OutputModeInfo& mode) const {
     const ShownPicture& picture = mPictures.picture();
-    return mSession && mPictures.frame() && picture.left && picture.of.twoEyes && !mSession->slicesShown() &&
-           !mWindow.captured() && mode.layout != OutputLayout::OneEye;
+    return mSession && mPictures.frame() && picture.left && picture.of.twoEyes &&
+           !mSession->slices().shown() && !mWindow.captured() && mode.layout != OutputLayout::OneEye;
 }
 
 std::optional<glm::dvec2> PicturePointer::share(const OutputModeInfo& mode) const {
@@ -27,7 +27,7 @@ std::optional<glm::dvec2> PicturePointer::share(const OutputModeInfo& mode) cons
 std::optional<glm::dvec3> PicturePointer::world() const {
     const ViewFrame* const frame = mPictures.frame();
     const ShownPicture& picture = mPictures.picture();
-    if (!mSession || !frame || !picture.left || picture.warped || mSession->slicesShown() ||
+    if (!mSession || !frame || !picture.left || picture.warped || mSession->slices().shown() ||
         mWindow.captured())
         return std::nullopt;
     const OutputMode mode = mStage.mode();
@@ -40,7 +40,7 @@ std::optional<glm::dvec3> PicturePointer::world() const {
 Facts PicturePointer::facts() const {
     const auto place = world();
     if (!place) return {};
-    return factsOfPlace(*mSession->open().scene, mSession->study().get(), *place,
+    return factsOfPlace(*mSession->open().scene, mSession->slices().study().get(), *place,
                         viewsOf(mPictures.picture().of).left.head);
 }
 
@@ -55,10 +55,10 @@ void PicturePointer::use(Instruments& instruments, Notices& notices) {
     const SizeOption eye = eyeSizeAt(mode, place);
     for (const glm::dvec2& click : clicks) {
         const glm::dvec2 at = placeInPicture(mode, place, click) * glm::dvec2(eye.width, eye.height);
-        if (instruments.takesClicks() && !mSession->slicesShown())
+        if (instruments.takesClicks() && !mSession->slices().shown())
             instruments.click(world());
         else
-            notices.tell(mSession->click(at.x, at.y));
+            notices.tell(mSession->slices().click(at.x, at.y));
     }
     if (mStage.controls()) useControls(notices);
 }
@@ -77,7 +77,7 @@ void PicturePointer::useControls(Notices& notices) {
     for (const glm::dvec2& click : window.takeClicks()) {
         const glm::dvec2 at = controls.placeInPicture(click);
         if (at.x < 0 || at.y < 0 || at.x >= 1 || at.y >= 1) continue;
-        notices.tell(mSession->click(at.x * eye.width, at.y * eye.height));
+        notices.tell(mSession->slices().click(at.x * eye.width, at.y * eye.height));
     }
 }
 

@@ -175,7 +175,7 @@ void SceneChanges::change(const SettingTexts& settings) {
         if (!again && !text) mSettings.forgetGiven(key);
         if (isLive(*mSession, key, text)) setLive(*mSession, key, text);
     }
-    if (again) mSession->takeSceneChange();  // the scene that is loaded has it
+    if (again) mSession->surface().takeChange();  // the scene that is loaded has it
     mSettings.look();
 }
 
@@ -216,7 +216,7 @@ void SceneChanges::resume(const std::optional<SceneMade>& next) {
 }
 
 void SceneChanges::follow() {
-    if (const auto change = mSession->takeSceneChange()) {
+    if (const auto change = mSession->surface().takeChange()) {
         mSettings.change(*change);
         if (mScene->scene->offered<SurfaceChoices>() && !change->pieces)
             mWorker->change([options = mSettings.changed(), surface = change->surface](const OpenScene& now,
@@ -227,7 +227,7 @@ void SceneChanges::follow() {
             loadAgain();
     }
     if (const std::string problem = mWorker->takeReloadProblem(); !problem.empty()) {
-        mSession->forgetSceneChange();
+        mSession->surface().forgetChange();
         mNotices.fail(problem);
         keepBefore();
     }

@@ -50,7 +50,7 @@ void SecondSide::open(const std::string& study) {
 
 void SecondSide::begin() {
     if (const auto arrival = mChanges.takeArrival()) {
-        if (arrival->study) mSession->keepStudy(arrival->study);
+        if (arrival->study) mSession->slices().keepStudy(arrival->study);
         return mSession->goTo(arrival->pose);
     }
     mSecond.close();
@@ -86,7 +86,7 @@ void SecondSide::swap() {
     const std::shared_ptr<const OpenScene> next = mSecond.swap(mSession->openShared());
     SceneMade flown{mSettings.options(), mSettings.now(), mSettings.made().said};
     const SceneMade second = std::exchange(mMade, flown);
-    mChanges.goTo(next, second, flown, {pose, std::exchange(mSlices, mSession->study())});
+    mChanges.goTo(next, second, flown, {pose, std::exchange(mSlices, mSession->slices().study())});
 }
 
 }  // namespace stereonav

@@ -6,8 +6,8 @@
 namespace stereonav {
 
 std::shared_ptr<const SliceStudy> StudyReading::wanted(ViewSession& session) {
-    if (!session.study() && !mReading.busy() && mFrame) session.wishStudy();
-    return session.study();
+    if (!session.slices().study() && !mReading.busy() && mFrame) session.slices().wishStudy();
+    return session.slices().study();
 }
 
 std::optional<double> StudyReading::fraction() const {
@@ -21,22 +21,22 @@ void StudyReading::abandon() {
 
 void StudyReading::follow(ViewSession& session, Notices& notices) {
     // A panel asks with each layout, and not again for what failed; the key V does.
-    if (!mReading.busy() && session.takeStudyWish() && (!mFailed || session.wantsSliceView())) {
+    if (!mReading.busy() && session.slices().takeStudyWish() && (!mFailed || session.slices().wantsView())) {
         mFailed = false;
         mReading.start(session.openShared(), mWake);
     }
     const auto drop = [&] {
         mFailed = true;
-        session.dropStudyWish();
+        session.slices().dropStudyWish();
     };
     try {
         auto study = mReading.take();
         if (!study) return;
-        session.takeStudyWish();  // asked for again meanwhile
-        if (session.wantsSliceView())
-            session.showSlices(std::move(study));
+        session.slices().takeStudyWish();  // asked for again meanwhile
+        if (session.slices().wantsView())
+            session.slices().show(std::move(study));
         else
-            session.keepStudy(std::move(study));
+            session.slices().keepStudy(std::move(study));
     } catch (const Cancelled&) {
         drop();
         session.notify("the slices were not read; V reads them again");

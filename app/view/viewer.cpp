@@ -99,13 +99,13 @@ void Viewer::turn() {
 
 void Viewer::end() {
     mBench.end(mNotices.result(), mStage.mode(), mStage.eyeSize());
-    if (mSession) mNotices.tell(mSession->keepWork());
+    if (mSession) mNotices.tell(mSession->paths().keepWork());
     while (mScreenshots.waiting() && mPictures.frame()) {
         mWindow.handleEvents(kActiveWait);
         takeFrame();
         report();
     }
-    const bool byDistance = mSession ? mSession->speedByDistance() : mKeptWindow.speedByDistance();
+    const bool byDistance = mSession ? mSession->moves().speedByDistance() : mKeptWindow.speedByDistance();
     mKeptWindow.keep(mStage, mDisplay.sizes(), mMarks, byDistance, mWindow.contentScale());
     mNotices.finish(mSettings.sceneName());
 }
@@ -143,7 +143,7 @@ void Viewer::act(const ViewAction& action) {
 // First what is open over the picture, then what is at work, then the window.
 bool Viewer::quit() {
     if (mStage.panels().closeOne()) return true;
-    if (mSession && mSession->slicesShown() && !mStudy.busy()) return false;
+    if (mSession && mSession->slices().shown() && !mStudy.busy()) return false;
     if (mSession && mStudy.busy())
         mStudy.cancel();
     else
@@ -223,7 +223,7 @@ bool Viewer::actOnInstruments(ViewCommand command) {
             mInstruments.flyToUnseen(command == ViewCommand::NextUnseen ? 1 : -1);
             return true;
         case ViewCommand::RemoveSeed:
-            if (!mKeyframes.edit().chosen() || !mSession || mSession->slicesShown()) return false;
+            if (!mKeyframes.edit().chosen() || !mSession || mSession->slices().shown()) return false;
             mKeyframes.edit().removeChosen();
             return true;
         case ViewCommand::Undo:
@@ -261,8 +261,8 @@ void Viewer::takeScene() {
 
 void Viewer::beginSession() {
     const bool first = !mSession;
-    const std::string kept = mSession ? mSession->keepWork() : "";
-    const bool byDistance = mSession ? mSession->speedByDistance() : mKeptWindow.speedByDistance();
+    const std::string kept = mSession ? mSession->paths().keepWork() : "";
+    const bool byDistance = mSession ? mSession->moves().speedByDistance() : mKeptWindow.speedByDistance();
     mStudy.abandon();
     mSession.emplace(mChanges.scene(),
                      ViewSession::Options{mStage.firstMode(), std::exchange(mFlight, std::nullopt),
@@ -340,7 +340,7 @@ void Viewer::takeFrame() {
     }
     mPictures.show(*mSession, mAsked, mSettings.options().lateWarp, mDisplay.refreshPeriod());
     if (const auto truth = mChanges.worker().takeTruth()) mSession->observe(*truth);
-    if (mSession->slicesShown()) {
+    if (mSession->slices().shown()) {
         mPictures.showSlices(*mSession, mStage.eyeSize(), mScreenshots);
     } else {
         mScreenshots.take(mPictures.shared(), mSession->compose());

@@ -9,8 +9,8 @@ namespace stereonav {
 
 std::vector<std::string> WindowClosing::workAtHand() const {
     std::vector<std::string> work;
-    if (mSession && mSession->recording())
-        work.push_back(fmt::format("a recording of {:.0f} s, which is kept", mSession->recorded()));
+    if (mSession && mSession->paths().recording())
+        work.push_back(fmt::format("a recording of {:.0f} s, which is kept", mSession->paths().recorded()));
     if (const std::string job = mJobs.atWork(); !job.empty()) work.push_back(job);
     const FindingList& findings = mInstruments.findingList();
     if (findings.writes()) work.push_back(findings.doing() + " of findings, which is lost");

@@ -22,7 +22,7 @@ ComposeSetting WindowDrawing::setting() const {
     ComposeSetting setting =
         mSession ? mSession->compose() : ComposeSetting{mStage.firstMode(), false, false};
     const ShownPicture& picture = mPictures.picture();
-    if (!mSession || mSession->slicesShown() || !picture.left) return setting;
+    if (!mSession || mSession->slices().shown() || !picture.left) return setting;
     const OutputModeInfo &now = infoOf(setting.mode), &then = infoOf(picture.of.mode);
     const SizeOption wanted = eyeSizeAt(now, mStage.placeOf(now)),
                      made = eyeSizeAt(then, mStage.placeOf(then));

@@ -66,7 +66,7 @@ void WindowJobs::savePicture(const PictureWish& picture) {
 void WindowJobs::makeMovie(const MovieWish& movie) {
     mNotices.tryTo([&] {
         checkNone();
-        if (mSession->path().samples().size() < 2)
+        if (mSession->paths().path().samples().size() < 2)
             throw Error("", "movie", "there is no flight", "record one with z");
         SettingTexts settings = mSettings.now();
         settings["size"] = {fmt::format("{}x{}", movie.width, movie.height)};
@@ -80,7 +80,7 @@ void WindowJobs::makeMovie(const MovieWish& movie) {
         const std::filesystem::path place = held->path();
         // Named as temporaries are, so that it goes though the window crashes (removeLeftovers()).
         mPath = std::make_unique<JobFile>(keptFile(fmt::format(".flight.{}.window.part.gltf", getpid())));
-        writePath(mPath->path(), mSession->path());
+        writePath(mPath->path(), mSession->paths().path());
         words.push_back("--path=" + mPath->path().string());
         words.push_back((video ? "--video=" : "--out=") + place.string());
         if (video) words.push_back(fmt::format("--fps={:.6g}", movie.fps));

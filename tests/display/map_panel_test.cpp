@@ -155,7 +155,7 @@ TEST_F(MapPanelTest, AKeyframeIsDraggedOverTheGround) {
     EXPECT_EQ(edit().chosen(), 1u);
     EXPECT_TRUE(edit().canUndo());
     EXPECT_FALSE(edit().dragging());
-    EXPECT_FALSE(mSession.flyingToGoal()) << "that was no click on the map";
+    EXPECT_FALSE(mSession.moves().toGoal()) << "that was no click on the map";
     edit().undo();
     EXPECT_EQ(edit().keys()[1].pose.position, glm::dvec3(1000, 1500, 300));
     // Beyond the map it stays at its border.
@@ -178,9 +178,9 @@ TEST_F(MapPanelTest, AClickChoosesOneOrFlies) {
     drag({400, 1000}, {400, 1000});
     EXPECT_EQ(edit().chosen(), 0u);
     EXPECT_FALSE(edit().canUndo());
-    EXPECT_FALSE(mSession.flyingToGoal());
+    EXPECT_FALSE(mSession.moves().toGoal());
     drag({700, 400}, {700, 400});
-    EXPECT_TRUE(mSession.flyingToGoal()) << "beside them";
+    EXPECT_TRUE(mSession.moves().toGoal()) << "beside them";
     EXPECT_EQ(edit().chosen(), 0u);
     edit().start({});
     drag({1000, 1500}, {1000, 1500});

@@ -81,7 +81,7 @@ protected:
         }
         mInterface = std::make_unique<Interface>(*mWindow);
         mPanel = std::make_unique<SlicesPanel>();
-        mSession.keepStudy(sliced(9));
+        mSession.slices().keepStudy(sliced(9));
     }
     void TearDown() override {
         mPanel.reset();
@@ -137,7 +137,7 @@ TEST_F(SlicesPanelTest, ShowsWhatIsThereNow) {
     pose.position.x += 0.006;
     mSession.goTo(pose);
     expectAsShownFirst("another place of the eye");
-    mSession.keepStudy(sliced(13));
+    mSession.slices().keepStudy(sliced(13));
     expectAsShownFirst("another study");
     mWidth -= 40;
     expectAsShownFirst("another width");

@@ -192,13 +192,13 @@ TEST_F(UnfoldedPanelTest, MarksWhatIsUnderThePointerAndFliesThere) {
     EXPECT_NEAR(mInstruments.marked()->y, 0.01, 1e-9);
     EXPECT_NEAR(mInstruments.marked()->x, 0.15, 0.02) << "it follows the eye, which is in the middle";
     const glm::dvec3 wall = *mInstruments.marked();
-    EXPECT_FALSE(mSession.flyingToGoal());
+    EXPECT_FALSE(mSession.moves().toGoal());
     mInterface->takesButton(0, true);
     layOut();
     mInterface->takesButton(0, false);
     layOut();
-    ASSERT_TRUE(mSession.flyingToGoal());
-    for (int n = 0; n < 100 && mSession.flyingToGoal(); ++n) mSession.step({}, 0.1);
+    ASSERT_TRUE(mSession.moves().toGoal());
+    for (int n = 0; n < 100 && mSession.moves().toGoal(); ++n) mSession.step({}, 0.1);
     const glm::dvec3 to = wall - mSession.pose().position;
     EXPECT_LT(glm::length(to), 0.041);
     EXPECT_GT(glm::dot(glm::normalize(to), mSession.pose().forward()), 0.999) << "it looks at that wall";

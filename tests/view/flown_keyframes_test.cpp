@@ -24,8 +24,8 @@ TEST_F(FollowedKeyframes, TheFlightGoesThroughThem) {
     ViewSession session = this->session();
     mKeyframes.edit().start(two());
     mKeyframes.follow(session, mNotices);
-    ASSERT_GT(session.path().samples().size(), 1u);
-    EXPECT_NEAR(session.path().samples().back().pose.position.y, 800, 1);
+    ASSERT_GT(session.paths().path().samples().size(), 1u);
+    EXPECT_NEAR(session.paths().path().samples().back().pose.position.y, 800, 1);
     EXPECT_TRUE(mKeyframes.edit().any());
 }
 
@@ -33,21 +33,21 @@ TEST_F(FollowedKeyframes, NotWhileOneIsDragged) {
     ViewSession session = this->session();
     mKeyframes.edit().start(two());
     mKeyframes.follow(session, mNotices);
-    const long long version = session.pathVersion();
+    const long long version = session.paths().version();
     mKeyframes.edit().beginDrag(1);
     mKeyframes.edit().dragTo({0, 400, 500});
     mKeyframes.follow(session, mNotices);
-    EXPECT_EQ(session.pathVersion(), version);
+    EXPECT_EQ(session.paths().version(), version);
     mKeyframes.edit().endDrag();
     mKeyframes.follow(session, mNotices);
-    EXPECT_NEAR(session.path().samples().back().pose.position.y, 400, 1);
+    EXPECT_NEAR(session.paths().path().samples().back().pose.position.y, 400, 1);
 }
 
 TEST_F(FollowedKeyframes, AnotherPathEndsThem) {
     ViewSession session = this->session();
     mKeyframes.edit().start(two());
     mKeyframes.follow(session, mNotices);
-    session.openPath(flatScene().path);
+    session.paths().open(flatScene().path);
     mKeyframes.follow(session, mNotices);
     EXPECT_FALSE(mKeyframes.edit().any());
 }

@@ -69,10 +69,10 @@ TEST_F(PictureInstruments, AStudyIsNotReadBeforeTheFirstPicture) {
     mScene->readSlices = [](Progress&) { return std::shared_ptr<const SliceStudy>(); };
     begin();
     EXPECT_FALSE(mStudy.wanted(*mSession));
-    EXPECT_FALSE(mSession->takeStudyWish());
+    EXPECT_FALSE(mSession->slices().takeStudyWish());
     mStudy.noteFrame();
     EXPECT_FALSE(mStudy.wanted(*mSession));
-    EXPECT_TRUE(mSession->takeStudyWish());
+    EXPECT_TRUE(mSession->slices().takeStudyWish());
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ void MapPanel::drawPath(ViewSession& session, KeyframeEdit& edit, const Placed& 
         } catch (const Error&) {
             mFlown = {};  // what can not be flown has no line
         }
-    const auto& samples = edits ? mFlown.path.samples() : session.path().samples();
+    const auto& samples = edits ? mFlown.path.samples() : session.paths().path().samples();
     for (std::size_t n = 1; n < samples.size(); ++n)
         list.AddLine(placed(samples[n - 1].pose.position), placed(samples[n].pose.position),
                      edits && mFlown.blocked[n - 1] ? kBlocked : kWay, edits ? 2.0f : 1.5f);

@@ -131,12 +131,14 @@ void flightMenu(const PanelParts& parts, MenuWishes& wishes) {
     item(parts, "Keep this place", "Ctrl+B", ViewCommand::AddPlace);
     ImGui::Separator();
     item(parts, "Open a flight...", nullptr, ViewCommand::OpenPath);
-    item(parts, session && session->recording() ? "End recording" : "Record", "z", ViewCommand::Record);
-    item(parts, session && session->playing() ? "Stop playing" : "Play", "Shift+Z", ViewCommand::Play);
+    item(parts, session && session->paths().recording() ? "End recording" : "Record", "z",
+         ViewCommand::Record);
+    item(parts, session && session->paths().playing() ? "Stop playing" : "Play", "Shift+Z",
+         ViewCommand::Play);
     if (ImGui::MenuItem("Make a movie...", nullptr, false, session != nullptr)) wishes.movie = true;
     ImGui::Separator();
     item(parts, "Speed by the distance ahead", "Shift+F", ViewCommand::SpeedByDistance,
-         session && session->speedByDistance());
+         session && session->moves().speedByDistance());
     item(parts, "Hold the mouse", "Y", ViewCommand::CaptureMouse, session && session->mouseCaptured());
     if (session) {
         ImGui::Separator();
@@ -156,7 +158,7 @@ void toolsMenu(const PanelParts& parts, MenuWishes& wishes) {
     if (ImGui::MenuItem("Find anything...", "Ctrl+P")) wishes.search = true;
     ViewSession* const session = parts.session;
     const bool sliced = session && session->open().scene->offered<SliceSource>();
-    if (ImGui::MenuItem("Slices", "V", session && session->slicesShown(), sliced))
+    if (ImGui::MenuItem("Slices", "V", session && session->slices().shown(), sliced))
         parts.actions.ask({ViewCommand::Slices});
     ImGui::EndMenu();
 }

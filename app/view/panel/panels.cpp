@@ -90,7 +90,7 @@ void Panels::State::open(const PanelParts& parts, const std::filesystem::path& f
         case FileBrowser::For::OpenOther:
             return parts.second.open(file.string());
         case FileBrowser::For::OpenPath:
-            if (session) parts.notices.tryTo([&] { session->openPath(readPath(file)); });
+            if (session) parts.notices.tryTo([&] { session->paths().open(readPath(file)); });
             return;
         case FileBrowser::For::SaveScene:
             parts.notices.tryTo([&] {

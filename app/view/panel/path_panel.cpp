@@ -26,7 +26,7 @@ bool button(const char* label, const char* tip) {
 }
 
 void drawEdits(ViewSession& session, KeyframeEdit& edit) {
-    const RecordedPath& path = session.path();
+    const RecordedPath& path = session.paths().path();
     static double from = 0, to = 1;  // shares of the duration
     ImGui::SetNextItemWidth(-FLT_MIN);
     float ends[2] = {static_cast<float>(from), static_cast<float>(to)};
@@ -37,7 +37,7 @@ void drawEdits(ViewSession& session, KeyframeEdit& edit) {
     tooltip("The part that Trim keeps, from and to, of the duration.");
     if (button("Trim", "Keeps that part.")) {
         const double start = path.startTime(), duration = path.duration();
-        session.editPath([=](const RecordedPath& all) {
+        session.paths().edit([=](const RecordedPath& all) {
             return trimmed(all, start + from * duration, start + to * duration);
         });
         from = 0;
@@ -45,18 +45,18 @@ void drawEdits(ViewSession& session, KeyframeEdit& edit) {
     }
     ImGui::SameLine();
     if (button("Smooth", "Takes out what shakes within half a second; the ends stay."))
-        session.editPath([](const RecordedPath& all) { return smoothed(all, kSmoothSeconds); });
+        session.paths().edit([](const RecordedPath& all) { return smoothed(all, kSmoothSeconds); });
     ImGui::SameLine();
     if (button("Even pace", "The same way in the same time, at one speed."))
-        session.editPath([](const RecordedPath& all) { return evenlyPaced(all, std::nullopt); });
+        session.paths().edit([](const RecordedPath& all) { return evenlyPaced(all, std::nullopt); });
     if (button("Undo##path", "The path before the last change.")) {
         if (edit.canUndo())
             edit.undo();
         else
-            session.undoPath();
+            session.paths().undo();
     }
     ImGui::SameLine();
-    if (button("Save", "Writes the path as flight_0001.gltf and so on.")) session.savePath();
+    if (button("Save", "Writes the path as flight_0001.gltf and so on.")) session.paths().save();
 }
 
 // How high the chosen one is over the ground, where there is some.
@@ -85,10 +85,10 @@ void drawKeyframes(ViewSession& session, KeyframeEdit& edit, const Bookmarks* pl
     };
     const double speed = session.flight().speed();
     if (!edit.any()) {
-        const bool path = session.path().samples().size() > 1;
+        const bool path = session.paths().path().samples().size() > 1;
         ImGui::BeginDisabled(!path);
         if (button("Keyframes of the path", "A few that the path is kept with, to be moved on the map (F3)."))
-            tried([&] { edit.start(keyframesToEdit(session.path())); });
+            tried([&] { edit.start(keyframesToEdit(session.paths().path())); });
         ImGui::EndDisabled();
         if (places && places->list().size() > 1) {
             if (button(
@@ -140,7 +140,7 @@ void drawMovie(const ViewSession& session, WindowJobs& jobs) {
     tooltip("Frames a second.");
     ImGui::SameLine();
     const bool busy = jobs.busy();
-    ImGui::BeginDisabled(busy || movie.file.empty() || session.path().samples().size() < 2);
+    ImGui::BeginDisabled(busy || movie.file.empty() || session.paths().path().samples().size() < 2);
     if (ImGui::Button("Make movie")) jobs.makeMovie(movie);
     ImGui::EndDisabled();
     tooltip("Of this path, in the mode that is shown. It goes on beside the flight.");
@@ -150,30 +150,30 @@ void drawMovie(const ViewSession& session, WindowJobs& jobs) {
 
 void drawPathPanel(ViewSession& session, KeyframeEdit& edit, const Bookmarks* places, WindowJobs& jobs,
                    AskedActions& actions) {
-    if (button(session.recording() ? "End recording" : "Record", "Key: z"))
+    if (button(session.paths().recording() ? "End recording" : "Record", "Key: z"))
         actions.ask({ViewCommand::Record});
     ImGui::SameLine();
-    if (button(session.playing() ? "Stop" : "Play", "Key: Shift+Z")) actions.ask({ViewCommand::Play});
+    if (button(session.paths().playing() ? "Stop" : "Play", "Key: Shift+Z")) actions.ask({ViewCommand::Play});
     ImGui::SameLine();
     if (button("Home", "Key: Space")) actions.ask({ViewCommand::Home});
     ImGui::SameLine();
     if (button("Open...", "A flight from a file, in the path's place.")) actions.ask({ViewCommand::OpenPath});
-    const RecordedPath& path = session.path();
+    const RecordedPath& path = session.paths().path();
     const bool any = path.samples().size() > 1;
     quietText(any ? fmt::format("A flight of {:.1f} s, {} places.", path.duration(), path.samples().size())
                   : "No flight yet: Record makes one.");
     if (any) drawEdits(session, edit);
     drawKeyframes(session, edit, places);
     drawMovie(session, jobs);
-    bool byDistance = session.speedByDistance();
+    bool byDistance = session.moves().speedByDistance();
     if (ImGui::Checkbox("speed by the distance ahead", &byDistance))
         actions.ask({ViewCommand::SpeedByDistance});
     tooltip(
         "What is ahead is reached in about four seconds, near or far; over the sky the speed is as ever. "
         "Key: "
         "Shift+F");
-    quietText(
-        fmt::format("speed {}/s: the wheel changes it, Shift is four times", lengthText(session.speed())));
+    quietText(fmt::format("speed {}/s: the wheel changes it, Shift is four times",
+                          lengthText(session.moves().speed())));
 }
 
 }  // namespace stereonav

@@ -126,12 +126,12 @@ void drawMaterial(const PanelParts& parts, ViewSession& session, TransferPanel& 
     drawLegend(scene);
     const auto* const surface = scene.offered<SurfaceChoices>();
     if (!surface) return;
-    bool translucent = *session.surface().translucent;
+    bool translucent = *session.surface().now().translucent;
     if (ImGui::Checkbox("translucent", &translucent)) parts.actions.ask({ViewCommand::ToggleTranslucent});
     tooltip("Seen through, by the transfer function, or an opaque surface. Key: T");
     ImGui::SameLine();
     command(parts.actions, "Next function", ViewCommand::NextTransfer, "Key: Shift+T");
-    if (!session.surface().ambient) return;
+    if (!session.surface().now().ambient) return;
     command(parts.actions, "Ambient light", ViewCommand::NextAmbient,
             "The next method of ambient light, or none. Key: O");
     ImGui::SameLine();

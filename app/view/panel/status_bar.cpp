@@ -79,7 +79,7 @@ void placePieces(const Facts& facts, Row& row) {
 bool asksForScreen(const PanelParts& parts) {
     ViewSession* const session = parts.session;
     const ViewFrame* const frame = parts.pictures.frame();
-    return session && frame && frame->request.twoEyes && !session->slicesShown() &&
+    return session && frame && frame->request.twoEyes && !session->slices().shown() &&
            infoOf(session->compose().mode).layout != OutputLayout::OneEye && parts.display.screen().asks;
 }
 
@@ -138,8 +138,8 @@ float drawStatusBar(const PanelParts& parts, float left, float right) {
     Row row(ImGui::GetContentRegionAvail().x);
     ViewSession* const session = parts.session;
     const ViewFrame* const frame = parts.pictures.frame();
-    if (session && session->slicesShown()) {
-        row.text(session->sliceStatus());
+    if (session && session->slices().shown()) {
+        row.text(session->slices().status());
     } else if (session && frame) {
         const double rate = parts.pictures.framesPerSecond();
         row.text(rate > 0 ? fmt::format("{:5.1f} /s", rate) : "  rest ",
@@ -159,15 +159,16 @@ float drawStatusBar(const PanelParts& parts, float left, float right) {
                 measured + (frame->rays > 1
                                 ? "\nBoth eyes are cast in full, again and again, while the picture rests."
                                 : "\nThe right eye against a full cast, measured while the picture rests."));
-        if (session->playing())
-            row.text(
-                fmt::format("playing {:.1f} of {:.1f} s", session->playTime(), session->path().duration()));
-        if (session->recording()) row.text(fmt::format("recording {:.1f} s", session->recorded()));
+        if (session->paths().playing())
+            row.text(fmt::format("playing {:.1f} of {:.1f} s", session->paths().time(),
+                                 session->paths().path().duration()));
+        if (session->paths().recording())
+            row.text(fmt::format("recording {:.1f} s", session->paths().recorded()));
         row.text(placeText(*session));
         row.text(std::string(infoOf(session->compose().mode).longName) +
                  (session->swapped() ? ", swapped" : ""));
         row.text(std::string(frame->request.way.method), "how the right eye was made: N");
-        row.text(fmt::format("speed {}/s", lengthText(session->speed())), "the wheel changes it");
+        row.text(fmt::format("speed {}/s", lengthText(session->moves().speed())), "the wheel changes it");
     }
     ImGui::End();
     return height;

@@ -66,7 +66,7 @@ void drawTakenLines(ViewSession& session, MeasuredLine& line) {
     tooltip(
         "A line of the file that is drawn (tracks, under Material) is measured in the place of this one.");
     ImGui::SameLine();
-    const std::vector<PathSample>& flight = session.path().samples();
+    const std::vector<PathSample>& flight = session.paths().path().samples();
     ImGui::BeginDisabled(flight.size() < 2);
     if (ImGui::Button("Take flight")) {
         std::vector<glm::dvec2> under;

@@ -126,7 +126,7 @@ void TransferPanel::draw(SceneChanges& changes, const ViewSession& session, bool
     drawPlot(changes, grey);
     drawPoint(changes);
     drawButtons(changes, shown->begun);
-    if (!*session.surface().translucent)
+    if (!*session.surface().now().translucent)
         quietText("Opaque: a preset, or T, makes it translucent.");
     else if (mCurve.empty() && !shown->function.empty())
         quietText(fmt::format("This function has more points than can be edited, {}.",
