@@ -10,13 +10,16 @@
 namespace stereonav {
 namespace {
 
-constexpr int kWidth = 1180, kHeight = 760;  // screen units: both columns and a picture between them
-constexpr glm::vec3 kGround{0.06f};          // behind the picture, as in the first window nearly black
+constexpr int kControlsWidth = 1180,
+              kControlsHeight = 760;  // screen units: both columns and a picture between them
+constexpr glm::vec3 kGround{0.06f};   // behind the picture, as in the first window nearly black
 
 }  // namespace
 
 ControlWindow::ControlWindow(const Window& first, const InterfaceLook& look)
-    : mFirst(first), mWindow("stereonav - controls", kWidth, kHeight, first), mInterface(mWindow) {
+    : mFirst(first),
+      mWindow("stereonav - controls", kControlsWidth, kControlsHeight, first),
+      mInterface(mWindow) {
     InterfaceLook own = look;
     own.scale = mInterface.look().scale;  // of the monitor it is on
     own.grey = false;                     // nobody looks at it through coloured glasses
@@ -38,13 +41,14 @@ void ControlWindow::takePicture(const ViewFrame& frame) {
     mStale = false;
 }
 
-void ControlWindow::draw(Panels& panels, PanelHost& host, const ViewFrame* frame, bool fresh, double dt) {
+void ControlWindow::draw(const Panels& panels, const std::function<void()>& drawPanels,
+                         const ViewFrame* frame, bool fresh, double dt) {
     mStale = mStale || fresh;
     if (mWindow.minimised()) return;
     mWindow.use();
     bool drawn = false;
     const bool changed = mInterface.layOut({}, dt, [&] {
-        panels.draw(host);
+        drawPanels();
         if (!frame || frame->left.color.empty()) return;
         const glm::vec2 whole(ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y);
         const Panels::Rest rest = panels.rest(whole);

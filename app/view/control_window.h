@@ -3,9 +3,11 @@
 // eye.
 #pragma once
 
-#include "app/view/panel/panel_host.h"
+#include <functional>
+
 #include "app/view/panel/panel_texture.h"
 #include "app/view/panel/panels.h"
+#include "app/view/worker.h"
 #include "engine/display/interface.h"
 #include "engine/display/window.h"
 
@@ -23,8 +25,9 @@ public:
     Interface& interface() { return mInterface; }
     const Interface& interface() const { return mInterface; }
 
-    // fresh: the frame is another one than in the last call; null: there is none.
-    void draw(Panels& panels, PanelHost& host, const ViewFrame* frame, bool fresh, double dt);
+    // drawPanels: lays them out. fresh: the frame is another one than in the last call; null: there is none.
+    void draw(const Panels& panels, const std::function<void()>& drawPanels, const ViewFrame* frame,
+              bool fresh, double dt);
 
     // A place of this window, shares of its size, in the picture, shares of that one's.
     glm::dvec2 placeInPicture(const glm::dvec2& share) const;

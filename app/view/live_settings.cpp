@@ -70,26 +70,26 @@ bool takesByName(const ViewSession& session, const std::string& text) {
 }
 // What is seen through: the function, "" where it is opaque or there is an opacity instead.
 std::string transferText(const ViewSession& session) {
-    const SurfaceChange now = session.surface();
+    const SurfaceChange now = session.surface().now();
     if (!*now.translucent) return "";
     const BegunSurface* const begun = begunOf(session);
     return now.transfer->empty() && begun ? begun->transfer : *now.transfer;
 }
 std::string opacityText(const ViewSession& session) {
     const BegunSurface* const begun = begunOf(session);
-    const bool by = begun && *session.surface().translucent && transferText(session).empty();
+    const bool by = begun && *session.surface().now().translucent && transferText(session).empty();
     return by ? fmt::format("{}", begun->opacity) : "";
 }
 void showThrough(ViewSession& session, const std::string& transfer) {
     SurfaceChange change;
     change.translucent = true;
     change.transfer = transfer;
-    session.setSurface(change);
+    session.surface().set(change);
 }
 void showOpaque(ViewSession& session) {
     SurfaceChange change;
     change.translucent = false;
-    session.setSurface(change);
+    session.surface().set(change);
 }
 // By tellFunction.
 bool saidApart(const ViewSession&) {
@@ -147,36 +147,38 @@ constexpr Live kLive[] = {
      [](ViewSession& s, const OptionValue& value) { s.setFov(value.number() * kDegree); },
      [](ViewSession& s) { s.setFov(std::nullopt); }},
     {"sun", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::Sun; },
-     [](const ViewSession& s) { return sunText(s.sun()); },
-     [](const ViewSession& s) { return sunText(s.sun()) == sunText(s.open().sun); },
+     [](const ViewSession& s) { return sunText(s.light().sun()); },
+     [](const ViewSession& s) { return sunText(s.light().sun()) == sunText(s.open().sun); },
      [](ViewSession& s, const OptionValue& value) {
-         s.placeSun({value.numbers[0] * kDegree, value.numbers[1] * kDegree});
+         s.light().place({value.numbers[0] * kDegree, value.numbers[1] * kDegree});
      },
-     [](ViewSession& s) { s.placeSun(s.open().sun); }},
+     [](ViewSession& s) { s.light().place(s.open().sun); }},
     {"light-from", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::LightFrom; },
-     [](const ViewSession& s) { return sunText(s.sun()); },
-     [](const ViewSession& s) { return sunText(s.sun()) == sunText(s.open().sun); },
+     [](const ViewSession& s) { return sunText(s.light().sun()); },
+     [](const ViewSession& s) { return sunText(s.light().sun()) == sunText(s.open().sun); },
      [](ViewSession& s, const OptionValue& value) {
-         s.placeSun({value.numbers[0] * kDegree, value.numbers[1] * kDegree});
+         s.light().place({value.numbers[0] * kDegree, value.numbers[1] * kDegree});
      },
-     [](ViewSession& s) { s.placeSun(s.open().sun); }},
+     [](ViewSession& s) { s.light().place(s.open().sun); }},
     {"turn", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::Sky; },
-     [](const ViewSession& s) { return turnText(s.sun()); },
-     [](const ViewSession& s) { return turnText(s.sun()) == turnText(s.open().sun); },
+     [](const ViewSession& s) { return turnText(s.light().sun()); },
+     [](const ViewSession& s) { return turnText(s.light().sun()) == turnText(s.open().sun); },
      [](ViewSession& s, const OptionValue& value) {
-         s.placeSun({-value.number() * kDegree, s.sun().elevation});
+         s.light().place({-value.number() * kDegree, s.light().sun().elevation});
      },
      [](ViewSession& s) {
-         s.placeSun({s.open().sun.azimuth, s.sun().elevation});
+         s.light().place({s.open().sun.azimuth, s.light().sun().elevation});
      }},
     {"tilt", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::Sky; },
-     [](const ViewSession& s) { return degreeText(s.sun().elevation); },
-     [](const ViewSession& s) { return degreeText(s.sun().elevation) == degreeText(s.open().sun.elevation); },
+     [](const ViewSession& s) { return degreeText(s.light().sun().elevation); },
+     [](const ViewSession& s) {
+         return degreeText(s.light().sun().elevation) == degreeText(s.open().sun.elevation);
+     },
      [](ViewSession& s, const OptionValue& value) {
-         s.placeSun({s.sun().azimuth, value.number() * kDegree});
+         s.light().place({s.light().sun().azimuth, value.number() * kDegree});
      },
      [](ViewSession& s) {
-         s.placeSun({s.sun().azimuth, s.open().sun.elevation});
+         s.light().place({s.light().sun().azimuth, s.open().sun.elevation});
      }},
     {"model",
      [](const ViewSession& s) {
@@ -184,29 +186,30 @@ constexpr Live kLive[] = {
          return models && !models->names().empty();
      },
      [](const ViewSession& s) {
-         return s.open().scene->offered<LightModels>()->names()[static_cast<std::size_t>(s.model())];
+         return s.open().scene->offered<LightModels>()->names()[static_cast<std::size_t>(s.light().model())];
      },
-     [](const ViewSession& s) { return s.model() == s.open().model; },
+     [](const ViewSession& s) { return s.light().model() == s.open().model; },
      [](ViewSession& s, const OptionValue& value) {
          const auto& names = s.open().scene->offered<LightModels>()->names();
-         s.chooseModel(static_cast<int>(std::find(names.begin(), names.end(), value.text) - names.begin()));
+         s.light().choose(
+             static_cast<int>(std::find(names.begin(), names.end(), value.text) - names.begin()));
      },
-     [](ViewSession& s) { s.chooseModel(s.open().model); }},
-    {"isovalue", [](const ViewSession& s) { return surfaceOf(s) && s.surface().isovalue.has_value(); },
-     [](const ViewSession& s) { return fmt::format("{:.6g}", *s.surface().isovalue); },
+     [](ViewSession& s) { s.light().choose(s.open().model); }},
+    {"isovalue", [](const ViewSession& s) { return surfaceOf(s) && s.surface().now().isovalue.has_value(); },
+     [](const ViewSession& s) { return fmt::format("{:.6g}", *s.surface().now().isovalue); },
      [](const ViewSession& s) {
-         if (const auto* const begun = begunOf(s)) return s.surface().isovalue == begun->isovalue;
-         return s.surface().isovalue == surfaceOf(s)->isovalue && !s.open().changed;
+         if (const auto* const begun = begunOf(s)) return s.surface().now().isovalue == begun->isovalue;
+         return s.surface().now().isovalue == surfaceOf(s)->isovalue && !s.open().changed;
      },
      [](ViewSession& s, const OptionValue& value) {
          SurfaceChange change;
          change.isovalue = value.number();
-         s.setSurface(change);
+         s.surface().set(change);
      },
      [](ViewSession& s) {
          SurfaceChange change;
          if (const auto* const begun = begunOf(s)) change.isovalue = begun->isovalue;
-         s.setSurface(change);
+         s.surface().set(change);
      }},
     {"transfer", [](const ViewSession& s) { return surfaceOf(s) != nullptr; }, transferText, saidApart,
      [](ViewSession& s, const OptionValue& value) {

@@ -2,6 +2,7 @@
 // it, and beside panels the picture has the rest of that part.
 #pragma once
 
+#include "app/options/shared_options.h"
 #include "app/view/panel/panels.h"
 #include "engine/display/interface.h"
 #include "engine/image/stereo_compose.h"

@@ -8,28 +8,16 @@
 #include <utility>
 
 #include "app/output/length_text.h"
+#include "app/view/live_settings.h"
 #include "app/view/mode_steps.h"
+#include "app/view/raised_ground.h"
 #include "app/view/status.h"
-#include "engine/base/error.h"
-#include "engine/nav/depth_speed.h"
 
 namespace stereonav {
 namespace {
 
-constexpr double kStereoStep = 1.1;  // separation and zero parallax, a key press
-constexpr double kSpeedStep = 1.2;   // a notch of the wheel
-constexpr double kSlowest = 0.01, kFastest = 100.0;
-constexpr double kNoticeSeconds = 4.0;
+constexpr double kStereoStep = 1.1;   // separation and zero parallax, a key press
 constexpr double kOtherShape = 0.02;  // of width to height: less is rounding to pixels
-constexpr double kEvenPace = 1e-3;    // relative difference at which the pace is the wanted one
-constexpr double kStill = 1e-4;       // of the normal speed, and radians a second: at rest
-
-// Whether so little moved within dt seconds that the flight counts as at rest.
-bool atRest(const Pose& before, const Pose& after, double speed, double dt) {
-    const double moved = glm::length(after.position - before.position);
-    const glm::dquat turned = after.orientation - before.orientation;
-    return moved <= kStill * speed * dt && glm::length(turned) <= kStill * dt;
-}
 
 bool samePose(const Pose& a, const Pose& b) {
     return a.position == b.position && a.orientation == b.orientation;
@@ -53,38 +41,25 @@ bool mixesEyes(OutputLayout layout) {
     }
 }
 
-bool asksForMotion(const FlightInput& input) {
-    for (const double v :
-         {input.forward, input.right, input.up, input.yawRate, input.pitchRate, input.rollRate})
-        if (v != 0) return true;
-    return false;
-}
-
 }  // namespace
 
 ViewSession::ViewSession(std::shared_ptr<const OpenScene> scene, const Options& options)
     : mScene(std::move(scene)),
-      mFlight(shown().makeFlight()),
-      mFirstFlightMode(mFlight->mode()),
-      mRecorder(std::make_unique<FlightRecording>(options.folder)),
-      mPath(options.path ? *options.path : shown().path),
-      mOwnPath(!options.path),
+      mFlight(shown(), options.speedByDistance, mNotice),
+      mPaths(mScene, mFlight.shared(), mNotice, options.path, options.folder),
+      mLight(mScene, mNotice),
+      mSurface(mScene, mNotice),
+      mSlices(mScene, mNotice, [this] { return pose().position; }),
       mStereo(shown()),
-      mSun(mScene->sun),
       mMode(options.mode),
       mFirstMode(options.mode),
       mQuadBuffer(options.quadBuffer),
-      mMethod(mScene->way.method),
-      mModel(mScene->model),
-      mSpeedByDistance(options.speedByDistance) {
-    takeSurface();
-    if (const auto* const surface = offered<SurfaceChoices>()) mTriedTransfer = surface->transfer;
-}
+      mMethod(mScene->way.method) {}
 
 void ViewSession::act(const ViewAction& action) {
     // A picture of what rests is of just that: it does not set going what is left of the motion.
-    if (action.command != ViewCommand::Screenshot) mResting = false;
-    if (actOnSlices(action.command) || actOnVolume(action.command) || actOnSun(action.command) ||
+    if (action.command != ViewCommand::Screenshot) mFlight.stir();
+    if (mSlices.act(action.command, mSurface) || mSurface.act(action.command) || mLight.act(action.command) ||
         actOnEyes(action.command) || actOnStereo(action))
         return;
     switch (action.command) {
@@ -98,18 +73,44 @@ void ViewSession::act(const ViewAction& action) {
             mCaptured = !mCaptured;
             break;
         case ViewCommand::Record:
-            toggleRecording();
+            mPaths.toggleRecording();
             break;
         case ViewCommand::Play:
-            togglePlaying();
+            mPaths.togglePlaying();
+            if (mPaths.playing()) mFlight.endGoal();
             break;
         case ViewCommand::SpeedByDistance:
-            mSpeedByDistance = !mSpeedByDistance;
-            notify(mSpeedByDistance ? "the speed follows the distance ahead" : "the same speed everywhere");
+            mFlight.toggleSpeedByDistance();
             break;
         default:
-            actOnFlight(action);
+            mPaths.stop();
+            mFlight.act(action);
+            if (action.command == ViewCommand::Reset) reset();
     }
+}
+
+// The flight goes on at the same place, or where the other scene has room for it.
+void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
+    if (!scene->changed) mPaths.stop();
+    mFlight.endGoal();
+    const auto raised = RaisedGround::between(shown(), *scene->scene);
+    if (raised && mPaths.recording()) mPaths.endRecording();  // of the ground as it was
+    const Pose here = mFlight.flight().pose();
+    mFlight.replaceScene(*scene->scene, raised ? raised->moved(here) : here);
+    // Light that was turned stays so over the same study.
+    const auto *const before = offered<TurningLight>(), *const after = scene->scene->offered<TurningLight>();
+    const bool lightStays = before && after && before->isSky() == after->isSky();
+    const bool methodStays = scene->changed && scene->way.method == mScene->way.method;
+    mSlices.replaceScene(*scene->scene);
+    mStereo.replaceScene(*scene->scene);
+    keepPaint(shown(), *scene->scene);
+    mScene = std::move(scene);
+    mPaths.replaceScene(raised);
+    mLight.replaceScene(lightStays);
+    if (!methodStays) mMethod = mScene->way.method;
+    // More may be asked for than a scene made in between shows.
+    if (!mScene->changed) mSurface.forgetChange();
+    ++mRequest.version;
 }
 
 bool ViewSession::actOnStereo(const ViewAction& action) {
@@ -141,9 +142,6 @@ bool ViewSession::actOnStereo(const ViewAction& action) {
             return true;
         case ViewCommand::NextMethod:
             nextMethod();
-            return true;
-        case ViewCommand::NextModel:
-            nextModel();
             return true;
         case ViewCommand::LinearAnaglyph:
             mLinear = !mLinear;
@@ -183,36 +181,11 @@ bool ViewSession::actOnEyes(ViewCommand command) {
     }
 }
 
-void ViewSession::actOnFlight(const ViewAction& action) {
-    stopPlaying();
-    mGoal.reset();
-    if (action.command == ViewCommand::TurnRound) return turnRound();
-    if (action.command == ViewCommand::Home) {
-        mFlight->goHome();
-    } else if (action.command == ViewCommand::Reset) {
-        reset();
-    } else if ((action.command == ViewCommand::NextFlightMode ||
-                action.command == ViewCommand::SetFlightMode) &&
-               mFlight->modeCount() > 0) {
-        const int wanted =
-            action.command == ViewCommand::NextFlightMode ? mFlight->mode() + 1 : action.number;
-        mFlight->setMode(wanted % mFlight->modeCount());
-        notify(fmt::format("flight: {}", mFlight->modeName(mFlight->mode())));
-    }
-}
-
 // --- modes
 
 void ViewSession::stepMode(int by) {
     mMode = steppedMode(mMode, by, mFirstMode);
     notify(fmt::format("{} ({})", infoOf(mMode).longName, infoOf(mMode).shortName));
-}
-
-void ViewSession::nextModel() {
-    const auto* const models = offered<LightModels>();
-    if (!models || models->names().empty()) return notify("lighting models are of media");
-    mModel = (mModel + 1) % static_cast<int>(models->names().size());
-    notify("light: " + models->names()[static_cast<std::size_t>(mModel)]);
 }
 
 void ViewSession::showTruth(ViewCommand command) {
@@ -234,84 +207,50 @@ void ViewSession::nextMethod() {
 }
 
 void ViewSession::reset() {
-    mFlight->setMode(mFirstFlightMode);
-    mFlight->goHome();
+    mFlight.reset();
+    mLight.reset();
     mStereo.reset(shown());
     mMode = mFirstMode;
     mMethod = mScene->way.method;
-    mModel = mScene->model;
-    mSun = mScene->sun;
     mFov.reset();
     mStereoOn = true;
     mSwapped = mLinear = false;
-    mSpeed = 1;
     notify("reset");
 }
 
 void ViewSession::look(double yaw, double pitch) {
-    if (mPlaying || mSlices || (yaw == 0 && pitch == 0)) return;
-    mGoal.reset();
-    mFlight->turnBy(yaw, pitch);
-    mLooked = true;
+    if (mPaths.playing() || mSlices.shown() || (yaw == 0 && pitch == 0)) return;
+    mFlight.turnBy(yaw, pitch);
 }
 
 void ViewSession::turnWheel(double notches) {
     if (notches == 0) return;
-    if (mSlices) return mSlices->turnPages(notches > 0 ? -1 : 1);
-    mSpeed = std::clamp(mSpeed * std::pow(kSpeedStep, notches), kSlowest, kFastest);
-    notify(fmt::format("speed {}/s", lengthText(speed())));
-}
-
-// Smoothly both ways, also where it is switched on or off.
-void ViewSession::stepPace(double dt) {
-    const bool known = mSpeedByDistance && mDepthAhead > 0;  // 0: no frame has told yet
-    const double base = mFlight->speed(), wanted = known ? speedFor(mDepthAhead, base) / base : 1;
-    mPace = dampedSpeed(mPace, wanted, dt);
-    if (std::abs(mPace - wanted) <= kEvenPace * wanted) mPace = wanted;
-}
-
-void ViewSession::fly(const FlightInput& input, double dt) {
-    FlightInput wish = input;
-    wish.speedMultiplier *= mSpeed * mPace;
-    if (mIsovalue) wish.rollRate = 0;  // the same keys move the surface
-    const Pose before = mFlight->pose();
-    if (asksForMotion(input)) mGoal.reset();
-    if (mGoal) {
-        stepGoal(dt);
-        mRecorder->step(dt, mFlight->pose());
-        return;
-    }
-    if (!mResting || asksForMotion(input)) mFlight->step(wish, dt);
-    if (dt > 0)
-        mResting = !asksForMotion(input) && atRest(before, mFlight->pose(), mFlight->speed() * mSpeed, dt);
-    mRecorder->step(dt, mFlight->pose());
+    if (mSlices.shown()) return mSlices.turnPages(notches > 0 ? -1 : 1);
+    mFlight.turnWheel(notches);
 }
 
 void ViewSession::step(const FlightInput& input, double dt) {
     const bool animated = offered<Animation>() != nullptr, drifts = animated && mDriftsAtRest;
-    mStereo.step(mFlight->clearanceNow(), mDepthAhead, dt);
-    stepPace(dt);
+    mStereo.step(flight().clearanceNow(), mDepthAhead, dt);
+    mFlight.stepPace(mDepthAhead, dt);
     const Pose poseBefore = pose();
-    const bool looked = std::exchange(mLooked, false);
-    if (mPlaying) {
-        stepPlaying(dt);
+    const bool looked = mFlight.takeLook();
+    if (mPaths.playing()) {
+        mPaths.step(dt);
     } else {
-        fly(input, dt);
+        mFlight.step(input, dt, !mSurface.hasIsovalue());  // the keys of rolling move the surface
+        mPaths.record(dt, flight().pose());
     }
-    if (animated && mPlaying && dt > 0)
-        mTime = mPlayTime;
+    if (animated && mPaths.playing() && dt > 0)
+        mTime = mPaths.time();
     else if (animated && (drifts || mFlying))
         mTime += std::max(dt, 0.0);
-    if (mNoticeLeft > 0 && (mNoticeLeft -= dt) <= 0) mNotice.clear();
-    if (const std::string problem = mRecorder->takeProblem(); !problem.empty()) notify(problem);
-    mFlying = mPlaying || mGoal || drifts || asksForMotion(input) || looked || !samePose(poseBefore, pose());
-    mMoving = mFlying || recording() || mStereo.moving();
+    mNotice.step(dt);
+    if (const std::string problem = mPaths.takeProblem(); !problem.empty()) notify(problem);
+    mFlying = mPaths.playing() || mFlight.toGoal() || drifts || asksForMotion(input) || looked ||
+              !samePose(poseBefore, pose());
+    mMoving = mFlying || mPaths.recording() || mStereo.moving();
     mAhead.step(poseBefore, pose(), dt);
-}
-
-void ViewSession::notify(const std::string& text) {
-    mNotice = text;
-    mNoticeLeft = kNoticeSeconds;
 }
 
 Lens ViewSession::lens() const {
@@ -326,36 +265,30 @@ void ViewSession::chooseMethod(std::string_view method) {
     if (at != methods.end()) mMethod = *at;
 }
 
-void ViewSession::chooseModel(int model) {
-    const auto* const models = offered<LightModels>();
-    if (models && model >= 0 && model < static_cast<int>(models->names().size())) mModel = model;
-}
-
-void ViewSession::placeSun(const SunPlace& place) {
-    if (offered<TurningLight>()) mSun = place;
-}
-
 void ViewSession::setEyes(const StereoSetting& eyes) {
-    mResting = false;
+    mFlight.stir();
     mStereo.setZeroParallax(eyes.zeroParallax);
     mStereo.setSeparation(eyes.separation);
 }
 
 void ViewSession::setFov(std::optional<double> verticalFov) {
     mFov = verticalFov;
-    mLooked = true;
+    mFlight.noteLook();
 }
 
 void ViewSession::goTo(const Pose& pose) {
-    stopPlaying();
-    mGoal.reset();
-    mFlight->setPose(pose);
-    mResting = false;
-    mLooked = true;
+    mPaths.stop();
+    mFlight.goTo(pose);
 }
 
-bool ViewSession::takeScreenshotWish() {
-    return std::exchange(mScreenshot, false);
+void ViewSession::flyTo(const Pose& pose) {
+    mPaths.stop();
+    mFlight.flyTo(pose);
+}
+
+void ViewSession::flyAlong(double along) {
+    mPaths.stop();
+    mFlight.flyAlong(along);
 }
 
 void ViewSession::observe(const ViewFrame& frame) {
@@ -371,8 +304,8 @@ bool ViewSession::hasOtherShape(int width, int height) const {
 
 Pose ViewSession::poseAhead(double seconds) const {
     if (!(seconds > 0) || !mFlying) return pose();
-    if (mPlaying) return mPath.at(mPath.startTime() + std::min(mPlayTime + seconds, mPath.duration()));
-    return mAhead.from(pose(), seconds, mFlight->clearanceNow());
+    if (mPaths.playing()) return mPaths.ahead(seconds);
+    return mAhead.from(pose(), seconds, flight().clearanceNow());
 }
 
 const FrameRequest& ViewSession::requestFor(int width, int height, double ahead, double scale,
@@ -394,9 +327,9 @@ const FrameRequest& ViewSession::requestFor(int width, int height, double ahead,
     wanted.guard = glm::ivec2(glm::round(guard * glm::dvec2(wanted.lens.width, wanted.lens.height)));
     wanted.stereo = mStereo.now();
     wanted.way = {mMethod, mScene->way.warp, mScene->way.edges};
-    wanted.model = mModel;
+    wanted.model = mLight.model();
     wanted.time = offered<Animation>() ? mTime + ahead : mTime;
-    wanted.sun = mSun;
+    wanted.sun = mLight.sun();
     wanted.paint = paintVersion(shown());
     wanted.twoEyes = mStereoOn;
     wanted.mode = compose().mode;
@@ -439,15 +372,16 @@ std::string ViewSession::statusLine(const ViewFrame& frame, double framesPerSeco
     if (models && !models->names().empty())
         line += "  " + models->names()[static_cast<std::size_t>(frame.request.model)];
     if (!frame.sweep.empty()) line += "  " + frame.sweep;
-    const double clearance = mFlight->clearanceNow();
+    const double clearance = flight().clearanceNow();
     if (std::isfinite(clearance)) line += "  clearance " + lengthText(clearance);
     if (const auto* const through = offered<LineThrough>()) {
         const PlaceOnLine place = through->placeOnLine(pose().position);
         line += fmt::format("  at {:.0f} of {:.0f} mm", 1000 * place.along, 1000 * place.length);
     }
-    line += volumeText();
-    if (mPlaying) line += fmt::format("  playing {:.1f} of {:.1f} s", mPlayTime, mPath.duration());
-    if (recording()) line += fmt::format("  recording {:.1f} s", mRecorder->duration());
+    line += mSurface.text();
+    if (mPaths.playing())
+        line += fmt::format("  playing {:.1f} of {:.1f} s", mPaths.time(), mPaths.path().duration());
+    if (mPaths.recording()) line += fmt::format("  recording {:.1f} s", mPaths.recorded());
     return line;
 }
 

@@ -1,135 +1,149 @@
-// The session's part that records flights, plays and changes them, and keeps them in files.
+#include "app/view/session_path.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "app/view/session.h"
 #include "engine/base/error.h"
 
 namespace stereonav {
 
-void ViewSession::toggleRecording() {
-    if (mRecorder->recording()) return saveFlight();
-    stopPlaying();
-    mRecorder->start(mFlight->pose());
-    notify("recording; z ends it");
+void SessionPath::toggleRecording() {
+    if (mRecorder.recording()) return saveFlight();
+    stop();
+    mRecorder.start(mFlight->pose());
+    mNotice.say("recording; z ends it");
 }
 
-void ViewSession::saveFlight() {
+void SessionPath::saveFlight() {
     try {
-        RecordedPath flown = mRecorder->finish();
-        if (mPathIs == PathIs::Unsaved) savePath();  // the recording takes its place
-        takePath(std::move(flown), PathIs::Unsaved);
-        mOwnPath = false;
-        mPathsBefore.clear();
-        writtenTo([this] { return mRecorder->keepRecorded(mPath); });
+        RecordedPath flown = mRecorder.finish();
+        if (mIs == Is::Unsaved) save();  // the recording takes its place
+        take(std::move(flown), Is::Unsaved);
+        mOwn = false;
+        mBefore.clear();
+        writtenTo([this] { return mRecorder.keepRecorded(mPath); });
     } catch (const Error& error) {
-        notify(error.what());
+        mNotice.say(error.what());
     }
 }
 
-void ViewSession::savePath() {
-    writtenTo([this] { return mRecorder->keep(mPath); });
+void SessionPath::save() {
+    writtenTo([this] { return mRecorder.keep(mPath); });
 }
 
-void ViewSession::writtenTo(const std::function<std::filesystem::path()>& write) {
+void SessionPath::writtenTo(const std::function<std::filesystem::path()>& write) {
     try {
         const std::filesystem::path file = write();
-        mPathIs = PathIs::InFile;
-        notify(fmt::format("flight of {:.1f} s recorded in {}; Z plays it", mPath.duration(), file.string()));
+        mIs = Is::InFile;
+        mNotice.say(
+            fmt::format("flight of {:.1f} s recorded in {}; Z plays it", mPath.duration(), file.string()));
     } catch (const Error& error) {
-        notify(error.what());
+        mNotice.say(error.what());
     }
 }
 
-std::string ViewSession::keepWork() {
-    if (recording())
+std::string SessionPath::keepWork() {
+    if (mRecorder.recording())
         saveFlight();
-    else if (mPathIs == PathIs::Unsaved && mPath.samples().size() > 1)
-        savePath();
+    else if (mIs == Is::Unsaved && mPath.samples().size() > 1)
+        save();
     else
         return "";
-    return mNotice;
+    return mNotice.text();
 }
 
-void ViewSession::togglePlaying() {
-    if (mPlaying) return stopPlaying();
-    if (mRecorder->recording()) saveFlight();
-    if (mPath.samples().size() < 2) return notify("there is no flight to play; z records one");
-    mGoal.reset();
+void SessionPath::togglePlaying() {
+    if (mPlaying) return stop();
+    if (mRecorder.recording()) saveFlight();
+    if (mPath.samples().size() < 2) return mNotice.say("there is no flight to play; z records one");
     mPlaying = true;
-    mPlayTime = 0;
+    mTime = 0;
     mPlayed = mPath.at(mPath.startTime());
-    notify(fmt::format("playing {:.1f} s", mPath.duration()));
+    mNotice.say(fmt::format("playing {:.1f} s", mPath.duration()));
 }
 
-void ViewSession::stopPlaying() {
+void SessionPath::stop() {
     if (!mPlaying) return;
     mPlaying = false;
     mFlight->setPose(mPlayed);
-    notify(fmt::format("played {:.1f} s", mPlayTime));
+    mNotice.say(fmt::format("played {:.1f} s", mTime));
 }
 
-void ViewSession::stepPlaying(double dt) {
-    mPlayTime = std::min(mPlayTime + dt, mPath.duration());
-    mPlayed = mPath.at(mPath.startTime() + mPlayTime);
-    if (mPlayTime >= mPath.duration()) stopPlaying();
+void SessionPath::step(double dt) {
+    if (!mPlaying) return;
+    mTime = std::min(mTime + dt, mPath.duration());
+    mPlayed = mPath.at(mPath.startTime() + mTime);
+    if (mTime >= mPath.duration()) stop();
 }
 
-void ViewSession::editPath(const std::function<RecordedPath(const RecordedPath&)>& edit) {
-    putPath(edit, PathIs::Unsaved);
+void SessionPath::edit(const std::function<RecordedPath(const RecordedPath&)>& edit) {
+    put(edit, Is::Unsaved);
 }
 
-void ViewSession::openPath(RecordedPath path) {
-    putPath([&](const RecordedPath&) { return std::move(path); }, PathIs::InFile);
+void SessionPath::open(RecordedPath path) {
+    put([&](const RecordedPath&) { return std::move(path); }, Is::InFile);
 }
 
-void ViewSession::putPath(const std::function<RecordedPath(const RecordedPath&)>& edit, PathIs where) {
-    stopPlaying();
+void SessionPath::put(const std::function<RecordedPath(const RecordedPath&)>& edit, Is where) {
+    stop();
     try {
         RecordedPath edited = edit(mPath);
-        mPathsBefore.push_back({mPath, mOwnPath, mPathIs});
-        takePath(std::move(edited), where);
-        dropOldestPaths();
-        mOwnPath = false;
-        notify(fmt::format("a flight of {:.1f} s", mPath.duration()));
+        mBefore.push_back({mPath, mOwn, mIs});
+        take(std::move(edited), where);
+        dropOldest();
+        mOwn = false;
+        mNotice.say(fmt::format("a flight of {:.1f} s", mPath.duration()));
     } catch (const Error& error) {
-        notify(error.what());
+        mNotice.say(error.what());
     }
 }
 
 // The steps back are bounded in what they hold: a recording of an hour has 14 MB.
-void ViewSession::dropOldestPaths() {
+void SessionPath::dropOldest() {
     constexpr std::size_t kKept = 50, kKeptPlaces = 1'000'000;
     std::size_t steps = 0, places = 0;
-    for (auto step = mPathsBefore.rbegin(); step != mPathsBefore.rend(); ++step, ++steps) {
+    for (auto step = mBefore.rbegin(); step != mBefore.rend(); ++step, ++steps) {
         places += step->path.samples().size();
         if (steps == kKept || (steps > 0 && places > kKeptPlaces)) break;
     }
-    mPathsBefore.erase(mPathsBefore.begin(), mPathsBefore.end() - static_cast<std::ptrdiff_t>(steps));
+    mBefore.erase(mBefore.begin(), mBefore.end() - static_cast<std::ptrdiff_t>(steps));
 }
 
-void ViewSession::takePath(RecordedPath path, PathIs where) {
+void SessionPath::take(RecordedPath path, Is where) {
     mPath = std::move(path);
-    mPathIs = where;
-    ++mPathVersion;
+    mIs = where;
+    ++mVersion;
 }
 
-void ViewSession::setPath(RecordedPath path) {
-    stopPlaying();
-    takePath(std::move(path), PathIs::Unsaved);
-    mOwnPath = false;
+void SessionPath::set(RecordedPath path) {
+    stop();
+    take(std::move(path), Is::Unsaved);
+    mOwn = false;
 }
 
-void ViewSession::undoPath() {
-    if (mPathsBefore.empty()) return notify("the path was not changed");
-    stopPlaying();
-    PathBefore before = std::move(mPathsBefore.back());
-    mPathsBefore.pop_back();
-    mOwnPath = before.own;
-    takePath(before.own ? shown().path : std::move(before.path), before.where);
-    notify(mPath.samples().empty() ? "no flight" : fmt::format("a flight of {:.1f} s", mPath.duration()));
+void SessionPath::undo() {
+    if (mBefore.empty()) return mNotice.say("the path was not changed");
+    stop();
+    Before before = std::move(mBefore.back());
+    mBefore.pop_back();
+    mOwn = before.own;
+    take(before.own ? mScene->scene->path : std::move(before.path), before.where);
+    mNotice.say(mPath.samples().empty() ? "no flight"
+                                        : fmt::format("a flight of {:.1f} s", mPath.duration()));
+}
+
+void SessionPath::replaceScene(const std::optional<RaisedGround>& raised) {
+    if (mOwn) return take(mScene->scene->path, Is::InFile);
+    if (!raised) return;
+    stop();
+    take(raised->moved(mPath), mIs);
+    for (Before& step : mBefore) step.path = raised->moved(step.path);
+}
+
+Pose SessionPath::ahead(double seconds) const {
+    return mPath.at(mPath.startTime() + std::min(mTime + seconds, mPath.duration()));
 }
 
 }  // namespace stereonav

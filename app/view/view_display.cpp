@@ -83,6 +83,12 @@ std::string ViewDisplay::takeNotice() {
     return std::exchange(mNotice, {});
 }
 
+ScreenAnswer ViewDisplay::screen() const {
+    const ScreenTold told = this->told();
+    const ScreenSize size = mSizes.of(told);
+    return {screenText(size), size.width_mm, mSizes.asks(told)};
+}
+
 double ViewDisplay::refreshPeriod() const {
     constexpr double kUsual = 60, kLeast = 20, kMost = 500;  // Hz
     const std::optional<Monitor> on = monitor();

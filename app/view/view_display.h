@@ -20,6 +20,13 @@ struct ScreenWords {
     std::string parallax, warning;
 };
 
+// The screen that the window is on.
+struct ScreenAnswer {
+    std::string words;    // how large it is, and who says so
+    double width_mm = 0;  // in use
+    bool asks = false;    // it is a guess that nobody was asked about
+};
+
 class ViewDisplay {
 public:
     // Fills the monitor that the options name. The window is asked for a quad buffer where their mode is that
@@ -48,9 +55,13 @@ public:
     ScreenSizes& sizes() { return mSizes; }
     const ScreenSizes& sizes() const { return mSizes; }
     ScreenTold told() const;
+    ScreenAnswer screen() const;
+    void leaveUnknown() { mSizes.noteAsked(told().name); }  // it is not asked again
+    bool fullScreen() const { return mWindow.fullScreen(); }
     double refreshPeriod() const;  // seconds: of the monitor that the window is on, as it tells
 
-    // On the real screen: of the status line, and a warning where eyes would have to turn outwards.
+    // On the real screen: parallax for the status line, and a warning where eyes would have to turn outwards.
+    ScreenWords wordsOf(const ViewFrame& frame) const { return {parallaxText(frame), warning(frame)}; }
     std::string parallaxText(const ViewFrame& frame) const;
     std::string warning(const ViewFrame& frame) const;
 

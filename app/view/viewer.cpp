@@ -1,18 +1,14 @@
 #include "app/view/viewer.h"
 
-#include <epoxy/gl.h>
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdio>
-#include <mutex>
+#include <utility>
+#include <vector>
 
 #include "app/output/output_place.h"
 #include "app/output/stereo_frame.h"
-#include "app/scene/shown_as.h"
-#include "engine/base/error.h"
-#include "engine/base/file.h"
+#include "app/view/raised_ground.h"
 #include "engine/base/stop.h"
+#include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {
 namespace {
@@ -20,466 +16,391 @@ namespace {
 constexpr double kActiveWait = 1.0 / 120;  // seconds between looks at the keys while something moves
 constexpr double kShortestWait = 0.0005;   // seconds, between pictures that are warped
 constexpr double kIdleWait = 0.1;          // seconds; events and frames end the wait at once
-constexpr double kFiguresWait = 0.1;       // seconds that figures and notices may be old in flight
-constexpr double kMostFiguresWait = 0.3;   // where no new picture comes
-constexpr std::size_t kKeptCosts = 240;    // frames
 
 std::string titleOf(const SceneOptions& scene) {
     return "stereonav - " + (scene.scene.empty() ? "built-in terrain" : scene.scene);
 }
 
-FrameCost costOf(const ViewFrame& frame) {
-    const FrameTimings& timings = frame.timings;
-    FrameCost cost{timings.left_ms > 0 ? timings.left_ms : timings.both_ms, timings.right_ms, 0, 0, 0};
-    if (!timings.warped) return cost;
-    cost.warp_ms = timings.warped->warp_ms;
-    cost.fill_ms = timings.warped->fill_ms;
-    const double pixels = static_cast<double>(frame.left.width()) * frame.left.height();
-    if (pixels > 0) cost.holes = 100 * static_cast<double>(timings.warped->holePixels) / pixels;
-    return cost;
+void wakeWindow() {
+    Window::wake();
 }
 
 }  // namespace
 
 Viewer::Viewer(const ViewOptions& options)
-    : mResult("view", options.telling, {}),
-      mJson(options.json),
-      mOptions(options),
-      mGiven(settingTextsOf(options.scene.given)),
-      mSaid(fileTextsOf(options.scene.given)),
+    : mNotices(options),
+      mSettings(options, mSession),
       mFlight(options.path.empty() ? std::nullopt : std::optional(readPath(options.path))),
       mWindow(titleOf(options.scene),
               composedSize(options.mode, options.size.width, options.size.height).first,
               composedSize(options.mode, options.size.width, options.size.height).second, true,
               ViewDisplay::wantsQuadBuffer(options)),
       mDisplay(mWindow, options),
-      mMode(mDisplay.mode()),
-      mInterface(mWindow),
-      mScreenshots(options.shots) {
-    if (shownAs(options.scene).swept) mSweep = std::make_unique<ViewSweep>(options.sweep);
-    checkSize(windowSize(), options.scene, kViewBytes);
-    mPanels.showStart(options.startPage);
-    if (options.bench) mBench = std::make_shared<ViewBench>(!options.path.empty());
-    readConfig();
-    mWorker = std::make_unique<ViewWorker>(
-        [options, size = windowSize(), sweep = mSweep.get()](Progress& progress) {
-            return openScene(options, true, size, sweep, progress);
-        },
-        [] { Window::wake(); });
+      mChanges(mSession, mSettings, mNotices, mDisplay, mStage),
+      mStage(mWindow, mSession, mDisplay.mode()),
+      mInput(mWindow),
+      mScreenshots(options.shots),
+      mPictures(mWindow, options.bench),
+      mBench(options.bench, !options.path.empty()),
+      mStudy(wakeWindow),
+      mKept(mSession, mSettings, mNotices),
+      mJobs(mSession, mSettings, mNotices),
+      mInstruments(mSession, mStudy, wakeWindow),
+      mSecond(mSession, mSettings, mNotices, mChanges, mStage),
+      mLooks(wakeWindow),
+      mClosing(mSession, mWindow, mJobs, mInstruments),
+      mPointer(mSession, mWindow, mStage, mPictures),
+      mMarks(mPictures, mPointer, mStage, mKept, mInstruments),
+      mDrawing(mSession, mWindow, mDisplay, mStage, mPictures, mPointer, mMarks),
+      mClipboard(mWindow, mSession) {
+    mStage.panels().showStart(options.startPage);
+    mKeptWindow.restore(mStage, mDisplay.sizes(), mMarks, mNotices);
+    mChanges.begin();
 }
 
-// What is left is deleted in the first window's context.
 Viewer::~Viewer() {
-    cancelJob();  // ends while the rest does
-    mControls.reset();
+    mJobs.cancel();  // ends while the rest does
     mWindow.use();
-    mLateGpu.reset();
-    mPanels.forget();
-}
-
-void Viewer::tell(const std::string& text) {
-    constexpr std::size_t kMost = 10'000;
-    if (text.empty()) return;
-    if (mTold.size() < kMost) mTold.push_back(text);
-    mResult.say(text + "\n");
-    std::fflush(stdout);
+    mChanges.end();
 }
 
 void Viewer::run() {
-    if (!mOptions.shots.empty()) makeOutputFolder(mOptions.shots);
-    while (!ends()) {
-        mWindow.handleEvents(waitSeconds());
-        throwIfStopped();
-        const double dt = mClock.lap_ms() / 1000;
-        const Stopwatch turn;
-        mSettings.reset();
-        takeScene();
-        takeDrops();
-        takeKeys(dt);
-        if (mSession) update(dt);
-        drawControls(dt);
-        if (!mWindow.minimised()) draw(dt, turn);
-        stepBench();
+    const std::string& shots = mSettings.options().shots;
+    if (!shots.empty()) makeOutputFolder(shots);
+    while (!mClosing.ends([this] { mStage.layOutSoon(); })) turn();
+    end();
+}
+
+void Viewer::turn() {
+    mWindow.handleEvents(waitSeconds());
+    throwIfStopped();
+    const double dt = mClock.lap_ms() / 1000;
+    const Stopwatch turn;
+    mSettings.look();
+    takeScene();
+    takeDrops();
+    takeInput(dt);
+    if (mSession) {
+        fly(dt);
+        followInstruments();
+        askFor();
+        mChanges.follow();
+        mStudy.follow(*mSession, mNotices);
+        mSecond.follow();
+        if (const auto light = mJobs.look()) mChanges.set("light", *light);
+        takeFrame();
+        report();
     }
-    endBench();
-    endSession();
-    while (mScreenshots.waiting() && mFrame) finishScreenshots();
-    keepConfig();
-    mResult.addScene(sceneName());
-    mResult.add("told", mTold);
-    mResult.finish();
-    if (!mJson.empty() && !isStandardOutput(mJson)) mResult.writeTo(mJson);
+    show(dt, turn);
+    if (mSession &&
+        mBench.step(*mSession, mChanges.worker(), mPictures.frame(), mAsked, mSettings.options().refine))
+        mWindow.close();
+}
+
+void Viewer::end() {
+    mBench.end(mNotices.result(), mStage.mode(), mStage.eyeSize());
+    if (mSession) mNotices.tell(mSession->paths().keepWork());
+    while (mScreenshots.waiting() && mPictures.frame()) {
+        mWindow.handleEvents(kActiveWait);
+        takeFrame();
+        report();
+    }
+    const bool byDistance = mSession ? mSession->moves().speedByDistance() : mKeptWindow.speedByDistance();
+    mKeptWindow.keep(mStage, mDisplay.sizes(), mMarks, byDistance, mWindow.contentScale());
+    mNotices.finish(mSettings.sceneName());
 }
 
 double Viewer::waitSeconds() const {
-    if (!mActsOfPanels.empty()) return 0;
-    if (mWindow.minimised() && !mControls) return kIdleWait;
+    if (mInput.panels().any()) return 0;
+    if (mWindow.minimised() && !mStage.controls()) return kIdleWait;
     if (const auto turn = mDisplay.wait()) return *turn;
-    if (mSession && warps() && mSession->flying())
-        return std::clamp(mLateShown + latePeriod() - Window::now(), kShortestWait, kActiveWait);
-    const bool flows = mSession && (mSession->moving() || mWindow.gamepad().present ||
-                                    mSpaceMouse.state().moved() || mScreenshots.waiting());
-    return flows || panelled().active() || mPanels.startShown() ? kActiveWait : kIdleWait;
+    if (mSession && mSession->flying())
+        if (const auto late = mPictures.wait(mAsked, mSettings.options().lateWarp, mDisplay.refreshPeriod()))
+            return std::clamp(*late, kShortestWait, kActiveWait);
+    const bool flows = mSession && (mSession->moving() || mInput.active() || mScreenshots.waiting());
+    return flows || mStage.panelled().active() || mStage.panels().startShown() ? kActiveWait : kIdleWait;
 }
 
-// The first scene starts the session, others take its place in it, or a session of their own.
-void Viewer::takeScene() {
-    auto scene = mWorker->scene();
-    const ViewWorker::Loading loading =
-        mWorker->loading();  // after the scene: it is of that, or of a newer one
-    if (loading.busy && !mWasBusy) mLoadingWatch.lap_ms();
-    mWasBusy = loading.busy;
-    if (!scene || scene == mScene) return;
-    mScene = std::move(scene);
-    mFacts.reset();
-    mSettings.reset();
-    mApplies.clear();
-    if (!loading.busy) mBefore.reset();
-    if (mSession && !mAnother) return replaceScene();
-    if (!mSession && mBefore) {
-        // Another one was chosen while the first was loaded: this is the first, and is shown until then.
-        const Made next{mOptions, mGiven, mSaid};
-        keepBefore();
-        beginSession();
-        mBefore = Made{mOptions, mGiven, mSaid};
-        mOptions = mChanged = next.options;
-        mGiven = next.given;
-        mSaid = next.said;
-        mSettings.reset();
-        mApplies.clear();
-    } else {
-        beginSession();
-    }
-    mAnother = mBefore.has_value();
+void Viewer::takeInput(double dt) {
+    for (const ViewAction& action : mInput.take(mStage.controls(), dt)) act(action);
 }
 
-void Viewer::beginSession() {
-    const bool first = !mSession;
-    const std::string kept = mSession ? mSession->keepWork() : "";
-    mSlices.abandon();
-    mSession.emplace(mScene,
-                     ViewSession::Options{mMode, std::exchange(mFlight, std::nullopt), mOptions.shots,
-                                          mWindow.quadBuffered(),
-                                          mSession ? mSession->speedByDistance() : mConfig.speedByDistance});
-    mSession->continueVersions(mAsked);
-    mSessionSince = mAsked;
-    mKeyframes.start({});
-    mStudyFailed = false;
-    mCosts.clear();
-    mGovernor.forget();
-    mRestSize.reset();
-    mWindow.setTitle(titleOf(mOptions.scene));
-    mSettings.reset();
-    mHistory.start(settings());
-    mPlaces.emplace(fullName().string());
-    openInstruments();
-    mRecentDue = true;
-    reportKept();
-    beginSecond();
-    greet(first);
-    tell(kept);
-    if (!kept.empty()) mSession->notify(kept);
+void Viewer::takeDrops() {
+    std::vector<std::string> drops = mWindow.takeDrops();
+    if (ControlWindow* const controls = mStage.controls())
+        for (std::string& drop : controls->window().takeDrops()) drops.push_back(std::move(drop));
+    if (drops.size() > 1) mNotices.fail("one file or folder at a time: the first one is opened");
+    if (!drops.empty()) mChanges.open(drops.front());
 }
 
-void Viewer::takeKeys(double dt) {
-    for (const ViewAction& action : std::exchange(mActsOfPanels, {})) act(action);
-    const Gamepad pad = mWindow.gamepad();
-    const auto press = [&](const KeyPress& key) {
-        if (const auto action = actionOf(key)) act(*action);
-    };
-    for (const KeyPress& key : mWindow.takeKeys()) press(key);
-    if (mControls)
-        for (const KeyPress& key : mControls->window().takeKeys()) press(key);
-    for (const ViewAction& action : mInput.actionsOf(pad, dt)) act(action);
-    mSpaceMouse.look();
-    for (const ViewAction& action : actionsOfSpaceMouse(mSpaceMouse.takePresses())) act(action);
+void Viewer::act(const ViewAction& action) {
+    mSettings.look();
+    mStage.layOutSoon();
+    if (actOnInterface(action.command) || actOnInstruments(action.command) || !mSession) return;
+    mSession->act(action);
 }
 
-// What needs no scene.
-bool Viewer::actOnInterface(const ViewAction& action) {
-    switch (action.command) {
+// First what is open over the picture, then what is at work, then the window.
+bool Viewer::quit() {
+    if (mStage.panels().closeOne()) return true;
+    if (mSession && mSession->slices().shown() && !mStudy.busy()) return false;
+    if (mSession && mStudy.busy())
+        mStudy.cancel();
+    else
+        mClosing.leave();
+    return true;
+}
+
+bool Viewer::actOnInterface(ViewCommand command) {
+    Panels& panels = mStage.panels();
+    switch (command) {
         case ViewCommand::Quit:
-            if (mPanels.closeOne()) return true;
-            if (mSession && (mSession->slicesShown() || mSlices.busy())) return false;
-            leave();
-            return true;
+            return quit();
         case ViewCommand::QuitAtOnce:
-            leave();
+            mClosing.leave();
             return true;
         case ViewCommand::FullScreen:
             mDisplay.toggleFullScreen();
             return true;
+        case ViewCommand::OpenPath:
+            if (mSession) panels.openPaths();
+            return true;
+        case ViewCommand::Help:
+            panels.toggleHelp();
+            return true;
+        case ViewCommand::HideInterface:
+            panels.toggleAll();
+            return true;
+        case ViewCommand::Panels:
+            panels.toggleSide();
+            return true;
+        case ViewCommand::Controls:
+            mNotices.tryTo([this] { mStage.toggleControls(); });
+            return true;
+        case ViewCommand::LeftPanels:
+            panels.toggleLeft();
+            return true;
+        case ViewCommand::Unfolded:
+            if (mSession) panels.toggleUnfolded();
+            return true;
+        case ViewCommand::Search:
+            panels.openSearch();
+            return true;
+        case ViewCommand::OpenFile:
+            panels.openFiles();
+            return true;
+        case ViewCommand::StartPage:
+            panels.showStart(true);
+            return true;
+        case ViewCommand::SaveScene:
+            if (mSession) panels.openSave();
+            return true;
+        default:
+            return false;
+    }
+}
+
+bool Viewer::actOnInstruments(ViewCommand command) {
+    const ViewFrame* const frame = mPictures.frame();
+    switch (command) {
         case ViewCommand::AddPlace:
-            addPlace();
+            mKept.add(frame ? &frame->left.color : nullptr);
             return true;
         case ViewCommand::CopyPlace:
             copyPlace();
             return true;
         case ViewCommand::MeasurePlace:
-            measureHere();
+            mInstruments.measureAt(mPointer.world());
             return true;
         case ViewCommand::AddFinding:
-            findHere();
+            mInstruments.findAt(mPointer.world());
             return true;
-        case ViewCommand::OpenPath:
-            if (mSession) mPanels.openPaths();
+        case ViewCommand::ToggleCoverage:
+            mInstruments.toggleCoverage(frame, mAsked);
+            return true;
+        case ViewCommand::NextUnseen:
+        case ViewCommand::PreviousUnseen:
+            mInstruments.flyToUnseen(command == ViewCommand::NextUnseen ? 1 : -1);
             return true;
         case ViewCommand::RemoveSeed:
-            if (!mKeyframes.chosen() || !mSession || mSession->slicesShown()) return false;
-            mKeyframes.removeChosen();
-            return true;
-        case ViewCommand::Help:
-            mPanels.toggleHelp();
-            return true;
-        case ViewCommand::HideInterface:
-            mPanels.toggleAll();
-            return true;
-        case ViewCommand::Panels:
-            mPanels.toggleSide();
-            return true;
-        case ViewCommand::Controls:
-            toggleControls();
-            return true;
-        case ViewCommand::LeftPanels:
-            mPanels.toggleLeft();
-            return true;
-        case ViewCommand::Unfolded:
-            if (mSession) mPanels.toggleUnfolded();
-            return true;
-        case ViewCommand::Search:
-            mPanels.openSearch();
-            return true;
-        case ViewCommand::OpenFile:
-            mPanels.openFiles();
-            return true;
-        case ViewCommand::StartPage:
-            mPanels.showStart(true);
-            return true;
-        case ViewCommand::SaveScene:
-            if (mSession) mPanels.openSave();
+            if (!mKeyframes.edit().chosen() || !mSession || mSession->slices().shown()) return false;
+            mKeyframes.edit().removeChosen();
             return true;
         case ViewCommand::Undo:
-            undo();
-            return true;
         case ViewCommand::Redo:
-            redo();
+            step(command == ViewCommand::Redo);
             return true;
         default:
-            return actOnCoverage(action.command);
+            return false;
     }
 }
 
-// An action may open or close the window, or the session, that is being drawn: those of panels wait.
-void Viewer::drawPanels(const std::function<void()>& drawn) {
-    mInPanels = true;
-    drawn();
-    mInPanels = false;
+void Viewer::copyPlace() {
+    const Facts facts = mPointer.facts();
+    if (!facts.empty()) return mClipboard.copy(linesOf(facts));
+    if (mSession) mSession->notify("nothing is under the pointer");
 }
 
-void Viewer::act(const ViewAction& action) {
-    if (mInPanels) return mActsOfPanels.push_back(action);
-    mSettings.reset();
-    mLayoutDue = true;
-    if (actOnInterface(action) || !mSession) return;
-    if (action.command == ViewCommand::Quit && mSlices.busy()) {
-        mSlices.cancel();
-        return;
-    }
-    mSession->act(action);
+void Viewer::step(bool forward) {
+    KeyframeEdit& keyframes = mKeyframes.edit();
+    if (!mSession) return;
+    if (forward && keyframes.canRedo()) return keyframes.redo();
+    if (!forward && keyframes.canUndo()) return keyframes.undo();
+    forward ? mChanges.redo() : mChanges.undo();
 }
 
-void Viewer::update(double dt) {
+// The first scene starts the session, others take its place in it, or a session of their own.
+void Viewer::takeScene() {
+    if (!mChanges.takeScene()) return;
+    mFacts.forget();
+    if (!mChanges.isAnother()) return replaceScene();
+    const std::optional<SceneMade> next = mChanges.interrupt();
+    beginSession();
+    mChanges.resume(next);
+}
+
+void Viewer::beginSession() {
+    const bool first = !mSession;
+    const std::string kept = mSession ? mSession->paths().keepWork() : "";
+    const bool byDistance = mSession ? mSession->moves().speedByDistance() : mKeptWindow.speedByDistance();
+    mStudy.abandon();
+    mSession.emplace(mChanges.scene(),
+                     ViewSession::Options{mStage.firstMode(), std::exchange(mFlight, std::nullopt),
+                                          mSettings.options().shots, mWindow.quadBuffered(), byDistance});
+    mAsked.begin(*mSession);
+    mKeyframes.end();
+    mPictures.forgetCosts();
+    mWindow.setTitle(titleOf(mSettings.options().scene));
+    mSettings.look();
+    mSettings.startSteps();
+    mKept.open();
+    mInstruments.open(mChanges.scene()->scene, mKept.places()->file());
+    mSecond.begin();
+    greet(first);
+    tell(kept);
+}
+
+// In the same session.
+void Viewer::replaceScene() {
+    const std::shared_ptr<const OpenScene>& scene = mChanges.scene();
+    const auto raised = RaisedGround::between(*mSession->open().scene, *scene->scene);
+    mInstruments.replaceScene(scene->scene);
+    mSession->replaceScene(scene);
+    if (raised) mKeyframes.raise(*raised, *mSession);
+}
+
+// What was guessed of the scene comes before what helps to begin.
+void Viewer::greet(bool first) {
+    const auto* const terrain = mChanges.scene()->scene->offered<const TerrainScene>();
+    const std::vector<std::string> notes = terrain ? terrain->report.notes : std::vector<std::string>();
+    for (const std::string& note : notes) mNotices.tell(note);
+    if (!notes.empty())
+        mSession->notify(notes.front());
+    else if (first)
+        mSession->notify("F1 shows the keys, F2 and F3 the panels");
+}
+
+void Viewer::fly(double dt) {
     mWindow.setCaptured(mSession->mouseCaptured());
-    usePointer();
-    if (mControls) useControls();
-    const Window* const controls = mControls ? &mControls->window() : nullptr;
-    mSession->step(withSpaceMouse(mInput.flightOf(mWindow, controls, mWindow.gamepad()), mSpaceMouse.state()),
-                   dt);
-    mSettings.reset();
-    mHistory.observe(settings(), panelled().active(), dt);
-    followKeyframes();
-    followInstruments();
-    followPaint();
-    askFor();
-    followWishes();
-    followSecond();
-    lookAtJob();
-    takeFrame();
+    mPointer.use(mInstruments, mNotices);
+    mSession->step(mInput.flight(mStage.controls()), dt);
+    mSettings.look();
+    mSettings.observe(mStage.panelled().active(), dt);
+    mKeyframes.follow(*mSession, mNotices);
 }
 
-void Viewer::takeDrops() {
-    std::vector<std::string> drops = mWindow.takeDrops();
-    if (mControls)
-        for (std::string& drop : mControls->window().takeDrops()) drops.push_back(std::move(drop));
-    if (drops.size() > 1) mFailure = "one file or folder at a time: the first one is opened";
-    if (!drops.empty()) open(drops.front());
+void Viewer::followInstruments() {
+    if (mInstruments.follow()) mStage.layOutSoon();
+    if (mInstruments.followPaint([this](const std::string& problem) { mNotices.fail(problem); })) {
+        mFacts.forget();  // they tell what is painted
+        mStage.layOutSoon();
+    }
+    const Instruments::Shows shows = mInstruments.takeShows();
+    if (shows == Instruments::Shows::Nothing) return;
+    mStage.layOutSoon();
+    if (mStage.panels().leftShown()) return;
+    shows == Instruments::Shows::Findings ? mStage.panels().showFindings() : mStage.panels().toggleLeft();
+}
+
+void Viewer::askFor() {
+    const OutputModeInfo& mode = infoOf(mSession->compose().mode);
+    const glm::ivec2 composed = composedAt(mode, mStage.placeOf(mode));
+    if (mWindow.minimised()) return;
+    const auto request = mAsked.next(*mSession, mScreenshots, mSettings.options(), composed,
+                                     mDisplay.refreshPeriod(), Window::now());
+    if (request) mChanges.worker().request(*request);
 }
 
 void Viewer::takeFrame() {
-    auto frame = mWorker->takeFrame();
-    if (frame && frame->request.version <= mSessionSince) {
-        // Of the scene before: its eyes would become this one's. It is saved where that was asked for.
-        mScreenshots.take(frame, mSession->compose());
-        frame.reset();
+    if (auto frame = mChanges.worker().takeFrame()) {
+        if (mAsked.ofSession(*frame))
+            takeOwnFrame(std::move(frame));
+        else  // of the scene before: its eyes would become this one's. It is saved where that was asked for
+            mScreenshots.take(frame, mSession->compose());
     }
-    if (frame) {
-        mFrame = std::move(frame);
-        mLead.came(mFrame->request.asked_s, Window::now());
-        mGovernor.took({mFrame->request.scale, mFrame->request.effort}, mFrame->made_ms,
-                       areaOf(mFrame->request));
-        mSession->observe(*mFrame);
-        if (!mSession->slicesShown() && !warps()) showFrame();
-        if (mBench) mBench->cast(*mFrame);
-        showToCoverage();
-        if (!warps()) mRate.count(mFrame->request.version < mAsked);
-        mCosts.push_back(costOf(*mFrame));
-        if (mCosts.size() > kKeptCosts) mCosts.pop_front();
-        noteRecent();
-        mNewPreview = true;
+    mPictures.show(*mSession, mAsked, mSettings.options().lateWarp, mDisplay.refreshPeriod());
+    if (const auto truth = mChanges.worker().takeTruth()) mSession->observe(*truth);
+    if (mSession->slices().shown()) {
+        mPictures.showSlices(*mSession, mStage.eyeSize(), mScreenshots);
+    } else {
+        mScreenshots.take(mPictures.shared(), mSession->compose());
+        mPictures.leaveSlices();
     }
-    if (!mSession->slicesShown() && lateDue()) showLate();
-    if (const auto truth = mWorker->takeTruth()) mSession->observe(*truth);
-    if (mSession->slicesShown())
-        takeSlice();
-    else
-        mScreenshots.take(mFrame, mSession->compose());
-    if (!mSession->slicesShown() && mSliceVersion != 0) endSlices();
-    reportScreenshots();
-    reportSweep();
-    reportDisplay();
 }
 
-void Viewer::reportSweep() {
-    const std::string notice = mSweep ? mSweep->takeNotice() : "";
+void Viewer::takeOwnFrame(std::shared_ptr<const ViewFrame> frame) {
+    mAsked.came(*frame, Window::now());
+    mSession->observe(*frame);
+    mBench.cast(*frame);
+    mInstruments.see(*frame, mAsked);
+    mStudy.noteFrame();
+    mKept.noteRecent(frame->left.color);
+    mStage.noteFrame();
+    mPictures.take(std::move(frame), mAsked, mSettings.options().lateWarp);
+}
+
+// An action of panels may open or close the window, or the session, that is being drawn: it waits.
+void Viewer::show(double dt, const Stopwatch& turn) {
+    const auto drawPanels = [this] { mStage.panels().draw(parts()); };
+    mStage.drawControls(dt, mPictures.frame(), drawPanels);
+    if (mWindow.minimised()) return;
+    if (mDrawing.draw(turn, dt, mChanges.loading().busy, drawPanels))
+        mBench.shown(mPictures.picture(), mAsked.present());
+}
+
+PanelParts Viewer::parts() {
+    return {mSession ? &*mSession : nullptr,
+            mInput.panels(),
+            mClipboard,
+            mClosing,
+            mDisplay,
+            mFacts,
+            mInstruments,
+            mJobs,
+            mKept,
+            mKeyframes,
+            mLooks,
+            mMarks,
+            mNotices,
+            mPictures,
+            mPointer,
+            mChanges,
+            mSecond,
+            mStage,
+            mStudy};
+}
+
+void Viewer::tell(const std::string& notice) {
     if (!notice.empty()) mSession->notify(notice);
-    tell(notice);
-    if (!mFrame || mFrame->sweep.empty() || mFrame->sweep == mSwept) return;
-    mSwept = mFrame->sweep;
-    tell(mSwept);
+    mNotices.tell(notice);
 }
 
-void Viewer::reportDisplay() {
-    const std::string notice = mDisplay.takeNotice();
-    if (!notice.empty()) mSession->notify(notice);
-    tell(notice);
-}
-
-ScreenWords Viewer::onScreen(const ViewFrame& frame) const {
-    return {mDisplay.parallaxText(frame), mDisplay.warning(frame)};
-}
-
-ScreenAnswer Viewer::screen() const {
-    const ScreenTold told = mDisplay.told();
-    const ScreenSize size = mDisplay.sizes().of(told);
-    return {screenText(size), size.width_mm, mDisplay.sizes().asks(told)};
-}
-
-void Viewer::leaveScreenUnknown() {
-    mDisplay.sizes().noteAsked(mDisplay.told().name);
-}
-
-void Viewer::reportScreenshots() {
-    if (const std::string text = mScreenshots.report(); !text.empty()) {
-        mSession->notify(text);
-        tell(text);
-    }
-}
-
-void Viewer::finishScreenshots() {
-    mWindow.handleEvents(kActiveWait);
-    takeFrame();
-}
-
-SizeOption Viewer::windowSize() const {
-    const glm::ivec2 size = glm::max(mWindow.framebufferSize(), glm::ivec2(1));
-    return {size.x, size.y};
-}
-
-SizeOption Viewer::pictureSize() const {
-    const OutputModeInfo& mode = infoOf(shownMode());
-    return eyeSizeAt(mode, placeFor(mode));
-}
-
-PicturePlace Viewer::placeFor(const OutputModeInfo& mode) const {
-    const SizeOption window = windowSize();
-    const glm::ivec2 size(window.width, window.height);
-    const glm::vec2 units = glm::vec2(size) * interfacePlaces(mode).size;
-    return picturePlace(mode, size, mControls ? Panels::Rest{{0, 0}, units} : mPanels.rest(units), units);
-}
-
-OutputMode Viewer::shownMode() const {
-    return mSession ? mSession->compose().mode : mMode;
-}
-
-// The mode of the session; but until a picture made for it is there, that of the one shown.
-ComposeSetting Viewer::shownSetting() const {
-    ComposeSetting setting = mSession ? mSession->compose() : ComposeSetting{mMode, false, false};
-    if (!mSession || mSession->slicesShown() || !mPicture.left) return setting;
-    const OutputModeInfo &now = infoOf(setting.mode), &then = infoOf(mPicture.of.mode);
-    const SizeOption wanted = eyeSizeAt(now, placeFor(now)), made = eyeSizeAt(then, placeFor(then));
-    if (wanted.width != made.width || wanted.height != made.height) setting.mode = mPicture.of.mode;
-    return setting;
-}
-
-// In flight each picture has other figures, which nobody reads as fast: the interface is laid out for what
-// the user does, and else ten times a second, together with a new picture: a window that is drawn for its
-// figures alone would make the next picture late.
-bool Viewer::layOut(const InterfacePlaces& places, double dt) {
-    mSinceLayout += dt;
-    const bool flying = mSession && mSession->moving() && mWorker->loading().busy == mLaidOutBusy;
-    const bool due = mNewFrame ? mSinceLayout >= kFiguresWait : mSinceLayout >= kMostFiguresWait;
-    if (flying && !mLayoutDue && !due && !mInterface.waits(places)) return false;
-    mLaidOutBusy = mWorker->loading().busy;
-    mLayoutDue = false;
-    return mInterface.layOut(places, std::exchange(mSinceLayout, 0), [this] {
-        if (!mControls) drawPanels([this] { mPanels.draw(*this); });
-    });
-}
-
-// Draws only when there is something new: the processor is the ray caster's.
-void Viewer::draw(double dt, const Stopwatch& turn) {
-    const ComposeSetting setting = shownSetting();
-    const OutputModeInfo& mode = infoOf(setting.mode);
-    InterfaceLook look = mInterface.look();
-    look.grey = mode.layout == OutputLayout::Anaglyph;
-    mInterface.setLook(look);
-    const double before = turn.elapsed_ms();
-    mInterface.setPointerOfPicture(drawsPointer(mode));
-    const bool laidOut = layOut(interfacePlaces(mode), dt);
-    const double layout = turn.elapsed_ms() - before;
-    const PicturePlace place = placeFor(mode);
-    const bool marked = drawOverlay(mode);
-    const bool same = setting == mDrawn && place == mDrawnPlace && !mNewFrame && !laidOut && !marked;
-    if (!mWindow.redrawNeeded() && same && !ViewDisplay::alternates(setting))
-        return mTimes.add(layout, 0, turn.elapsed_ms(), false);
-    mNewFrame = false;
-    mDrawn = setting;
-    mDrawnPlace = place;
-    show(setting);
-    if (mTimes.on()) glFinish();
-    noteShown();
-    const double all = turn.elapsed_ms();
-    if (mPicture.warped) mLatePace.took(all / 1000);
-    mTimes.add(layout, all - layout - before, all, true);
-}
-
-void Viewer::show(const ComposeSetting& setting) {
-    const SizeOption size = windowSize();
-    const glm::ivec2 origin = mWindow.framebufferOrigin();
-    const PicturePlace& place = mDrawnPlace;
-    const PartInset inset{place.corner.x, place.corner.y, place.part.x - place.corner.x - place.size.x,
-                          place.part.y - place.corner.y - place.size.y};
-    mDisplay.draw(setting, [&](const ComposeSetting& one) {
-        glDisable(GL_SCISSOR_TEST);
-        glViewport(0, 0, size.width, size.height);
-        // Pictures and panels cover both parts; where these do not cover the window, it is black.
-        if (!mPresenter.hasPicture() || !partsCover(one.mode, size)) {
-            glClearColor(0, 0, 0, 1);
-            glClear(GL_COLOR_BUFFER_BIT);
-        }
-        mPresenter.draw(one, {0, 0, size.width, size.height}, origin.x, origin.y, inset);
-        mInterface.render(InterfaceOpening{place.corner, place.size});
-    });
+void Viewer::report() {
+    tell(mScreenshots.report());
+    tell(mChanges.takeSweepNotice());
+    const ViewFrame* const frame = mPictures.frame();
+    if (frame && !frame->sweep.empty() && frame->sweep != mSwept) mNotices.tell(mSwept = frame->sweep);
+    tell(mDisplay.takeNotice());
 }
 
 }  // namespace stereonav

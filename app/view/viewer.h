@@ -1,334 +1,106 @@
-// The window: events and drawing on this thread, loading and rendering on the worker's.
+// The window: events and drawing on this thread, loading and rendering on the worker's. Each part of it has
+// an owner; this is the order of their turn.
 #pragma once
 
-#include <deque>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "app/options/picture_options.h"
-#include "app/output/command_result.h"
-#include "app/output/place_labels.h"
-#include "app/view/closing_question.h"
-#include "app/view/control_window.h"
-#include "app/view/frame_governor.h"
-#include "app/view/frame_rate.h"
-#include "app/view/input.h"
-#include "app/view/keyframe_edit.h"
-#include "app/view/late_view.h"
-#include "app/view/live_coverage.h"
-#include "app/view/loading.h"
-#include "app/view/panel/panel_host.h"
-#include "app/view/panel/panels.h"
-#include "app/view/picture_place.h"
-#include "app/view/scene_preparation.h"
+#include "app/view/asked_frames.h"
+#include "app/view/bench_flight.h"
+#include "app/view/clipboard.h"
+#include "app/view/file_looks.h"
+#include "app/view/flown_keyframes.h"
+#include "app/view/frame_presenter.h"
+#include "app/view/instruments.h"
+#include "app/view/kept_places.h"
+#include "app/view/kept_window.h"
+#include "app/view/notices.h"
+#include "app/view/panel/panel_parts.h"
+#include "app/view/panel_stage.h"
+#include "app/view/picture_marks.h"
+#include "app/view/picture_pointer.h"
+#include "app/view/scene_changes.h"
+#include "app/view/scene_facts.h"
+#include "app/view/scene_settings.h"
 #include "app/view/screenshots.h"
-#include "app/view/second_study.h"
+#include "app/view/second_side.h"
 #include "app/view/session.h"
-#include "app/view/settings_history.h"
-#include "app/view/sweep.h"
-#include "app/view/view_bench.h"
+#include "app/view/study_reading.h"
 #include "app/view/view_display.h"
-#include "app/view/window_config.h"
-#include "app/view/window_times.h"
-#include "engine/base/new_file.h"
+#include "app/view/window_closing.h"
+#include "app/view/window_drawing.h"
+#include "app/view/window_input.h"
+#include "app/view/window_jobs.h"
 #include "engine/base/stopwatch.h"
-#include "engine/display/eye_overlay.h"
-#include "engine/display/interface.h"
-#include "engine/display/late_warp_gpu.h"
-#include "engine/display/stereo_presenter.h"
 #include "engine/display/window.h"
-#include "engine/late/late_guard.h"
 
 namespace stereonav {
 
-class Viewer final : public PanelHost {
+class Viewer {
 public:
     explicit Viewer(const ViewOptions& options);
-    ~Viewer() override;
+    ~Viewer();
 
     void run();
 
-    // PanelHost
-    ViewSession* session() override { return mSession ? &*mSession : nullptr; }
-    const ViewFrame* frame() const override { return mFrame.get(); }
-    double framesPerSecond() const override { return mRate.value(); }
-    std::string ageText() const override;
-    Facts pointedFacts() const override;
-    const std::deque<FrameCost>& costs() const override { return mCosts; }
-    std::string sceneName() const override;
-    const SettingTexts& settings() const override;
-    SettingTexts settingsToOpen() const override;
-    std::optional<std::string> valueOf(const Option& option) const override;
-    bool applies(const Option& option) const override;
-    bool live(const Option& option) const override;
-    SizeOption pictureSize() const override;
-    ViewWorker::Loading loading() const override { return mWorker->loading(); }
-    double loadingSeconds() const override { return mLoadingWatch.elapsed_ms() / 1000; }
-    void cancelLoading() override;
-    std::optional<double> readingSlices() const override {
-        return mSlices.busy() ? std::optional(mSlices.fraction()) : std::nullopt;
-    }
-    void cancelSlices() override { mSlices.cancel(); }
-    const std::string& failure() const override { return mFailure; }
-    void forgetFailure() override { mFailure.clear(); }
-    void act(const ViewAction& action) override;
-    void set(const std::string& key, const std::optional<std::string>& text) override;
-    void open(const std::string& scene) override;
-    void quit() override { leave(); }
-    std::string closingQuestion() const override;
-    void answerClosing(bool close) override;
-    const std::vector<RecentFile>& recentFiles() const override { return mRecent.list(); }
-    void forgetRecent(const std::filesystem::path& file) override { mRecent.remove(file); }
-    FileLook lookAt(const std::filesystem::path& file) override { return mLooks.look(file); }
-    Bookmarks* places() override { return mPlaces ? &*mPlaces : nullptr; }
-    void addPlace() override;
-    void goToPlace(const Bookmark& place) override;
-    bool placeLabels() const override { return mLabels; }
-    void showPlaceLabels(bool shown) override { mLabels = shown; }
-    KeyframeEdit& keyframes() override { return mKeyframes; }
-    void openPath(const std::filesystem::path& file) override;
-    std::shared_ptr<const SliceStudy> study() override;
-    void saveScene(const std::filesystem::path& file) override;
-    void copy(const std::string& text) override;
-    MeasuredLine* measured() override { return mSession ? &mMeasured : nullptr; }
-    bool measuring() const override { return mMeasuring; }
-    void measure(bool on) override;
-    LiveCoverage* coverage() override { return mSession && mCoverage.can() ? &mCoverage : nullptr; }
-    FindingList* findings() override { return mSession && mFindings.maker() ? &mFindings : nullptr; }
-    void addFinding(const glm::dvec3& place) override;
-    void writeFindingsPage(const std::filesystem::path& file) override;
-    void writeFindingsReport(const std::filesystem::path& file) override;
-    void markWorld(const std::optional<glm::dvec3>& place) override { mMarked = place; }
-    std::optional<glm::dvec3> pointedWorld() const override;
-    std::vector<FlatMark> flatMarks() const override;
-    SecondStudy* secondStudy() override { return &mSecond; }
-    void openOther(const std::string& study) override;
-    void swapStudies() override;
-    void saveMeasured(const std::string& file) override;
-    std::optional<double> seesFromClicks() const override { return mSeesFrom; }
-    void seeFromClicks(const std::optional<double>& height) override { mSeesFrom = height; }
-    std::optional<PaintWork> painting() const override;
-    std::optional<PaintWork> preparing() const override { return mPreparation.work(); }
-    void cancelPreparing() override { mPreparation.cancel(); }
-    bool canUndo() const override { return mSession && (mKeyframes.canUndo() || mHistory.canUndo()); }
-    bool canRedo() const override { return mSession && (mKeyframes.canRedo() || mHistory.canRedo()); }
-    void undo() override;
-    void redo() override;
-    const InterfaceLook& look() const override { return panelled().look(); }
-    void setLook(const InterfaceLook& look) override { panelled().setLook(look); }
-    const Facts* facts() override;
-    const Job* job() const override { return mJob.get(); }
-    void cancelJob() override;
-    void makeMovie(const MovieWish& movie) override;
-    void savePicture(const PictureWish& picture) override;
-    bool bakes() const override;
-    bool bakeTakes(const std::string& key, const std::string& value) const override;
-    void bakeLight(const std::string& what, double minutes) override;
-    ScreenWords onScreen(const ViewFrame& frame) const override;
-    ScreenAnswer screen() const override;
-    void leaveScreenUnknown() override;
-    bool fullScreen() const override { return mWindow.fullScreen(); }
-    bool controlsApart() const override { return mControls != nullptr; }
-
 private:
-    struct FactsWish;
-    struct BenchJudgement;
-    struct Made {  // what the scene that is shown was made of
-        ViewOptions options;
-        SettingTexts given, said;
-    };
-
-    // What stays useful after the window is closed.
-    void tell(const std::string& text);
+    void turn();
+    void end();
     double waitSeconds() const;
+    void takeInput(double dt);
+    void takeDrops();
+    void act(const ViewAction& action);
+    bool actOnInterface(ViewCommand command);  // what needs no scene
+    bool actOnInstruments(ViewCommand command);
+    bool quit();
+    void step(bool forward);  // one of the steps back and forth
     void takeScene();
     void beginSession();
-    void greet(bool first);
-    void beginSecond();
-    void followSecond();
     void replaceScene();
-    void update(double dt);
-    // The interface that has the panels.
-    Interface& panelled() { return mControls ? mControls->interface() : mInterface; }
-    const Interface& panelled() const { return mControls ? mControls->interface() : mInterface; }
-    void toggleControls();
-    void drawControls(double dt);
-    void useControls();
-    void takeKeys(double dt);
-    bool actOnInterface(const ViewAction& action);
-    void drawPanels(const std::function<void()>& drawn);
-    void usePointer();
-    void followWishes();
-    void followPreparation();
-    void loadAgain();
-    void followKeyframes();
-    void takeStudy();
-    void readConfig();
-    void keepConfig();
-    void noteRecent();
-    // Of what is shown: in full, so that it is found from anywhere; built-in scenes by their names.
-    std::filesystem::path fullName() const;
-    void keepBefore();
-    // What would end with the window, and what becomes of it.
-    std::vector<std::string> workAtHand() const;
-    void leave();  // closes the window, unless there is something to ask first
-    bool ends();
-    void endSession();
-    void checkNoJob() const;
-    std::string modeOfFiles() const;
-    // place: of the file that it makes, where that is to be a new one.
-    void startJob(const std::string& what, const std::vector<std::string>& words,
-                  std::unique_ptr<HeldPlace> place = nullptr);
-    void lookAtJob();
-    void reportKept();
-    void takeDrops();
-    void load(const ViewOptions& options, bool another);
-    void goTo(const SettingTexts& settings);
-    bool wouldApply(const Option& option) const;
-    bool setScreen(const std::string& key, const std::optional<std::string>& text);
-    void tryTo(const std::function<void()>& what);
+    void greet(bool first);
+    void fly(double dt);
+    void followInstruments();
     void askFor();
     void takeFrame();
-    void showFrame();
-    bool warps() const;
-    bool lateDue() const;
-    void showLate();
-    bool showLateOnGpu();  // false: there is none that can
-    bool drawsLateOnGpu();
-    FrameGovernor::Size sizeNow(bool screenshot);
-    double latePeriod() const;  // seconds between pictures that are warped
-    void stepBench();
-    void noteShown();
-    void endBench();
-    void takeSlice();
-    void endSlices();
-    void reportSweep();
-    void reportDisplay();
-    void reportScreenshots();
-    void finishScreenshots();
-    OutputMode shownMode() const;
-    ComposeSetting shownSetting() const;
-    PicturePlace placeFor(const OutputModeInfo& mode) const;
-    SizeOption windowSize() const;
-    bool layOut(const InterfacePlaces& places, double dt);
-    void draw(double dt, const Stopwatch& turn);
-    void show(const ComposeSetting& setting);
-    bool drawsPointer(const OutputModeInfo& mode) const;
-    std::vector<OverlayMark> marks(const OutputModeInfo& mode) const;
-    // Where the pointer is over the picture: shares of an eye's size.
-    std::optional<glm::dvec2> pointedShare(const OutputModeInfo& mode) const;
+    void takeOwnFrame(std::shared_ptr<const ViewFrame> frame);
+    void show(double dt, const Stopwatch& turn);
+    void report();
+    void tell(const std::string& notice);  // in the window too
+    PanelParts parts();
     void copyPlace();
-    void openInstruments();
-    void followInstruments();
-    void measureHere();
-    void followCoverage();
-    void showToCoverage();
-    bool actOnCoverage(ViewCommand command);
-    void toggleCoverage();
-    void flyToUnseen(int step);
-    void findHere();
-    void seeFromHere();
-    void followPaint();
-    const std::vector<LabelledPlace>& namedPlaces() const;
-    void addLineMarks(std::vector<OverlayMark>& marks) const;
-    bool drawOverlay(const OutputModeInfo& mode);
 
-    CommandResult mResult;
-    FactWords mTold;
-    std::string mJson;                          // the document's file; "": none
-    ViewOptions mOptions, mChanged = mOptions;  // as given, and with what was changed in place since
-    // Asked for by every control of every layout: made once a turn, or once a scene.
-    mutable std::optional<SettingTexts> mSettings;
-    mutable std::map<const Option*, bool> mApplies;
-    SettingTexts mGiven, mSaid;  // what is shown was made of; what its scene file says
+    // Later ones know earlier ones, and go before them.
+    Notices mNotices;
+    SceneSettings mSettings;
     std::optional<RecordedPath> mFlight;
     Window mWindow;
     ViewDisplay mDisplay;
-    OutputMode mMode;
-    std::unique_ptr<ViewSweep> mSweep;  // of media; before the scenes, which use it to their end
-    StereoPresenter mPresenter;
-    Interface mInterface;
-    EyeOverlay mOverlay;
-    Panels mPanels;
-    std::unique_ptr<ControlWindow> mControls;  // while the panels are in a window of their own
-    bool mInPanels = false;
-    std::vector<ViewAction> mActsOfPanels;  // asked for while they were drawn
+    SceneChanges mChanges;
+    PanelStage mStage;
+    WindowInput mInput;
     Screenshots mScreenshots;
-    ViewInput mInput;
-    SpaceMouse mSpaceMouse;
-    SettingsHistory mHistory;
-    Stopwatch mClock, mLoadingWatch;
-    double mSinceLayout = 0;  // seconds
-    WindowTimes mTimes;
-    FrameRate mRate;
-    std::deque<FrameCost> mCosts;
-    WindowConfig mConfig;  // as it was read, and is kept at the end
-    RecentFiles mRecent;
-    std::optional<Bookmarks> mPlaces;
-    std::unique_ptr<JobFile> mJobPath;     // of the flight that the job plays; goes after it
-    std::unique_ptr<HeldPlace> mJobPlace;  // of the file that it makes; the same
-    std::unique_ptr<Job> mJob;
-    ClosingQuestion mClosing;
-    bool mEnds = false;               // the window closes, whatever is at work
-    std::string mBaked, mBakedScene;  // the file of a bake at work, and what it is of
-    bool mRecentDue = false;          // the file that is shown goes among them with its first picture
-    std::shared_ptr<const ViewFrame> mFrame;
-    FrameRequest mPresent;  // what the session wants to see now
-    ShownPicture mPicture;  // what the presenter has; without eyes where that is none of the scene
-    LateView mLate;
-    LateLead mLead;
-    FrameGovernor mGovernor;
-    GuardBand mGuard;
-    // Where a graphics card draws; null else.
-    std::unique_ptr<LateWarpGpu> mLateGpu;
-    bool mLateGpuDecided = false;
-    bool mOnGpu = false;  // what is shown was warped there: mPicture's eyes are those that were cast
-    std::shared_ptr<const ViewFrame> mLateGpuHas;
-    std::optional<FrameGovernor::Size> mRestSize;  // of the first picture at rest
-    LatePace mLatePace;
-    double mLateShown = 0;  // when the last picture came: seconds
-    std::shared_ptr<ViewBench> mBench;
-    std::shared_ptr<BenchJudgement> mJudgement;
-    ComposeSetting mDrawn;
-    PicturePlace mDrawnPlace;
-    std::string mSwept = kCpuSweep, mFailure;
-    long long mAsked = 0, mSliceVersion = 0;
-    long long mSessionSince = 0;  // asked for later: frames of this session
-    std::shared_ptr<const OpenScene> mScene;
-    std::shared_ptr<FactsWish> mFacts;
-    std::optional<Made> mBefore;  // while another one is loaded
-    SliceReading mSlices;
-    bool mLabels = true;  // of places, over the picture
-    mutable struct {
-        std::weak_ptr<const OpenScene> of;
-        int places = -1;  // versions
-        long long paint = 0;
-        std::vector<LabelledPlace> list;
-    } mNames;  // of those places
-    bool mNewFrame = false, mNewPreview = false, mLayoutDue = true, mLaidOutBusy = false, mAnother = false,
-         mWasBusy = false, mStudyFailed = false;
-    bool mMeasuring = false;
-    std::optional<glm::dvec3> mMarked;  // world
-    std::optional<double> mSeesFrom;    // metres above the ground
-    long long mPaintSeen = 0;           // versions: of what is painted
-    Stopwatch mPaintWatch;              // of what is worked out
-    MeasuredLine mMeasured{[] { Window::wake(); }};
-    LiveCoverage mCoverage{[] { Window::wake(); }};
-    FindingList mFindings{[] { Window::wake(); }};
-    KeyframeEdit mKeyframes;
-    long long mKeyframesSeen = 0, mKeyframesPath = 0;  // versions: of them, and of the path beside them
-    bool mKeyframesFlown = false;                      // that path is theirs
+    AskedFrames mAsked;
+    FramePresenter mPictures;
+    BenchFlight mBench;
+    SceneFacts mFacts;
+    StudyReading mStudy;
+    FlownKeyframes mKeyframes;
+    KeptPlaces mKept;
+    KeptWindow mKeptWindow;
+    WindowJobs mJobs;
+    Instruments mInstruments;
     std::optional<ViewSession> mSession;
-    ScenePreparation mPreparation{[] { Window::wake(); }};
-    bool mPrepared = false;                                        // what is shown is to be loaded again
-    SecondStudy mSecond{[] { Window::wake(); }};                   // after the window, as the worker
-    Made mSecondMade;                                              // what it is, or is being, made of
-    std::optional<Pose> mSwapTo;                                   // where the flight goes on in it
-    std::shared_ptr<const SliceStudy> mSecondSlices, mSwapSlices;  // its own, once read; those to go on with
-    FileLooks mLooks{[] { Window::wake(); }};                      // after the window, as the worker
-    std::unique_ptr<ViewWorker> mWorker;  // after the window, whose wake() it calls until it has ended
+    SecondSide mSecond;
+    FileLooks mLooks;
+    WindowClosing mClosing;
+    PicturePointer mPointer;
+    PictureMarks mMarks;
+    WindowDrawing mDrawing;
+    Clipboard mClipboard;
+    Stopwatch mClock;
+    std::string mSwept = kCpuSweep;  // where media are swept, as it was told last
 };
 
 }  // namespace stereonav

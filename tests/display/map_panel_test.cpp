@@ -12,7 +12,6 @@
 #include "engine/nav/navigator.h"
 #include "tests/support/wait_for.h"
 #include "tests/view/fake_frames.h"
-#include "tests/view/fake_panel_host.h"
 #include "tests/view/fake_scene.h"
 
 namespace stereonav {
@@ -83,7 +82,7 @@ protected:
     }
 
     static Pose at(double x, double y, double z) { return poseFromAngles({x, y, z}, 0, 0, 0); }
-    KeyframeEdit& edit() { return mHost.keyframes(); }
+    KeyframeEdit& edit() { return mEdit; }
     void layOut() {
         mInterface->layOut({}, 0.02, [&] {
             ImGui::SetNextWindowPos({0, 0});
@@ -91,7 +90,7 @@ protected:
             ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10, 10});
             ImGui::Begin("map", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
             const float before = ImGui::GetCursorPosY();
-            mPanel->draw(mHost);
+            mPanel->draw(mSession, mEdit, {320, 200});
             const float height = ImGui::GetCursorPosY() - before - ImGui::GetStyle().ItemSpacing.y;
             mSide = height > kMapSide / 2 ? height : 0;
             ImGui::End();
@@ -138,7 +137,7 @@ protected:
 
     ViewSession mSession{std::make_shared<OpenScene>(OpenScene{std::make_shared<Rising>(), {}, {}, 0, false}),
                          {}};
-    FakePanelHost mHost{mSession};
+    KeyframeEdit mEdit;
     std::unique_ptr<Window> mWindow;
     std::unique_ptr<Interface> mInterface;
     std::unique_ptr<MapPanel> mPanel;
@@ -156,7 +155,7 @@ TEST_F(MapPanelTest, AKeyframeIsDraggedOverTheGround) {
     EXPECT_EQ(edit().chosen(), 1u);
     EXPECT_TRUE(edit().canUndo());
     EXPECT_FALSE(edit().dragging());
-    EXPECT_FALSE(mSession.flyingToGoal()) << "that was no click on the map";
+    EXPECT_FALSE(mSession.moves().toGoal()) << "that was no click on the map";
     edit().undo();
     EXPECT_EQ(edit().keys()[1].pose.position, glm::dvec3(1000, 1500, 300));
     // Beyond the map it stays at its border.
@@ -179,9 +178,9 @@ TEST_F(MapPanelTest, AClickChoosesOneOrFlies) {
     drag({400, 1000}, {400, 1000});
     EXPECT_EQ(edit().chosen(), 0u);
     EXPECT_FALSE(edit().canUndo());
-    EXPECT_FALSE(mSession.flyingToGoal());
+    EXPECT_FALSE(mSession.moves().toGoal());
     drag({700, 400}, {700, 400});
-    EXPECT_TRUE(mSession.flyingToGoal()) << "beside them";
+    EXPECT_TRUE(mSession.moves().toGoal()) << "beside them";
     EXPECT_EQ(edit().chosen(), 0u);
     edit().start({});
     drag({1000, 1500}, {1000, 1500});

@@ -13,7 +13,6 @@
 #include "engine/display/interface.h"
 #include "engine/nav/navigator.h"
 #include "tests/view/fake_frames.h"
-#include "tests/view/fake_panel_host.h"
 
 namespace stereonav {
 namespace {
@@ -82,7 +81,7 @@ protected:
         }
         mInterface = std::make_unique<Interface>(*mWindow);
         mPanel = std::make_unique<SlicesPanel>();
-        mHost.slices = sliced(9);
+        mSession.slices().keepStudy(sliced(9));
     }
     void TearDown() override {
         mPanel.reset();
@@ -95,7 +94,7 @@ protected:
                 ImGui::SetNextWindowPos({0, 0});
                 ImGui::SetNextWindowSize({static_cast<float>(mWidth), static_cast<float>(kSlicesDown)});
                 ImGui::Begin("slices", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
-                panel.draw(mHost);
+                panel.draw(mSession, mStudy, mInstruments);
                 ImGui::End();
             });
         glViewport(0, 0, kSlicesAcross, kSlicesDown);
@@ -120,7 +119,9 @@ protected:
     }
 
     ViewSession mSession{openSliced(5), {}};
-    FakePanelHost mHost{mSession};
+    std::optional<ViewSession> mNone;
+    StudyReading mStudy{[] {}};
+    Instruments mInstruments{mNone, mStudy, [] {}};
     std::unique_ptr<Window> mWindow;
     std::unique_ptr<Interface> mInterface;
     std::unique_ptr<SlicesPanel> mPanel;
@@ -136,7 +137,7 @@ TEST_F(SlicesPanelTest, ShowsWhatIsThereNow) {
     pose.position.x += 0.006;
     mSession.goTo(pose);
     expectAsShownFirst("another place of the eye");
-    mHost.slices = sliced(13);
+    mSession.slices().keepStudy(sliced(13));
     expectAsShownFirst("another study");
     mWidth -= 40;
     expectAsShownFirst("another width");

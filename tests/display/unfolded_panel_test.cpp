@@ -15,7 +15,6 @@
 #include "engine/scene/surface_paint.h"
 #include "tests/support/wait_for.h"
 #include "tests/view/fake_frames.h"
-#include "tests/view/fake_panel_host.h"
 
 namespace stereonav {
 namespace {
@@ -126,7 +125,7 @@ protected:
             ImGui::SetNextWindowPos({0, 0});
             ImGui::SetNextWindowSize({kBox, kBox});
             ImGui::Begin("flat", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
-            mPanel->draw(mHost);
+            mPanel->draw(mSession, mInstruments, nullptr, std::nullopt);
             ImGui::End();
         });
     }
@@ -155,7 +154,9 @@ protected:
 
     std::shared_ptr<Walled> mScene = std::make_shared<Walled>();
     ViewSession mSession{std::make_shared<OpenScene>(OpenScene{mScene, {}, {}, 0, false}), {}};
-    FakePanelHost mHost{mSession};
+    std::optional<ViewSession> mNone;
+    StudyReading mStudy{[] {}};
+    Instruments mInstruments{mNone, mStudy, [] {}};
     std::unique_ptr<Window> mWindow;
     const InterfacePlaces mPlaces;
     std::unique_ptr<Interface> mInterface;
@@ -163,8 +164,8 @@ protected:
 };
 
 TEST_F(UnfoldedPanelTest, IsMadeOnceItIsShownAndPainted) {
-    EXPECT_TRUE(UnfoldedPanel::has(mHost));
-    mPanel->hide(mHost);
+    EXPECT_TRUE(UnfoldedPanel::has(&mSession));
+    mPanel->hide(&mSession, mInstruments);
     EXPECT_EQ(mScene->made, 0) << "nothing before it is shown";
     ASSERT_TRUE(make());
     for (int n = 0; n < 5; ++n) layOut();
@@ -187,22 +188,22 @@ TEST_F(UnfoldedPanelTest, IsPaintedAgainWhileOneFlies) {
 TEST_F(UnfoldedPanelTest, MarksWhatIsUnderThePointerAndFliesThere) {
     ASSERT_TRUE(make());
     pointAtMiddle();
-    ASSERT_TRUE(mHost.marked);
-    EXPECT_NEAR(mHost.marked->y, 0.01, 1e-9);
-    EXPECT_NEAR(mHost.marked->x, 0.15, 0.02) << "it follows the eye, which is in the middle";
-    const glm::dvec3 wall = *mHost.marked;
-    EXPECT_FALSE(mSession.flyingToGoal());
+    ASSERT_TRUE(mInstruments.marked());
+    EXPECT_NEAR(mInstruments.marked()->y, 0.01, 1e-9);
+    EXPECT_NEAR(mInstruments.marked()->x, 0.15, 0.02) << "it follows the eye, which is in the middle";
+    const glm::dvec3 wall = *mInstruments.marked();
+    EXPECT_FALSE(mSession.moves().toGoal());
     mInterface->takesButton(0, true);
     layOut();
     mInterface->takesButton(0, false);
     layOut();
-    ASSERT_TRUE(mSession.flyingToGoal());
-    for (int n = 0; n < 100 && mSession.flyingToGoal(); ++n) mSession.step({}, 0.1);
+    ASSERT_TRUE(mSession.moves().toGoal());
+    for (int n = 0; n < 100 && mSession.moves().toGoal(); ++n) mSession.step({}, 0.1);
     const glm::dvec3 to = wall - mSession.pose().position;
     EXPECT_LT(glm::length(to), 0.041);
     EXPECT_GT(glm::dot(glm::normalize(to), mSession.pose().forward()), 0.999) << "it looks at that wall";
-    mPanel->hide(mHost);
-    EXPECT_FALSE(mHost.marked);
+    mPanel->hide(&mSession, mInstruments);
+    EXPECT_FALSE(mInstruments.marked());
 }
 
 TEST_F(UnfoldedPanelTest, BothViewsAreMadeOnceTheyAreShown) {
@@ -212,14 +213,14 @@ TEST_F(UnfoldedPanelTest, BothViewsAreMadeOnceTheyAreShown) {
     ASSERT_TRUE(mPanel->fromBothEnds());
     ASSERT_TRUE(make());
     pointAtMiddle();
-    ASSERT_TRUE(mHost.marked);
-    EXPECT_NEAR(mHost.marked->y, 0.02, 1e-9) << "the place that this view shows there";
+    ASSERT_TRUE(mInstruments.marked());
+    EXPECT_NEAR(mInstruments.marked()->y, 0.02, 1e-9) << "the place that this view shows there";
     otherView();
     EXPECT_FALSE(mPanel->fromBothEnds());
     ASSERT_TRUE(mPanel->flat()) << "it is still there";
     pointAtMiddle();
-    ASSERT_TRUE(mHost.marked);
-    EXPECT_NEAR(mHost.marked->y, 0.01, 1e-9);
+    ASSERT_TRUE(mInstruments.marked());
+    EXPECT_NEAR(mInstruments.marked()->y, 0.01, 1e-9);
     otherView();
     EXPECT_TRUE(mPanel->flat());
     EXPECT_EQ(mScene->made, 1);

@@ -216,9 +216,13 @@ TEST_F(AskedFrames, EveryDifferenceIsAskedFor) {
     expectAskedForAgain("zero parallax", act(ViewCommand::FartherZeroParallax));
     expectAskedForAgain("one eye", act(ViewCommand::ToggleStereo));
     expectAskedForAgain("method", act(ViewCommand::NextMethod));
-    expectAskedForAgain("model", [](ViewSession& s) { s.chooseModel(1); });
-    expectAskedForAgain("azimuth", [](ViewSession& s) { s.placeSun({s.sun().azimuth + 1e-9, 0}); });
-    expectAskedForAgain("elevation", [](ViewSession& s) { s.placeSun({s.sun().azimuth, 1e-9}); });
+    expectAskedForAgain("model", [](ViewSession& s) { s.light().choose(1); });
+    expectAskedForAgain("azimuth", [](ViewSession& s) {
+        s.light().place({s.light().sun().azimuth + 1e-9, 0});
+    });
+    expectAskedForAgain("elevation", [](ViewSession& s) {
+        s.light().place({s.light().sun().azimuth, 1e-9});
+    });
     // The eyes' sizes stay.
     expectAskedForAgain("mode", [](ViewSession& s) { s.chooseMode(OutputMode::CrossEyed); });
     for (const TruthView truth : {TruthView::FullCast, TruthView::Difference, TruthView::Holes})

@@ -85,7 +85,7 @@ TEST_F(LiveSettings, GoBackToTheFileThatTheSceneWasOpenedWith) {
     ASSERT_TRUE(isLive(s, "transfer", "my function.txt"));
     setLive(s, "transfer", "my function.txt");
     EXPECT_EQ(texts(s), first);
-    EXPECT_EQ(s.surface().transfer, "") << "that of the options";
+    EXPECT_EQ(s.surface().now().transfer, "") << "that of the options";
     EXPECT_FALSE(isLive(s, "opacity", "0.95")) << "it was not opened with one";
 }
 

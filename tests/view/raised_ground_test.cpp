@@ -51,9 +51,9 @@ TEST_F(RaisedGroundTest, EyesAndFlightsStayAsHighOverIt) {
     session.replaceScene(raised);
     EXPECT_NEAR(over(*raised->scene, session.pose().position), before, 1e-6);
     EXPECT_GT(session.pose().position.z, start.z + 500);
-    ASSERT_EQ(session.path().samples().size(), 2u);
+    ASSERT_EQ(session.paths().path().samples().size(), 2u);
     for (std::size_t n = 0; n < 2; ++n)
-        EXPECT_NEAR(over(*raised->scene, session.path().samples()[n].pose.position),
+        EXPECT_NEAR(over(*raised->scene, session.paths().path().samples()[n].pose.position),
                     over(*plain->scene, path.samples()[n].pose.position), 1e-6);
     session.replaceScene(plain);
     EXPECT_NEAR(glm::distance(session.pose().position, start), 0, 1e-6) << "and back";

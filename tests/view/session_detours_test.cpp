@@ -79,7 +79,7 @@ protected:
             r.sun.azimuth, r.sun.elevation, r.twoEyes, static_cast<int>(r.mode), static_cast<int>(r.truth),
             static_cast<int>(c.mode), c.swapEyes, c.linearAnaglyph, r.paintOver != nullptr, s.eyes().clamp(),
             s.followsClearance());
-        const SurfaceChange surface = s.surface();
+        const SurfaceChange surface = s.surface().now();
         const bool translucent = surface.translucent.value_or(false);
         // A function that is not seen is remembered for when it is.
         text += fmt::format(" {} {} {}", surface.isovalue.value_or(-1), translucent,
@@ -137,10 +137,10 @@ const std::vector<Detour>& detours() {
             {"sun up and down", key(C::HigherSun, 2), key(C::LowerSun, 2)},
             {"sun placed",
              [](S& s) {
-                 s.placeSun({2, 1});
+                 s.light().place({2, 1});
              },
              [](S& s) {
-                 s.placeSun({1.0, 0.5});
+                 s.light().place({1.0, 0.5});
              }},
             {"field of view", [](S& s) { s.setFov(0.3); }, [](S& s) { s.setFov(std::nullopt); }},
             {"isovalue", key(C::HigherIsovalue, 4), key(C::LowerIsovalue, 4)},
@@ -244,31 +244,31 @@ TEST_F(SessionDetours, AMeasuringIsOfItsOwnPictureAlone) {
 
 TEST_F(SessionDetours, PathsComeBackOneByOne) {
     ViewSession s = sessionOf(mParts);
-    test::PlainSteps<double> plain(s.path().duration());
+    test::PlainSteps<double> plain(s.paths().path().duration());
     double next = 10;
     for (const char step : std::string("eeuueeeuuuueueeu")) {
-        const long long version = s.pathVersion();
+        const long long version = s.paths().version();
         if (step == 'e') {
-            s.editPath([&](const RecordedPath& now) {
+            s.paths().edit([&](const RecordedPath& now) {
                 EXPECT_EQ(now.duration(), plain.now());
                 return lasting(++next);
             });
             plain.change(next);
         } else {
-            s.undoPath();
+            s.paths().undo();
             const bool could = plain.canUndo();
             plain.undo();
-            EXPECT_EQ(s.pathVersion() != version, could);
+            EXPECT_EQ(s.paths().version() != version, could);
         }
-        ASSERT_EQ(s.path().duration(), plain.now());
+        ASSERT_EQ(s.paths().path().duration(), plain.now());
     }
 }
 
 TEST_F(SessionDetours, AsManyPathsAsAreKept) {
     ViewSession s = sessionOf(mParts);
-    for (int n = 1; n <= 70; ++n) s.editPath([&](const RecordedPath&) { return lasting(100 + n); });
-    for (int n = 1; n <= 80; ++n) s.undoPath();
-    EXPECT_EQ(s.path().duration(), 120) << "fifty steps back";
+    for (int n = 1; n <= 70; ++n) s.paths().edit([&](const RecordedPath&) { return lasting(100 + n); });
+    for (int n = 1; n <= 80; ++n) s.paths().undo();
+    EXPECT_EQ(s.paths().path().duration(), 120) << "fifty steps back";
 }
 
 // Steps of long recordings: as many as a million places are in, and one always.
@@ -282,11 +282,11 @@ TEST_F(SessionDetours, StepsOfLongPathsAreFewer) {
         SCOPED_TRACE(count);
         ViewSession s = sessionOf(mParts);
         const RecordedPath path = ofPlaces(count);
-        for (int n = 0; n < 6; ++n) s.editPath([&](const RecordedPath&) { return path; });
+        for (int n = 0; n < 6; ++n) s.paths().edit([&](const RecordedPath&) { return path; });
         int back = 0;
-        for (long long version = -1; version != s.pathVersion(); back += version != s.pathVersion()) {
-            version = s.pathVersion();
-            s.undoPath();
+        for (long long version = -1; version != s.paths().version(); back += version != s.paths().version()) {
+            version = s.paths().version();
+            s.paths().undo();
         }
         EXPECT_EQ(back, steps);
     }
@@ -297,53 +297,53 @@ TEST_F(SessionDetours, AnOwnPathThatIsTakenBackIsTheScenesAgain) {
     for (const bool goes : {true, false}) {
         SCOPED_TRACE(goes);
         ViewSession s = sessionOf(mParts);
-        s.editPath([](const RecordedPath&) { return lasting(7); });
-        s.editPath([](const RecordedPath&) { return lasting(8); });
-        s.undoPath();
-        if (goes) s.undoPath();
+        s.paths().edit([](const RecordedPath&) { return lasting(7); });
+        s.paths().edit([](const RecordedPath&) { return lasting(8); });
+        s.paths().undo();
+        if (goes) s.paths().undo();
         FakeParts other = mParts;
         other.path = lasting(3);
         s.replaceScene(opened(other));
-        EXPECT_EQ(s.path().duration(), goes ? 3 : 7);
+        EXPECT_EQ(s.paths().path().duration(), goes ? 3 : 7);
         if (goes) continue;
-        s.undoPath();
-        EXPECT_EQ(s.path().duration(), 3) << "that of the scene that is shown now";
+        s.paths().undo();
+        EXPECT_EQ(s.paths().path().duration(), 3) << "that of the scene that is shown now";
     }
     // One that was given stays.
     ViewSession given(opened(mParts), {OutputMode::SideBySide, lasting(5), "."});
-    given.editPath([](const RecordedPath&) { return lasting(7); });
-    given.undoPath();
+    given.paths().edit([](const RecordedPath&) { return lasting(7); });
+    given.paths().undo();
     FakeParts other = mParts;
     other.path = lasting(3);
     given.replaceScene(opened(other));
-    EXPECT_EQ(given.path().duration(), 5);
+    EXPECT_EQ(given.paths().path().duration(), 5);
 }
 
 // What fails is no step: neither is there one more to be taken back, nor is the present path lost.
 TEST_F(SessionDetours, AnEditThatFailsIsNoStep) {
     ViewSession s = sessionOf(mParts);
-    s.editPath([](const RecordedPath&) { return lasting(7); });
-    s.editPath([](const RecordedPath&) -> RecordedPath { throw Error("", "path", "is not so", "no"); });
-    EXPECT_EQ(s.path().duration(), 7);
-    s.undoPath();
-    EXPECT_EQ(s.path().duration(), 2);
-    const long long version = s.pathVersion();
-    s.undoPath();
-    EXPECT_EQ(s.pathVersion(), version) << "there is nothing before it";
+    s.paths().edit([](const RecordedPath&) { return lasting(7); });
+    s.paths().edit([](const RecordedPath&) -> RecordedPath { throw Error("", "path", "is not so", "no"); });
+    EXPECT_EQ(s.paths().path().duration(), 7);
+    s.paths().undo();
+    EXPECT_EQ(s.paths().path().duration(), 2);
+    const long long version = s.paths().version();
+    s.paths().undo();
+    EXPECT_EQ(s.paths().version(), version) << "there is nothing before it";
 }
 
 TEST_F(SessionDetours, PlayingEndsWithEachChangeOfThePath) {
     for (int kind = 0; kind < 3; ++kind) {
         SCOPED_TRACE(kind);
         ViewSession s = sessionOf(mParts);
-        s.editPath([](const RecordedPath&) { return lasting(9); });
+        s.paths().edit([](const RecordedPath&) { return lasting(9); });
         act(s, ViewCommand::Play);
         s.step({}, 0.5);
-        ASSERT_TRUE(s.playing());
-        if (kind == 0) s.undoPath();
-        if (kind == 1) s.setPath(lasting(4));
-        if (kind == 2) s.editPath([](const RecordedPath&) { return lasting(5); });
-        EXPECT_FALSE(s.playing());
+        ASSERT_TRUE(s.paths().playing());
+        if (kind == 0) s.paths().undo();
+        if (kind == 1) s.paths().set(lasting(4));
+        if (kind == 2) s.paths().edit([](const RecordedPath&) { return lasting(5); });
+        EXPECT_FALSE(s.paths().playing());
         EXPECT_NEAR(s.pose().position.x, 5, 1e-6) << "where it was";
         act(s, ViewCommand::Play);
         EXPECT_NEAR(s.pose().position.x, 0, 1e-6) << "from the start";
@@ -361,17 +361,17 @@ TEST_F(SessionDetours, AChangeThatDidNotComeAboutIsForgotten) {
                                               ViewCommand::NextAmbient, ViewCommand::NextTransfer};
     for (const ViewCommand command : changes) {
         act(s, command);
-        ASSERT_TRUE(s.takeSceneChange()) << static_cast<int>(command);
+        ASSERT_TRUE(s.surface().takeChange()) << static_cast<int>(command);
         EXPECT_NE(told(s), before);
-        s.forgetSceneChange();
+        s.surface().forgetChange();
         EXPECT_EQ(told(s), before) << static_cast<int>(command);
     }
     // One that is asked for since stays.
     act(s, ViewCommand::HigherIsovalue);
-    s.takeSceneChange();
+    s.surface().takeChange();
     act(s, ViewCommand::HigherIsovalue);
-    s.forgetSceneChange();
-    const auto later = s.takeSceneChange();
+    s.surface().forgetChange();
+    const auto later = s.surface().takeChange();
     ASSERT_TRUE(later);
     EXPECT_EQ(later->surface.isovalue, 120);
 }
@@ -380,26 +380,26 @@ TEST_F(SessionDetours, AChangeThatDidNotComeAboutIsForgotten) {
 TEST_F(SessionDetours, AnotherSceneBeginsWithItsOwnSurface) {
     ViewSession s = sessionOf(mParts);
     act(s, ViewCommand::HigherIsovalue);
-    s.takeSceneChange();
+    s.surface().takeChange();
     FakeParts other = mParts;
     other.surface->isovalue = 333;
     s.replaceScene(opened(other));
-    EXPECT_EQ(s.surface().isovalue, 333);
-    EXPECT_FALSE(s.takeSceneChange());
+    EXPECT_EQ(s.surface().now().isovalue, 333);
+    EXPECT_FALSE(s.surface().takeChange());
     // A study that was being read for slices is asked for once, and a wish that is dropped is gone.
     other.readSlices = [](Progress&) { return std::make_shared<const SliceStudy>(); };
     s.replaceScene(opened(other));
-    s.wishStudy();
-    s.dropStudyWish();
-    EXPECT_FALSE(s.takeStudyWish());
+    s.slices().wishStudy();
+    s.slices().dropStudyWish();
+    EXPECT_FALSE(s.slices().takeStudyWish());
     act(s, ViewCommand::Slices);
-    EXPECT_TRUE(s.wantsSliceView());
-    s.dropStudyWish();
-    EXPECT_FALSE(s.wantsSliceView());
-    EXPECT_FALSE(s.takeStudyWish());
-    s.wishStudy();
-    EXPECT_TRUE(s.takeStudyWish());
-    EXPECT_FALSE(s.wantsSliceView()) << "a panel wishes it, not the slice view";
+    EXPECT_TRUE(s.slices().wantsView());
+    s.slices().dropStudyWish();
+    EXPECT_FALSE(s.slices().wantsView());
+    EXPECT_FALSE(s.slices().takeStudyWish());
+    s.slices().wishStudy();
+    EXPECT_TRUE(s.slices().takeStudyWish());
+    EXPECT_FALSE(s.slices().wantsView()) << "a panel wishes it, not the slice view";
 }
 
 // --- flights to a goal
@@ -425,17 +425,17 @@ TEST_F(SessionDetours, AGoalIsLeftByWhateverComesAfterIt) {
         ViewSession s = sessionOf(mParts);
         s.flyTo(goal);
         for (int n = 0; n < 10; ++n) s.step({}, 1.0 / 60);
-        ASSERT_TRUE(s.flyingToGoal());
+        ASSERT_TRUE(s.moves().toGoal());
         end(s);
-        EXPECT_FALSE(s.flyingToGoal());
+        EXPECT_FALSE(s.moves().toGoal());
     }
     // Another goal takes its place: the flight ends there, not at the first one.
     ViewSession s = sessionOf(mParts);
     s.flyTo(goal);
     for (int n = 0; n < 10; ++n) s.step({}, 1.0 / 60);
     s.flyTo(other);
-    for (int n = 0; n < 100'000 && s.flyingToGoal(); ++n) s.step({}, 0.05);
-    EXPECT_FALSE(s.flyingToGoal());
+    for (int n = 0; n < 100'000 && s.moves().toGoal(); ++n) s.step({}, 0.05);
+    EXPECT_FALSE(s.moves().toGoal());
     EXPECT_LT(glm::length(s.pose().position - other.position), 1);
 }
 

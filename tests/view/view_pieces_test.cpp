@@ -43,19 +43,21 @@ protected:
     }
     // 50 mm fill 400 pixels; the middle of the picture is the middle of the study.
     static void clickVoxel(ViewSession& s, double i, double j) {
-        s.click(200 + 8 * (i - 19.5), 200 + 8 * (j - 24.5));
+        s.slices().click(200 + 8 * (i - 19.5), 200 + 8 * (j - 24.5));
     }
     static PackedColor colorAt(ViewSession& s, double i, double j) {
-        const auto& picture = s.slicePicture(400, 400);
+        const auto& picture = s.slices().picture(400, 400);
         return picture.at(static_cast<int>(200 + 8 * (i - 19.5)), static_cast<int>(200 + 8 * (j - 24.5)));
     }
 
-    ViewSession sessionWithSlices() {
-        ViewSession s(opened(*mScene), {OutputMode::SideBySide, std::nullopt, testing::TempDir()});
+    ViewSession session() {
+        return ViewSession(opened(*mScene), {OutputMode::SideBySide, std::nullopt, testing::TempDir()});
+    }
+    // Its slice view is open.
+    void openSlices(ViewSession& s) {
         s.act({ViewCommand::Slices});
-        s.showSlices(mStudy);
-        s.slicePicture(400, 400);
-        return s;
+        s.slices().show(mStudy);
+        s.slices().picture(400, 400);
     }
 
     static std::shared_ptr<SliceStudy> studyOf() {
@@ -74,14 +76,15 @@ protected:
 };
 
 TEST_F(ViewPieces, AClickTakesOrLeavesThePieceUnderIt) {
-    ViewSession s = sessionWithSlices();
+    ViewSession s = session();
+    openSlices(s);
     const PackedColor taken = colorAt(s, 11.3, 11.3), left = colorAt(s, 25.3, 32.3);
     EXPECT_NE(taken, left);
     EXPECT_GT(unpackColor(taken).g, 2 * unpackColor(taken).r) << "green";
     EXPECT_GT(unpackColor(left).r, 5 * unpackColor(left).b) << "not sure: amber";
     clickVoxel(s, 11, 11);
     EXPECT_THAT(s.notice(), testing::HasSubstr("--exclude 11.0,11.0,40.0 leaves out 0.3 ml of gas"));
-    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("1 change "));
+    EXPECT_THAT(s.slices().status(), testing::HasSubstr("1 change "));
     EXPECT_GT(unpackColor(colorAt(s, 11.3, 11.3)).b, 2 * unpackColor(colorAt(s, 11.3, 11.3)).r) << "blue";
     clickVoxel(s, 25, 32);
     EXPECT_THAT(s.notice(), testing::HasSubstr("--include 25.0,32.0,40.0 takes 0.3 ml of gas: by itself"));
@@ -90,14 +93,14 @@ TEST_F(ViewPieces, AClickTakesOrLeavesThePieceUnderIt) {
     EXPECT_THAT(s.notice(), testing::HasSubstr("--include 11.0,42.0,40.0 takes tagged fluid (value 400)"));
     clickVoxel(s, 30, 20);
     EXPECT_THAT(s.notice(), testing::HasSubstr("value 0 at 30.0,20.0,40.0: click in gas"));
-    s.click(2, 200);
-    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("3 changes")) << "beside the study, and in tissue";
+    s.slices().click(2, 200);
+    EXPECT_THAT(s.slices().status(), testing::HasSubstr("3 changes")) << "beside the study, and in tissue";
     s.act({ViewCommand::Quit});
-    EXPECT_FALSE(s.slicesShown());
+    EXPECT_FALSE(s.slices().shown());
     s.act({ViewCommand::Slices});
-    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("3 changes")) << "Esc does not take them away";
+    EXPECT_THAT(s.slices().status(), testing::HasSubstr("3 changes")) << "Esc does not take them away";
     s.act({ViewCommand::FindAgain});
-    auto change = s.takeSceneChange();
+    auto change = s.surface().takeChange();
     ASSERT_TRUE(change.has_value() && change->pieces.has_value());
     ASSERT_EQ(change->pieces->include.size(), 2u);
     ASSERT_EQ(change->pieces->exclude.size(), 1u);
@@ -106,15 +109,16 @@ TEST_F(ViewPieces, AClickTakesOrLeavesThePieceUnderIt) {
 }
 
 TEST_F(ViewPieces, ASecondClickOrBackspaceTakesAChoiceBack) {
-    ViewSession s = sessionWithSlices();
+    ViewSession s = session();
+    openSlices(s);
     clickVoxel(s, 10, 10);
     clickVoxel(s, 12, 12);
     EXPECT_THAT(s.notice(), testing::HasSubstr("as it was found: 0.3 ml of gas"));
-    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("0 changes"));
+    EXPECT_THAT(s.slices().status(), testing::HasSubstr("0 changes"));
     clickVoxel(s, 11, 42);
     for (int n = 0; n < 3; ++n) s.act({ViewCommand::RemoveSeed});
     s.act({ViewCommand::FindAgain});
-    const auto change = s.takeSceneChange();
+    const auto change = s.surface().takeChange();
     ASSERT_TRUE(change.has_value() && change->pieces.has_value());
     EXPECT_TRUE(change->pieces->empty());
 }

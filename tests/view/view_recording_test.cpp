@@ -26,24 +26,24 @@ constexpr double kRecordedFrame = 1.0 / 60;
 TEST_F(ViewRecording, RecordsAFlightSavesItAndPlaysItAgain) {
     ViewSession s = session();
     s.act({ViewCommand::Record});
-    EXPECT_TRUE(s.recording());
+    EXPECT_TRUE(s.paths().recording());
     FlightInput forward;
     forward.forward = 1;
     for (int i = 0; i < 60; ++i) s.step(forward, kRecordedFrame);
     const Pose end = s.pose();
     s.act({ViewCommand::Record});
-    EXPECT_FALSE(s.recording());
+    EXPECT_FALSE(s.paths().recording());
     ASSERT_TRUE(fs::exists(mFolder / "flight_0001.gltf")) << s.notice();
     EXPECT_NEAR(readPath(mFolder / "flight_0001.gltf").duration(), 1.0, 1e-3);
 
     s.act({ViewCommand::Home});
     s.act({ViewCommand::Play});
-    EXPECT_TRUE(s.playing());
+    EXPECT_TRUE(s.paths().playing());
     EXPECT_NEAR(glm::length(s.pose().position - kStart.position), 0, 1e-9);
     for (int i = 0; i < 30; ++i) s.step(forward, kRecordedFrame);
-    EXPECT_TRUE(s.playing()) << "keys do not disturb it";
+    EXPECT_TRUE(s.paths().playing()) << "keys do not disturb it";
     for (int i = 0; i < 40; ++i) s.step({}, kRecordedFrame);
-    EXPECT_FALSE(s.playing());
+    EXPECT_FALSE(s.paths().playing());
     EXPECT_NEAR(glm::length(s.pose().position - end.position), 0, 1e-3);
 }
 
@@ -57,34 +57,34 @@ TEST_F(ViewRecording, WhatWasRecordedOrChangedIsKeptAtItsEnd) {
     };
     {
         ViewSession s = session();
-        EXPECT_EQ(s.keepWork(), "") << "the scene's own path needs no file";
-        s.openPath(lasting(5));
-        EXPECT_EQ(s.path().duration(), 5);
-        EXPECT_EQ(s.keepWork(), "") << "nor does one that was opened";
-        s.undoPath();
-        EXPECT_EQ(s.path().duration(), 2);
-        EXPECT_EQ(s.keepWork(), "");
+        EXPECT_EQ(s.paths().keepWork(), "") << "the scene's own path needs no file";
+        s.paths().open(lasting(5));
+        EXPECT_EQ(s.paths().path().duration(), 5);
+        EXPECT_EQ(s.paths().keepWork(), "") << "nor does one that was opened";
+        s.paths().undo();
+        EXPECT_EQ(s.paths().path().duration(), 2);
+        EXPECT_EQ(s.paths().keepWork(), "");
     }
     EXPECT_TRUE(fs::is_empty(mFolder));
     {
         ViewSession s = session();
         s.act({ViewCommand::Record});
         for (int i = 0; i < 60; ++i) s.step(forward, kRecordedFrame);
-        EXPECT_THAT(s.keepWork(), testing::HasSubstr(file.string()));
-        EXPECT_FALSE(s.recording());
+        EXPECT_THAT(s.paths().keepWork(), testing::HasSubstr(file.string()));
+        EXPECT_FALSE(s.paths().recording());
         EXPECT_NEAR(readPath(file).duration(), 1, 1e-3);
-        EXPECT_EQ(s.keepWork(), "");
-        s.editPath([&](const RecordedPath&) { return lasting(7); });
-        EXPECT_THAT(s.keepWork(), testing::HasSubstr("flight_0002"));
-        EXPECT_EQ(s.keepWork(), "");
-        s.setPath(lasting(8));
-        s.savePath();
-        EXPECT_EQ(s.keepWork(), "") << "it was saved";
-        s.setPath(lasting(9));
+        EXPECT_EQ(s.paths().keepWork(), "");
+        s.paths().edit([&](const RecordedPath&) { return lasting(7); });
+        EXPECT_THAT(s.paths().keepWork(), testing::HasSubstr("flight_0002"));
+        EXPECT_EQ(s.paths().keepWork(), "");
+        s.paths().set(lasting(8));
+        s.paths().save();
+        EXPECT_EQ(s.paths().keepWork(), "") << "it was saved";
+        s.paths().set(lasting(9));
         s.act({ViewCommand::Record});  // whose path takes the place of one that is in no file
         for (int i = 0; i < 120; ++i) s.step(forward, kRecordedFrame);
         s.act({ViewCommand::Record});
-        EXPECT_NEAR(s.path().duration(), 2, 1e-3);
+        EXPECT_NEAR(s.paths().path().duration(), 2, 1e-3);
     }
     double seconds[] = {1, 7, 8, 2, 9}, found = 0;
     for (const auto& entry : fs::directory_iterator(mFolder)) {

@@ -162,7 +162,7 @@ TEST_F(ViewSessionTest, PlaysTheScenesFlightOnItsOwnClock) {
     for (int i = 0; i < 4; ++i) s.step({}, 0.25);
     EXPECT_NEAR(s.pose().position.x, 50.0, 1e-9) << "half of 2 s, whatever the frame rate";
     s.act({ViewCommand::Play});
-    EXPECT_FALSE(s.playing());
+    EXPECT_FALSE(s.paths().playing());
     EXPECT_NEAR(s.pose().position.x, 50.0, 1e-6) << "stopping stays there";
 }
 
@@ -238,26 +238,26 @@ TEST_F(ViewSessionTest, AFlightComesToRestExactly) {
 
 TEST_F(ViewSessionTest, APathThatIsWorkedOnTakesOneStepBack) {
     ViewSession s = session();
-    const long long first = s.pathVersion();
-    const RecordedPath own = s.path();
+    const long long first = s.paths().version();
+    const RecordedPath own = s.paths().path();
     const auto lasting = [](double seconds) {
         return RecordedPath({{0, kStart}, {seconds, poseFromAngles({9, 9, 600}, 0, 0, 0)}}, "test");
     };
-    s.editPath([&](const RecordedPath&) { return lasting(3); });
-    const long long edited = s.pathVersion();
+    s.paths().edit([&](const RecordedPath&) { return lasting(3); });
+    const long long edited = s.paths().version();
     EXPECT_NE(edited, first);
     s.act({ViewCommand::Play});
-    s.setPath(lasting(5));
-    s.setPath(lasting(7));
-    EXPECT_FALSE(s.playing());
-    EXPECT_EQ(s.path().duration(), 7);
-    EXPECT_NE(s.pathVersion(), edited);
-    s.undoPath();
-    EXPECT_EQ(s.path().duration(), own.duration()) << "what was there before it was worked on";
-    s.editPath(
+    s.paths().set(lasting(5));
+    s.paths().set(lasting(7));
+    EXPECT_FALSE(s.paths().playing());
+    EXPECT_EQ(s.paths().path().duration(), 7);
+    EXPECT_NE(s.paths().version(), edited);
+    s.paths().undo();
+    EXPECT_EQ(s.paths().path().duration(), own.duration()) << "what was there before it was worked on";
+    s.paths().edit(
         [](const RecordedPath&) -> RecordedPath { throw Error("", "path", "is not so", "change it"); });
     EXPECT_THAT(s.notice(), testing::HasSubstr("is not so"));
-    EXPECT_EQ(s.path().duration(), own.duration());
+    EXPECT_EQ(s.paths().path().duration(), own.duration());
 }
 
 // Flies north at full input for so many seconds, towards a wall there; what lies ahead is told with every
@@ -283,9 +283,9 @@ std::vector<double> timesOfHalving(ViewSession& s, double wall, double first, in
 TEST_F(ViewSessionTest, TowardsAWallEveryHalvingTakesAsLong) {
     ViewSession s = session();
     s.goTo(poseFromAngles({0, 0, 500}, 0, 0, 0));
-    EXPECT_FALSE(s.speedByDistance());
+    EXPECT_FALSE(s.moves().speedByDistance());
     s.act({ViewCommand::SpeedByDistance});
-    EXPECT_TRUE(s.speedByDistance());
+    EXPECT_TRUE(s.moves().speedByDistance());
     const std::vector<double> times = timesOfHalving(s, 5000, 1600, 6);
     ASSERT_EQ(times.size(), 6u);
     const double halving = times[1] - times[0];
@@ -303,14 +303,14 @@ TEST_F(ViewSessionTest, TowardsAWallEveryHalvingTakesAsLong) {
 
 TEST_F(ViewSessionTest, TheSpeedByDistanceHasNoJumpsAndBounds) {
     ViewSession s = session();
-    const double usual = s.speed();
+    const double usual = s.moves().speed();
     s.act({ViewCommand::SpeedByDistance});
     const auto after = [&](double depth, double seconds) {
         ViewFrame frame;
         frame.depthAhead = depth;
         s.observe(frame);
         for (double time = 0; time < seconds; time += kFrame) s.step({}, kFrame);
-        return s.speed();
+        return s.moves().speed();
     };
     EXPECT_EQ(after(0, 1), usual) << "no frame has told yet";
     const double infinity = std::numeric_limits<double>::infinity();
@@ -347,7 +347,7 @@ TEST_F(ViewSessionTest, TheSkyAndAPlayedFlightKnowNoDistance) {
         near.step({}, kFrame);
         usual.step({}, kFrame);
     }
-    EXPECT_TRUE(near.playing());
+    EXPECT_TRUE(near.paths().playing());
     EXPECT_EQ(near.pose().position, usual.pose().position);
 }
 

@@ -68,15 +68,14 @@ protected:
     ViewSession session() {
         return ViewSession(opened(*mScene), {OutputMode::SideBySide, std::nullopt, mFolder});
     }
-    ViewSession sessionWithSlices() {
-        ViewSession s = session();
+    // Its slice view is open.
+    void openSlices(ViewSession& s) {
         Pose at;
         at.position = {0.02, 0.03, 0.04};
         const_cast<Flight&>(s.flight()).setPose(at);
         s.act({ViewCommand::Slices});
-        s.showSlices(mStudy);
-        s.slicePicture(400, 400);
-        return s;
+        s.slices().show(mStudy);
+        s.slices().picture(400, 400);
     }
     static ViewFrame frameOf(double depth) {
         ViewFrame frame;
@@ -199,18 +198,18 @@ TEST_F(ViewVolume, GuidedAndFreeFlightTakeTurns) {
 TEST_F(ViewVolume, TheSurfaceMovesWhereThereIsOne) {
     ViewSession without = session();
     without.act({ViewCommand::HigherIsovalue});
-    EXPECT_FALSE(without.takeSceneChange().has_value());
+    EXPECT_FALSE(without.surface().takeChange().has_value());
     mScene->surface->isovalue = 300;
     mScene->surface->isovalueStep = 10;
     ViewSession s = session();
     for (int i = 0; i < 3; ++i) s.act({ViewCommand::HigherIsovalue});
     s.act({ViewCommand::LowerIsovalue});
-    const auto change = s.takeSceneChange();
+    const auto change = s.surface().takeChange();
     ASSERT_TRUE(change.has_value());
     EXPECT_EQ(change->surface.isovalue, 320);
     EXPECT_EQ(change->surface.translucent, false);
     EXPECT_FALSE(change->pieces.has_value());
-    EXPECT_FALSE(s.takeSceneChange().has_value()) << "asked for once";
+    EXPECT_FALSE(s.surface().takeChange().has_value()) << "asked for once";
     // The keys that move the surface do not roll as well.
     FlightInput roll;
     roll.rollRate = 1;
@@ -219,21 +218,21 @@ TEST_F(ViewVolume, TheSurfaceMovesWhereThereIsOne) {
     without.step(roll, kFrameSeconds);
     EXPECT_GT(dynamic_cast<const Hover&>(without.flight()).rolled(), 0);
     // What could not be done is forgotten.
-    s.forgetSceneChange();
+    s.surface().forgetChange();
     s.act({ViewCommand::HigherIsovalue});
-    EXPECT_EQ(s.takeSceneChange()->surface.isovalue, 310);
+    EXPECT_EQ(s.surface().takeChange()->surface.isovalue, 310);
 }
 
 TEST_F(ViewVolume, TranslucentAndBackKeepsTheSurface) {
     ViewSession s = session();
     s.act({ViewCommand::ToggleTranslucent});
-    EXPECT_EQ(s.takeSceneChange()->surface.translucent, true);
+    EXPECT_EQ(s.surface().takeChange()->surface.translucent, true);
     s.act({ViewCommand::ToggleTranslucent});
-    EXPECT_EQ(s.takeSceneChange()->surface.translucent, false);
+    EXPECT_EQ(s.surface().takeChange()->surface.translucent, false);
     mScene->surface.reset();
     ViewSession never = session();
     never.act({ViewCommand::ToggleTranslucent});
-    EXPECT_FALSE(never.takeSceneChange().has_value());
+    EXPECT_FALSE(never.surface().takeChange().has_value());
 }
 
 TEST_F(ViewVolume, TransferFunctionsTakeTurns) {
@@ -241,21 +240,21 @@ TEST_F(ViewVolume, TransferFunctionsTakeTurns) {
     const auto open = opened(*mScene);
     ViewSession s(open, {OutputMode::SideBySide, std::nullopt, mFolder});
     s.act({ViewCommand::NextTransfer});
-    auto change = s.takeSceneChange();
+    auto change = s.surface().takeChange();
     EXPECT_EQ(change->surface.translucent, true) << "first as it would be";
     EXPECT_EQ(change->surface.transfer, "");
     s.act({ViewCommand::NextTransfer});
-    EXPECT_EQ(s.takeSceneChange()->surface.transfer, "bone");
+    EXPECT_EQ(s.surface().takeChange()->surface.transfer, "bone");
     EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::HasSubstr("bone"));
     // One that can not be shown is not tried again at once.
-    s.forgetSceneChange();
+    s.surface().forgetChange();
     EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::Not(testing::HasSubstr("bone")));
     open->scene->offered<SurfaceChoices>()->translucent = true;
-    s.forgetSceneChange();
+    s.surface().forgetChange();
     s.act({ViewCommand::NextTransfer});
-    EXPECT_EQ(s.takeSceneChange()->surface.transfer, "glass");
+    EXPECT_EQ(s.surface().takeChange()->surface.transfer, "glass");
     s.act({ViewCommand::NextTransfer});
-    EXPECT_EQ(s.takeSceneChange()->surface.transfer, "");
+    EXPECT_EQ(s.surface().takeChange()->surface.transfer, "");
 }
 
 TEST_F(ViewVolume, AmbientLightIsChosenByKeys) {
@@ -263,7 +262,7 @@ TEST_F(ViewVolume, AmbientLightIsChosenByKeys) {
     for (const ViewCommand command : {ViewCommand::NextAmbient, ViewCommand::LargerRadius,
                                       ViewCommand::NextModulation, ViewCommand::MoreSigma}) {
         without.act({command});
-        EXPECT_FALSE(without.takeSceneChange().has_value());
+        EXPECT_FALSE(without.surface().takeChange().has_value());
         EXPECT_THAT(without.notice(), testing::HasSubstr("seen from outside"));
     }
     mScene->surface->ambient = AmbientChoice{false, "gaussian", 0.008, "", 0.008, 0};
@@ -272,30 +271,31 @@ TEST_F(ViewVolume, AmbientLightIsChosenByKeys) {
     mScene->surface->largestRadius = 0.012;
     ViewSession s = session();
     s.act({ViewCommand::LargerRadius});
-    EXPECT_FALSE(s.takeSceneChange().has_value()) << "of what?";
+    EXPECT_FALSE(s.surface().takeChange().has_value()) << "of what?";
     s.act({ViewCommand::NextAmbient});
-    EXPECT_EQ(s.takeSceneChange()->surface.ambient, (AmbientChoice{true, "gaussian", 0.008, "", 0.008, 0}));
+    EXPECT_EQ(s.surface().takeChange()->surface.ambient,
+              (AmbientChoice{true, "gaussian", 0.008, "", 0.008, 0}));
     EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::HasSubstr("ambient light gaussian within 8.0 mm"));
     s.act({ViewCommand::NextAmbient});
-    EXPECT_EQ(s.takeSceneChange()->surface.ambient->method, "t-beta");
+    EXPECT_EQ(s.surface().takeChange()->surface.ambient->method, "t-beta");
     s.act({ViewCommand::PreviousAmbient});
-    EXPECT_EQ(s.takeSceneChange()->surface.ambient->method, "gaussian");
+    EXPECT_EQ(s.surface().takeChange()->surface.ambient->method, "gaussian");
     s.act({ViewCommand::LargerRadius});
-    EXPECT_DOUBLE_EQ(s.takeSceneChange()->surface.ambient->radius, 0.01);
+    EXPECT_DOUBLE_EQ(s.surface().takeChange()->surface.ambient->radius, 0.01);
     s.act({ViewCommand::LargerRadius});
     s.act({ViewCommand::LargerRadius});
-    EXPECT_DOUBLE_EQ(s.takeSceneChange()->surface.ambient->radius, 0.012);
+    EXPECT_DOUBLE_EQ(s.surface().takeChange()->surface.ambient->radius, 0.012);
     EXPECT_THAT(s.notice(), testing::HasSubstr("as far as it can be"));
     s.act({ViewCommand::PreviousAmbient});
-    EXPECT_FALSE(s.takeSceneChange()->surface.ambient->lit);
+    EXPECT_FALSE(s.surface().takeChange()->surface.ambient->lit);
     EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::Not(testing::HasSubstr("ambient")));
     s.act({ViewCommand::PreviousAmbient});
-    EXPECT_EQ(s.takeSceneChange()->surface.ambient->method, "chebyshev") << "round the other way";
+    EXPECT_EQ(s.surface().takeChange()->surface.ambient->method, "chebyshev") << "round the other way";
     // Where light is baked there is none.
     mScene->surface->ambientMethods.clear();
     ViewSession baked = session();
     baked.act({ViewCommand::NextAmbient});
-    EXPECT_FALSE(baked.takeSceneChange().has_value());
+    EXPECT_FALSE(baked.surface().takeChange().has_value());
 }
 
 TEST_F(ViewVolume, OpacityIsModulatedByKeys) {
@@ -306,34 +306,34 @@ TEST_F(ViewVolume, OpacityIsModulatedByKeys) {
     mScene->surface->chosenSigma = 80;
     ViewSession s = session();
     s.act({ViewCommand::NextModulation});
-    EXPECT_FALSE(s.takeSceneChange().has_value());
+    EXPECT_FALSE(s.surface().takeChange().has_value());
     EXPECT_THAT(s.notice(), testing::HasSubstr("translucent"));
     s.act({ViewCommand::ToggleTranslucent});
     s.act({ViewCommand::NextModulation});
-    auto change = s.takeSceneChange();
+    auto change = s.surface().takeChange();
     EXPECT_EQ(change->surface.translucent, true);
     EXPECT_EQ(change->surface.ambient->modulate, "variance");
     EXPECT_EQ(change->surface.ambient->sigma, 0) << "chosen";
     EXPECT_THAT(s.statusLine(frameOf(1), 0),
                 testing::HasSubstr("opacity by variance within 8.0 mm, whole from 80"));
     s.act({ViewCommand::MoreSigma});
-    EXPECT_DOUBLE_EQ(s.takeSceneChange()->surface.ambient->sigma, 100);
+    EXPECT_DOUBLE_EQ(s.surface().takeChange()->surface.ambient->sigma, 100);
     s.act({ViewCommand::LessSigma});
-    EXPECT_DOUBLE_EQ(s.takeSceneChange()->surface.ambient->sigma, 80);
+    EXPECT_DOUBLE_EQ(s.surface().takeChange()->surface.ambient->sigma, 80);
     for (int n = 0; n < 20; ++n) s.act({ViewCommand::MoreSigma});
-    EXPECT_DOUBLE_EQ(s.takeSceneChange()->surface.ambient->sigma, 500);
+    EXPECT_DOUBLE_EQ(s.surface().takeChange()->surface.ambient->sigma, 500);
     s.act({ViewCommand::LargerRadius});
-    change = s.takeSceneChange();
+    change = s.surface().takeChange();
     EXPECT_DOUBLE_EQ(change->surface.ambient->modulateRadius, 0.01);
     EXPECT_DOUBLE_EQ(change->surface.ambient->radius, 0.008) << "ambient light's own";
     s.act({ViewCommand::NextModulation});
-    change = s.takeSceneChange();
+    change = s.surface().takeChange();
     EXPECT_EQ(change->surface.ambient->modulate, "gradient");
     EXPECT_EQ(change->surface.ambient->sigma, 0);
     for (int n = 0; n < 30; ++n) s.act({ViewCommand::MoreSigma});
-    EXPECT_DOUBLE_EQ(s.takeSceneChange()->surface.ambient->sigma, 1);
+    EXPECT_DOUBLE_EQ(s.surface().takeChange()->surface.ambient->sigma, 1);
     s.act({ViewCommand::NextModulation});
-    EXPECT_EQ(s.takeSceneChange()->surface.ambient->modulate, "");
+    EXPECT_EQ(s.surface().takeChange()->surface.ambient->modulate, "");
 }
 
 // Keys that come while an earlier change is being made count from what was asked for, not from what is shown.
@@ -342,19 +342,19 @@ TEST_F(ViewVolume, NoStepIsLostWhileScenesAreMade) {
     mScene->surface->isovalueStep = 10;
     ViewSession s = session();
     s.act({ViewCommand::HigherIsovalue});
-    EXPECT_EQ(s.takeSceneChange()->surface.isovalue, 310);
+    EXPECT_EQ(s.surface().takeChange()->surface.isovalue, 310);
     s.act({ViewCommand::HigherIsovalue});
-    EXPECT_EQ(s.takeSceneChange()->surface.isovalue, 320);
+    EXPECT_EQ(s.surface().takeChange()->surface.isovalue, 320);
     auto first = std::make_shared<FakeParts>(*mScene);
     first->surface->isovalue = 310;
     first->changed = true;
     s.replaceScene(opened(*first));
     s.act({ViewCommand::HigherIsovalue});
-    EXPECT_EQ(s.takeSceneChange()->surface.isovalue, 330);
+    EXPECT_EQ(s.surface().takeChange()->surface.isovalue, 330);
     // One that fails is forgotten: what is shown counts again.
-    s.forgetSceneChange();
+    s.surface().forgetChange();
     s.act({ViewCommand::HigherIsovalue});
-    EXPECT_EQ(s.takeSceneChange()->surface.isovalue, 320);
+    EXPECT_EQ(s.surface().takeChange()->surface.isovalue, 320);
 }
 
 // A scene that was made from the one before it: playing goes on, and the way of the right eye that was
@@ -373,7 +373,7 @@ TEST_F(ViewVolume, WhatWasChangedInPlaceGoesOn) {
     auto other = std::make_shared<FakeParts>(*mScene);
     other->changed = true;
     s.replaceScene(opened(*other));
-    EXPECT_TRUE(s.playing());
+    EXPECT_TRUE(s.paths().playing());
     EXPECT_EQ(s.requestFor(100, 100).way.method, method);
     other = std::make_shared<FakeParts>(*mScene);
     other->changed = true;
@@ -381,7 +381,7 @@ TEST_F(ViewVolume, WhatWasChangedInPlaceGoesOn) {
     s.replaceScene(opened(*other));
     EXPECT_EQ(s.requestFor(100, 100).way.method, "selective") << "another default";
     s.replaceScene(opened(*mScene));
-    EXPECT_FALSE(s.playing());
+    EXPECT_FALSE(s.paths().playing());
 }
 
 TEST_F(ViewVolume, AnotherSceneTakesThePlaceAndTheFlightGoesOn) {
@@ -404,54 +404,55 @@ TEST_F(ViewVolume, AnotherSceneTakesThePlaceAndTheFlightGoesOn) {
     EXPECT_GT(s.requestFor(100, 100).version, version) << "it must be drawn, though nothing moved";
     EXPECT_EQ(s.requestFor(100, 100).way.method, "depthsplat");
     s.act({ViewCommand::ToggleTranslucent});
-    EXPECT_EQ(s.takeSceneChange()->surface.translucent, false) << "from what is shown now";
+    EXPECT_EQ(s.surface().takeChange()->surface.translucent, false) << "from what is shown now";
 }
 
 TEST_F(ViewVolume, SlicesAreReadOnceAndLeftByEscape) {
     ViewSession without = session();
     without.act({ViewCommand::Slices});
-    EXPECT_FALSE(without.takeStudyWish()) << "a scene without slices";
-    EXPECT_FALSE(without.slicesShown());
+    EXPECT_FALSE(without.slices().takeStudyWish()) << "a scene without slices";
+    EXPECT_FALSE(without.slices().shown());
     mScene->readSlices = [this](Progress&) { return mStudy; };
     ViewSession s = session();
     s.act({ViewCommand::Slices});
-    EXPECT_TRUE(s.takeStudyWish());
-    EXPECT_FALSE(s.takeStudyWish());
-    s.showSlices(mStudy);
-    EXPECT_TRUE(s.slicesShown());
+    EXPECT_TRUE(s.slices().takeStudyWish());
+    EXPECT_FALSE(s.slices().takeStudyWish());
+    s.slices().show(mStudy);
+    EXPECT_TRUE(s.slices().shown());
     s.act({ViewCommand::Quit});
-    EXPECT_FALSE(s.slicesShown());
+    EXPECT_FALSE(s.slices().shown());
     EXPECT_FALSE(s.quit());
     s.act({ViewCommand::Slices});
-    EXPECT_TRUE(s.slicesShown()) << "kept";
-    EXPECT_FALSE(s.takeStudyWish());
+    EXPECT_TRUE(s.slices().shown()) << "kept";
+    EXPECT_FALSE(s.slices().takeStudyWish());
     s.act({ViewCommand::Quit});
     s.act({ViewCommand::Quit});
     EXPECT_TRUE(s.quit());
 }
 
 TEST_F(ViewVolume, PagesTurnWithinTheStudy) {
-    ViewSession s = sessionWithSlices();
-    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("axial slice 41 of 60"));
+    ViewSession s = session();
+    openSlices(s);
+    EXPECT_THAT(s.slices().status(), testing::HasSubstr("axial slice 41 of 60"));
     s.act({ViewCommand::NextSlice});
-    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("slice 42 of 60, z = 41.0 mm"));
+    EXPECT_THAT(s.slices().status(), testing::HasSubstr("slice 42 of 60, z = 41.0 mm"));
     s.turnWheel(2);
-    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("slice 41 "));
+    EXPECT_THAT(s.slices().status(), testing::HasSubstr("slice 41 "));
     for (int i = 0; i < 100; ++i) s.act({ViewCommand::PreviousSlice});
-    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("slice 1 of 60"));
+    EXPECT_THAT(s.slices().status(), testing::HasSubstr("slice 1 of 60"));
     for (int i = 0; i < 100; ++i) s.turnWheel(-1);
-    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("slice 60 of 60"));
+    EXPECT_THAT(s.slices().status(), testing::HasSubstr("slice 60 of 60"));
     s.act({ViewCommand::Slices});
-    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("coronal slice 31 of 50"));
+    EXPECT_THAT(s.slices().status(), testing::HasSubstr("coronal slice 31 of 50"));
     s.act({ViewCommand::Slices});
-    EXPECT_THAT(s.sliceStatus(), testing::HasSubstr("sagittal slice 21 of 40"));
-    const long long version = s.sliceVersion();
-    s.slicePicture(400, 400);
-    EXPECT_EQ(s.sliceVersion(), version + 1);
-    s.slicePicture(400, 400);
-    EXPECT_EQ(s.sliceVersion(), version + 1) << "nothing changed, nothing is drawn";
-    s.slicePicture(300, 400);
-    EXPECT_EQ(s.sliceVersion(), version + 2);
+    EXPECT_THAT(s.slices().status(), testing::HasSubstr("sagittal slice 21 of 40"));
+    const long long version = s.slices().version();
+    s.slices().picture(400, 400);
+    EXPECT_EQ(s.slices().version(), version + 1);
+    s.slices().picture(400, 400);
+    EXPECT_EQ(s.slices().version(), version + 1) << "nothing changed, nothing is drawn";
+    s.slices().picture(300, 400);
+    EXPECT_EQ(s.slices().version(), version + 2);
 }
 
 TEST(ViewPlaces, ClicksLieInTheEyeThatIsShownThere) {

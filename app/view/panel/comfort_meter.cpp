@@ -36,7 +36,7 @@ float comfortMeterWidth() {
     return 9 * ImGui::GetFontSize();
 }
 
-void drawComfortMeter(const PanelHost& host, const ViewFrame& frame) {
+void drawComfortMeter(const ViewDisplay& display, const ViewFrame& frame) {
     const ImVec2 size(comfortMeterWidth(), ImGui::GetFontSize());
     const ImVec2 from = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("##comfort", size);
@@ -49,10 +49,10 @@ void drawComfortMeter(const PanelHost& host, const ViewFrame& frame) {
     list.AddRectFilled(from, {from.x + size.x, from.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), 2);
     list.AddRectFilled({place(kNearestParallax), from.y}, {place(kFarthestParallax), from.y + size.y},
                        ImGui::GetColorU32(ImGuiCol_FrameBgActive));
-    const ScreenWords onScreen = host.onScreen(frame);
+    const ScreenWords onScreen = display.wordsOf(frame);
     drawHistogram(frame.parallax, list, from, size);
     const std::string warning = onScreen.warning.empty() ? warningLine(frame) : onScreen.warning;
-    const ImVec4 color = warning.empty() ? accentColor(host.look()) : warningColor(host.look());
+    const ImVec4 color = warning.empty() ? accentNow() : warningNow();
     const float left = place(frame.nearParallax), right = std::max(place(frame.farParallax), left + 2);
     list.AddRectFilled({left, top + 1}, {right, bottom - 1}, ImGui::GetColorU32(color), 2);
     list.AddLine({place(0), from.y}, {place(0), from.y + size.y}, ImGui::GetColorU32(ImGuiCol_Text));

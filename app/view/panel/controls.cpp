@@ -11,6 +11,7 @@
 
 #include "app/options/option_words.h"
 #include "app/view/panel/line_breaks.h"
+#include "app/view/scene_changes.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/scene/capabilities.h"
 #include "engine/text/number_range.h"
@@ -22,12 +23,11 @@ namespace {
 constexpr float kTooltipWidth = 26;  // of letters' heights
 
 // What there is to choose from; empty where anything may be written.
-std::vector<std::string> choicesOf(PanelHost& host, const Option& option) {
+std::vector<std::string> choicesOf(const SceneChanges& changes, const Option& option) {
     std::vector<std::string> choices = option.value.words;
-    ViewSession* const session = host.session();
     const std::string_view key = option.key;
-    if (!session) return choices;
-    const Scene& scene = *session->open().scene;
+    if (!changes.scene()) return choices;
+    const Scene& scene = *changes.scene()->scene;
     if (key == "mode") {
         for (const OutputModeInfo& mode : outputModes()) choices.emplace_back(mode.shortName);
     } else if (key == "method") {
@@ -47,17 +47,17 @@ std::string shownChoice(const Option& option, const std::string& choice) {
     return mode ? std::string(infoOf(*mode).longName) + "  (" + choice + ")" : choice;
 }
 
-void chooseControl(PanelHost& host, const Option& option, const std::vector<std::string>& choices,
+void chooseControl(SceneChanges& changes, const Option& option, const std::vector<std::string>& choices,
                    const std::string& now) {
     if (!ImGui::BeginCombo("##value", shownChoice(option, now).c_str(), ImGuiComboFlags_HeightLarge)) return;
     for (const std::string& choice : choices)
         if (ImGui::Selectable(shownChoice(option, choice).c_str(), choice == now))
-            host.set(option.key, choice);
+            changes.set(option.key, choice);
     ImGui::EndCombo();
 }
 
 // A text that is being written stays until it is done.
-void textControl(PanelHost& host, const Option& option, const std::string& now) {
+void textControl(SceneChanges& changes, const Option& option, const std::string& now) {
     static std::map<std::string, std::string> writing;
     const auto kept = writing.find(option.key);
     std::string text = kept == writing.end() ? now : kept->second;
@@ -71,7 +71,7 @@ void textControl(PanelHost& host, const Option& option, const std::string& now) 
         writing[option.key] = text;
     } else if (kept != writing.end()) {
         writing.erase(kept);
-        if (text != now) host.set(option.key, text.empty() ? std::nullopt : std::optional(text));
+        if (text != now) changes.set(option.key, text.empty() ? std::nullopt : std::optional(text));
     }
 }
 
@@ -83,7 +83,7 @@ float dragSpeed(const NumberRange& range, double value) {
 }
 
 // Where nothing is given the number in use is shown; none is known: its default as words.
-void numberControl(PanelHost& host, const Option& option, const std::string& now) {
+void numberControl(SceneChanges& changes, const Option& option, const std::string& now) {
     const NumberRange& range = option.value.range;
     char* end = nullptr;
     double value = std::strtod(now.c_str(), &end);
@@ -91,7 +91,7 @@ void numberControl(PanelHost& host, const Option& option, const std::string& now
     if (!known) value = std::strtod(option.fallback, nullptr);  // dragged from there; words are 0
     const bool whole = option.value.kind == ValueKind::Whole;
     static std::map<std::string, double> dragged;  // not live: set once it is let go
-    const bool live = host.live(option);
+    const bool live = changes.live(option);
     if (const auto kept = dragged.find(option.key); kept != dragged.end()) value = kept->second;
     const std::string unit = *range.unit ? std::string(" ") + range.unit : "";
     // A default in words where nothing is known, if there is room for them.
@@ -112,10 +112,10 @@ void numberControl(PanelHost& host, const Option& option, const std::string& now
                            range.openHigh ? std::nextafter(range.high, range.low) : range.high);
         dragged[option.key] = value;
         if (live && ImGui::IsMouseDragging(ImGuiMouseButton_Left))
-            host.set(option.key, fmt::format("{:.6g}", value));
+            changes.set(option.key, fmt::format("{:.6g}", value));
     }
     if (ImGui::IsItemDeactivated() && dragged.contains(option.key)) {
-        host.set(option.key, fmt::format("{:.6g}", dragged[option.key]));
+        changes.set(option.key, fmt::format("{:.6g}", dragged[option.key]));
         dragged.erase(option.key);
     }
 }
@@ -170,6 +170,18 @@ void wrappedText(const std::string& text, float width) {
     ImGui::PopTextWrapPos();
 }
 
+const ImVec4& accentNow() {
+    return ImGui::GetStyleColorVec4(ImGuiCol_CheckMark);
+}
+
+const ImVec4& warningNow() {
+    return ImGui::GetStyleColorVec4(ImGuiCol_PlotLinesHovered);
+}
+
+const ImVec4& quietNow() {
+    return ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled);
+}
+
 void tooltip(const std::string& text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     ImGui::BeginTooltip();
@@ -177,67 +189,67 @@ void tooltip(const std::string& text) {
     ImGui::EndTooltip();
 }
 
-void quietLine(const PanelHost& host, const std::string& text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, quietColor(host.look()));
+void quietLine(const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, quietNow());
     plainText(text);
     ImGui::PopStyleColor();
 }
 
-void quietText(const PanelHost& host, const std::string& text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, quietColor(host.look()));
+void quietText(const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, quietNow());
     wrappedText(text);
     ImGui::PopStyleColor();
 }
 
-void optionControl(PanelHost& host, const Option& option) {
+void optionControl(SceneChanges& changes, const Option& option) {
     ImGui::PushID(option.key);
-    const SettingTexts& settings = host.settings();
+    const SettingTexts& settings = changes.settings().now();
     const auto given = settings.find(option.key);
     const bool isGiven = given != settings.end() && !given->second.empty();
-    const std::string now = host.valueOf(option).value_or(isGiven ? given->second.back() : "");
+    const std::string now = changes.valueOf(option).value_or(isGiven ? given->second.back() : "");
     ImGui::AlignTextToFramePadding();
     // What was changed stands out.
-    if (isGiven) ImGui::PushStyleColor(ImGuiCol_Text, accentColor(host.look()));
+    if (isGiven) ImGui::PushStyleColor(ImGuiCol_Text, accentNow());
     ImGui::TextUnformatted(labelOf(option).c_str());
     if (isGiven) ImGui::PopStyleColor();
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-        host.set(option.key, std::nullopt);
+        changes.set(option.key, std::nullopt);
     tooltip(tipOf(option));
     ImGui::SameLine(0.42f * ImGui::GetContentRegionAvail().x + ImGui::GetCursorPosX());
     ImGui::SetNextItemWidth(-FLT_MIN);
-    const std::vector<std::string> choices = choicesOf(host, option);
+    const std::vector<std::string> choices = choicesOf(changes, option);
     const ValueKind kind = option.value.kind;
     if (kind == ValueKind::Flag) {
         bool on = isGiven;
         if (ImGui::Checkbox("##value", &on))
-            host.set(option.key, on ? std::optional<std::string>("") : std::nullopt);
+            changes.set(option.key, on ? std::optional<std::string>("") : std::nullopt);
     } else if (!choices.empty() && (kind == ValueKind::Word || kind == ValueKind::Text)) {
-        chooseControl(host, option, choices, now.empty() ? option.fallback : now);
+        chooseControl(changes, option, choices, now.empty() ? option.fallback : now);
     } else if (!choices.empty() && kind == ValueKind::FileOrWord) {
         const float button = ImGui::GetFrameHeight();
         ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemInnerSpacing.x);
-        textControl(host, option, now);
+        textControl(changes, option, now);
         ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
         if (ImGui::BeginCombo("##choice", "", ImGuiComboFlags_NoPreview)) {
             for (const std::string& choice : choices)
-                if (ImGui::Selectable(choice.c_str(), choice == now)) host.set(option.key, choice);
+                if (ImGui::Selectable(choice.c_str(), choice == now)) changes.set(option.key, choice);
             ImGui::EndCombo();
         }
     } else if (kind == ValueKind::Number || kind == ValueKind::Whole) {
-        numberControl(host, option, now);
+        numberControl(changes, option, now);
     } else {
-        textControl(host, option, now);
+        textControl(changes, option, now);
     }
     tooltip(tipOf(option));
     ImGui::PopID();
 }
 
-void factTable(const PanelHost& host, const char* name, const Facts& facts) {
+void factTable(const char* name, const Facts& facts) {
     if (!ImGui::BeginTable(name, 2, ImGuiTableFlags_SizingStretchProp)) return;
     for (const auto& [label, text] : rowsOf(facts)) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        quietText(host, label);
+        quietText(label);
         ImGui::TableNextColumn();
         wrappedText(text);
     }

@@ -47,12 +47,12 @@ void CoveragePanel::drawSettings(LiveCoverage& coverage) {
     coverage.judgeBy(mEdited);
 }
 
-void CoveragePanel::drawUnseen(PanelHost& host, LiveCoverage& coverage) {
+void CoveragePanel::drawUnseen(LiveCoverage& coverage, ViewSession& session, AskedActions& actions) {
     constexpr float kRows = 8;
     const std::vector<UnseenPart>& unseen = coverage.soFar().unseen;
-    if (unseen.empty()) return quietText(host, "No patch of that size was left unseen.");
-    quietText(host, fmt::format("{} unseen patch{}: area, place along the line", unseen.size(),
-                                unseen.size() > 1 ? "es" : ""));
+    if (unseen.empty()) return quietText("No patch of that size was left unseen.");
+    quietText(fmt::format("{} unseen patch{}: area, place along the line", unseen.size(),
+                          unseen.size() > 1 ? "es" : ""));
     const float row = ImGui::GetTextLineHeightWithSpacing();
     const float rows = std::min(kRows, static_cast<float>(unseen.size()));
     if (ImGui::BeginChild("unseen", {0, rows * row})) {
@@ -63,7 +63,7 @@ void CoveragePanel::drawUnseen(PanelHost& host, LiveCoverage& coverage) {
             ImGui::BeginDisabled(!part.view);
             if (ImGui::Selectable("##part", chosen && chosen->place == part.place)) {
                 coverage.choose(part);
-                host.session()->flyTo(*part.view);
+                session.flyTo(*part.view);
             }
             ImGui::EndDisabled();
             if (!part.view) tooltip("There is no room for an eye before it.");
@@ -77,21 +77,20 @@ void CoveragePanel::drawUnseen(PanelHost& host, LiveCoverage& coverage) {
         }
     }
     ImGui::EndChild();
-    if (ImGui::Button("Next")) host.act({ViewCommand::NextUnseen});
+    if (ImGui::Button("Next")) actions.ask({ViewCommand::NextUnseen});
     tooltip("Flies to the next smaller patch. Key: F8");
     ImGui::SameLine();
-    if (ImGui::Button("Previous")) host.act({ViewCommand::PreviousUnseen});
+    if (ImGui::Button("Previous")) actions.ask({ViewCommand::PreviousUnseen});
     tooltip("Flies to the next larger patch. Key: Shift+F8");
 }
 
-void CoveragePanel::draw(PanelHost& host) {
-    LiveCoverage* const coverage = host.coverage();
+void CoveragePanel::draw(LiveCoverage* coverage, ViewSession& session, AskedActions& actions) {
     if (!coverage) return;
     bool on = coverage->on();
     if (on && !mWasOn) ImGui::SetNextItemOpen(true);  // by its key
     mWasOn = on;
     if (!ImGui::CollapsingHeader("Coverage")) return;
-    if (ImGui::Checkbox("Follow what is seen", &on)) host.act({ViewCommand::ToggleCoverage});
+    if (ImGui::Checkbox("Follow what is seen", &on)) actions.ask({ViewCommand::ToggleCoverage});
     tooltip(
         "Tints the wall that the left eye has not shown yet, from now on and in flights of before in this "
         "file. Key: F9");
@@ -100,9 +99,9 @@ void CoveragePanel::draw(PanelHost& host) {
     if (now.any)
         wrappedText(fmt::format("{:.1f} % of the wall seen", now.percent));
     else
-        quietText(host, "looking at the wall");
-    quietText(host, fmt::format("{} flown in {:.0f} s{}", lengthText(coverage->metres()), coverage->seconds(),
-                                now.any && coverage->busy() ? ", still looking" : ""));
+        quietText("looking at the wall");
+    quietText(fmt::format("{} flown in {:.0f} s{}", lengthText(coverage->metres()), coverage->seconds(),
+                          now.any && coverage->busy() ? ", still looking" : ""));
     if (const std::string problem = coverage->problem(); !problem.empty()) wrappedText(problem);
     drawSettings(*coverage);
     if (ImGui::Button("+ One way")) coverage->addOwnFlight(false);
@@ -112,7 +111,7 @@ void CoveragePanel::draw(PanelHost& host) {
     tooltip("Counts the scene's own flight there and back as flown.");
     if (ImGui::Button("Start again")) coverage->startAgain();
     tooltip("Nothing was flown.");
-    if (now.any) drawUnseen(host, *coverage);
+    if (now.any) drawUnseen(*coverage, session, actions);
 }
 
 }  // namespace stereonav

@@ -1,17 +1,20 @@
 // How much of a closed wall was on screen, and the way to what was not.
 #pragma once
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/live_coverage.h"
+#include "app/view/session.h"
+#include "app/view/window_input.h"
 
 namespace stereonav {
 
 class CoveragePanel {
 public:
-    void draw(PanelHost& host);  // with its heading, where the scene has such a wall
+    // With its heading. coverage: null where the scene has no such wall.
+    void draw(LiveCoverage* coverage, ViewSession& session, AskedActions& actions);
 
 private:
     void drawSettings(LiveCoverage& coverage);
-    void drawUnseen(PanelHost& host, LiveCoverage& coverage);
+    void drawUnseen(LiveCoverage& coverage, ViewSession& session, AskedActions& actions);
 
     WallLooking mEdited;
     bool mEditing = false, mWasOn = false;

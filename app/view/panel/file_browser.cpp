@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdlib>
 #include <system_error>
+#include <utility>
 
 #include "app/view/panel/controls.h"
 #include "app/view/panel/file_look_rows.h"
@@ -96,23 +97,16 @@ void FileBrowser::goTo(const std::filesystem::path& folder) {
     });
 }
 
-void FileBrowser::choose(PanelHost& host, const std::filesystem::path& path) {
+void FileBrowser::choose(const std::filesystem::path& path) {
     mOpen = false;
-    if (mFor == For::Open)
-        host.open(path.string());
-    else if (mFor == For::OpenOther)
-        host.openOther(path.string());
-    else if (mFor == For::OpenPath)
-        host.openPath(path);
-    else
-        host.saveScene(path);
+    mChosen = path;
 }
 
-void FileBrowser::drawEntries(PanelHost& host) {
+void FileBrowser::drawEntries() {
     const float font = ImGui::GetFontSize();
     const float below = mFor == For::Open ? kLookLines * ImGui::GetTextLineHeightWithSpacing() : 0;
     ImGui::BeginChild("##entries", {0, -2 * ImGui::GetFrameHeightWithSpacing() - below}, true);
-    if (!mProblem.empty()) quietText(host, mProblem);
+    if (!mProblem.empty()) quietText(mProblem);
     fs::path next;
     const std::string filter = lowerCase(mFilter);
     for (const Entry& entry : mEntries) {
@@ -124,7 +118,7 @@ void FileBrowser::drawEntries(PanelHost& host) {
             next = mFolder / entry.name;
         else if (clicked && !entry.folder) {
             mName = entry.name;
-            if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) choose(host, mFolder / entry.name);
+            if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) choose(mFolder / entry.name);
         } else if (clicked) {
             mName = entry.name;
         }
@@ -134,7 +128,7 @@ void FileBrowser::drawEntries(PanelHost& host) {
             const std::string size = sizeText(entry.bytes);
             ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(size.c_str()).x -
                             0.5f * font);
-            quietText(host, size);
+            quietText(size);
         }
         ImGui::PopID();
     }
@@ -147,16 +141,16 @@ void FileBrowser::drawEntries(PanelHost& host) {
 }
 
 // Of what is named below, where that is there.
-void FileBrowser::drawLook(PanelHost& host) {
+void FileBrowser::drawLook(FileLooks& looks) {
     ImGui::BeginChild("##look", {0, kLookLines * ImGui::GetTextLineHeightWithSpacing()});
     std::error_code code;
     const fs::path chosen = mFolder / mName;
-    if (!mName.empty() && fs::exists(chosen, code)) drawFileLook(host, host.lookAt(chosen), kLookLines);
+    if (!mName.empty() && fs::exists(chosen, code)) drawFileLook(looks.look(chosen), kLookLines);
     ImGui::EndChild();
 }
 
-void FileBrowser::draw(PanelHost& host) {
-    if (!mOpen) return;
+std::optional<std::filesystem::path> FileBrowser::draw(FileLooks& looks) {
+    if (!mOpen) return std::nullopt;
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({whole.x / 2, whole.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -179,10 +173,10 @@ void FileBrowser::draw(PanelHost& host) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##filter", "part of a name", &mFilter);
-    quietText(host, mFolder.string());
-    drawEntries(host);
+    quietText(mFolder.string());
+    drawEntries();
     const bool save = mFor == For::SaveScene;
-    if (!save) drawLook(host);
+    if (!save) drawLook(looks);
     ImGui::SetNextItemWidth(-14 * font);
     if (mFresh) ImGui::SetKeyboardFocusHere();
     mFresh = false;
@@ -192,8 +186,9 @@ void FileBrowser::draw(PanelHost& host) {
     done |= ImGui::Button(save ? "Save" : "Open");
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) mOpen = false;
-    if (done && !mName.empty() && mOpen) choose(host, mFolder / mName);
+    if (done && !mName.empty() && mOpen) choose(mFolder / mName);
     ImGui::End();
+    return std::exchange(mChosen, std::nullopt);
 }
 
 }  // namespace stereonav

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/file_looks.h"
 
 namespace stereonav {
 
@@ -16,7 +17,9 @@ public:
     void open(For what);
     void close() { mOpen = false; }
     bool isOpen() const { return mOpen; }
-    void draw(PanelHost& host);
+    // What was chosen, once; none mostly.
+    std::optional<std::filesystem::path> draw(FileLooks& looks);
+    For purpose() const { return mFor; }
     // Where the next look begins; "" for the present folder.
     void startIn(const std::filesystem::path& folder) { mFolder = folder; }
     const std::filesystem::path& folder() const { return mFolder; }
@@ -28,13 +31,14 @@ private:
         std::uintmax_t bytes = 0;
     };
     void goTo(const std::filesystem::path& folder);
-    void choose(PanelHost& host, const std::filesystem::path& path);
-    void drawEntries(PanelHost& host);
-    void drawLook(PanelHost& host);
+    void choose(const std::filesystem::path& path);
+    void drawEntries();
+    void drawLook(FileLooks& looks);
 
     bool mOpen = false, mFresh = false, mAll = false;
     For mFor = For::Open;
     std::filesystem::path mFolder;
+    std::optional<std::filesystem::path> mChosen;
     std::vector<Entry> mEntries;
     std::string mProblem, mName, mFilter;
 };

@@ -6,10 +6,10 @@
 
 namespace stereonav {
 
-void drawFileLook(PanelHost& host, const FileLook& look, int mostLines, float wrap) {
-    if (look.busy) return quietLine(host, "looking ...");
+void drawFileLook(const FileLook& look, int mostLines, float wrap) {
+    if (look.busy) return quietLine("looking ...");
     if (!look.problem.empty()) {
-        ImGui::PushStyleColor(ImGuiCol_Text, warningColor(host.look()));
+        ImGui::PushStyleColor(ImGuiCol_Text, warningNow());
         ImGui::PushTextWrapPos(wrap);
         plainText(look.problem);
         ImGui::PopTextWrapPos();
@@ -19,7 +19,7 @@ void drawFileLook(PanelHost& host, const FileLook& look, int mostLines, float wr
     int lines = 0;
     for (const auto& [label, words] : look.rows) {
         if (lines++ == mostLines) break;
-        quietLine(host, label);
+        quietLine(label);
         ImGui::SameLine(7 * ImGui::GetFontSize());
         plainText(words);
     }

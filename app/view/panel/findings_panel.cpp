@@ -10,27 +10,26 @@
 
 namespace stereonav {
 
-bool FindingsPanel::inUse(PanelHost& host) {
-    const FindingList* const list = host.findings();
+bool FindingsPanel::inUse(Instruments& instruments) {
+    const FindingList* const list = instruments.findings();
     return list && (list->clicks() || !list->rows().empty() || !list->candidates().empty());
 }
 
-std::optional<glm::dvec3> FindingsPanel::draw(PanelHost& host) {
-    FindingList* const list = host.findings();
+std::optional<glm::dvec3> FindingsPanel::draw(Instruments& instruments, StudyReading& study,
+                                              ViewSession& session, Notices& notices,
+                                              const Clipboard& clipboard) {
+    FindingList* const list = instruments.findings();
     if (!list) return std::nullopt;
     mChosen.reset();
     bool clicks = list->clicks();
-    if (ImGui::Checkbox("Clicks add findings", &clicks)) {
-        if (clicks) host.measure(false);
-        list->setClicks(clicks);
-    }
+    if (ImGui::Checkbox("Clicks add findings", &clicks)) instruments.clickFindings(clicks);
     tooltip(
         "A click on the picture, while nothing moves, or in a slice, measures the polyp there. Key, at any "
         "time: Ctrl+F");
-    quietText(host, list->maker()->notice());
+    quietText(list->maker()->notice());
     if (!list->rows().empty()) {
         list->use();
-        host.study();  // whose values are told
+        study.wanted(session);  // whose values are told
     }
     if (list->busy()) {
         const std::string text = fmt::format("{} {:.0f} %", list->doing(), 100 * list->fraction());
@@ -42,30 +41,27 @@ std::optional<glm::dvec3> FindingsPanel::draw(PanelHost& host) {
         if (ImGui::SmallButton("Measure again")) list->goOn();
     }
     if (!list->problem().empty()) wrappedText(list->problem());
-    if (!list->told().empty()) quietText(host, list->told());
-    if (list->rows().empty()) quietText(host, "No findings yet.");
+    if (!list->told().empty()) quietText(list->told());
+    if (list->rows().empty()) quietText("No findings yet.");
     if (!list->summary().empty()) wrappedText(list->summary());
     // A copy: what is pressed changes the list.
     const std::vector<FindingList::Row> rows = list->rows();
-    for (std::size_t n = 0; n < rows.size(); ++n) drawRow(host, *list, rows[n], std::to_string(n + 1));
+    for (std::size_t n = 0; n < rows.size(); ++n) drawRow(session, *list, rows[n], std::to_string(n + 1));
     if (list->canPutBack()) {
         if (ImGui::SmallButton("Undo remove")) list->putBack();
         tooltip("Puts back what was removed last.");
     }
-    drawCandidates(host, *list);
-    drawFiles(host, *list);
+    drawCandidates(session, study, *list);
+    drawFiles(session, notices, clipboard, *list);
     return mChosen;
 }
 
-void FindingsPanel::goTo(PanelHost& host, const SurfaceFinding& finding) {
+void FindingsPanel::goTo(ViewSession& session, const SurfaceFinding& finding) {
     mChosen = finding.middle;
-    if (!finding.view) return;
-    Bookmark there;
-    there.pose = *finding.view;
-    host.goToPlace(there);
+    if (finding.view) session.flyTo(*finding.view);
 }
 
-void FindingsPanel::drawRow(PanelHost& host, FindingList& list, const FindingList::Row& row,
+void FindingsPanel::drawRow(ViewSession& session, FindingList& list, const FindingList::Row& row,
                             const std::string& name) {
     const SurfaceFinding& finding = row.finding;
     ImGui::PushID(row.id);
@@ -75,13 +71,13 @@ void FindingsPanel::drawRow(PanelHost& host, FindingList& list, const FindingLis
     const float button = 1.8f * ImGui::GetFontSize();
     if (ImGui::Selectable(fmt::format("{}:  {}", name, size).c_str(), false, 0,
                           {ImGui::GetContentRegionAvail().x - button, 0}))
-        goTo(host, finding);
+        goTo(session, finding);
     tooltip("Fly there, and show it in the slices.");
     ImGui::SameLine();
     if (ImGui::SmallButton("\u2715")) list.remove(row.id);
     tooltip("Removes this finding.");
     ImGui::Indent();
-    for (const std::string& line : finding.lines) quietText(host, line);
+    for (const std::string& line : finding.lines) quietText(line);
     if (!row.note.empty()) wrappedText(row.note);
     drawComment(list, row);
     ImGui::Unindent();
@@ -107,9 +103,9 @@ void FindingsPanel::drawComment(FindingList& list, const FindingList::Row& row) 
     mCommenting = 0;
 }
 
-void FindingsPanel::drawCandidates(PanelHost& host, FindingList& list) {
+void FindingsPanel::drawCandidates(ViewSession& session, StudyReading& study, FindingList& list) {
     if (ImGui::Button("Candidates")) {
-        host.study();
+        study.wanted(session);
         list.findCandidates();
     }
     tooltip(
@@ -125,7 +121,7 @@ void FindingsPanel::drawCandidates(PanelHost& host, FindingList& list) {
         const std::string label = fmt::format("candidate: {:.1f} mm", 1e3 * row.finding.diameter);
         ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(110, 190, 255, 255));
         if (ImGui::Selectable(label.c_str(), false, 0, {ImGui::GetContentRegionAvail().x - button, 0}))
-            goTo(host, row.finding);
+            goTo(session, row.finding);
         ImGui::PopStyleColor();
         tooltip("Fly there. A candidate only, to be looked at: " + row.finding.comment);
         ImGui::SameLine();
@@ -137,28 +133,29 @@ void FindingsPanel::drawCandidates(PanelHost& host, FindingList& list) {
     }
 }
 
-void FindingsPanel::drawFiles(PanelHost& host, FindingList& list) {
+void FindingsPanel::drawFiles(const ViewSession& session, Notices& notices, const Clipboard& clipboard,
+                              FindingList& list) {
     if (list.rows().empty()) return;
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##page", "findings.html", &mPage);
     ImGui::BeginDisabled(list.busy());
-    if (ImGui::Button("Write page")) host.writeFindingsPage(mPage);
+    if (ImGui::Button("Write page")) notices.tryTo([&] { list.writePage(mPage); });
     ImGui::EndDisabled();
     tooltip("One HTML file with the list and pictures of each.");
     ImGui::SameLine();
     if (ImGui::Button("Copy command"))
-        host.copy(fmt::format("stereonav findings '{}' --file '{}' --page findings.html",
-                              host.session()->open().scene->name, list.file().string()));
+        clipboard.copy(fmt::format("stereonav findings '{}' --file '{}' --page findings.html",
+                                   session.open().scene->name, list.file().string()));
     tooltip(fmt::format("Goes on with the list without a window. It is kept in {}", list.file().string()));
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##report", "findings.dcm", &mReport);
     const std::string why = list.maker()->whyNoReport();
     ImGui::BeginDisabled(list.busy() || !why.empty());
-    if (ImGui::Button("Write DICOM report")) host.writeFindingsReport(mReport);
+    if (ImGui::Button("Write DICOM report")) notices.tryTo([&] { list.writeReport(mReport); });
     ImGui::EndDisabled();
     tooltip(why.empty() ? "A DICOM structured report of the list, for archives."
                         : "Can not be had: " + why + ".");
-    quietText(host, "kept in " + list.file().string());
+    quietText("kept in " + list.file().string());
 }
 
 }  // namespace stereonav

@@ -5,24 +5,29 @@
 #include <optional>
 #include <string>
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/clipboard.h"
+#include "app/view/instruments.h"
+#include "app/view/notices.h"
 
 namespace stereonav {
 
 class FindingsPanel {
 public:
-    static bool has(PanelHost& host) { return host.findings() != nullptr; }
+    static bool has(Instruments& instruments) { return instruments.findings() != nullptr; }
     // Whether there is something to be seen in it without asking.
-    static bool inUse(PanelHost& host);
+    static bool inUse(Instruments& instruments);
     // A place that the slices are to go to: of a finding that was chosen.
-    std::optional<glm::dvec3> draw(PanelHost& host);
+    std::optional<glm::dvec3> draw(Instruments& instruments, StudyReading& study, ViewSession& session,
+                                   Notices& notices, const Clipboard& clipboard);
 
 private:
-    void goTo(PanelHost& host, const SurfaceFinding& finding);
-    void drawRow(PanelHost& host, FindingList& list, const FindingList::Row& row, const std::string& name);
+    void goTo(ViewSession& session, const SurfaceFinding& finding);
+    void drawRow(ViewSession& session, FindingList& list, const FindingList::Row& row,
+                 const std::string& name);
     void drawComment(FindingList& list, const FindingList::Row& row);
-    void drawCandidates(PanelHost& host, FindingList& list);
-    void drawFiles(PanelHost& host, FindingList& list);
+    void drawCandidates(ViewSession& session, StudyReading& study, FindingList& list);
+    void drawFiles(const ViewSession& session, Notices& notices, const Clipboard& clipboard,
+                   FindingList& list);
 
     int mCommenting = 0;  // the row whose comment is edited; 0: none
     bool mFocus = false;  // the field for it was just opened

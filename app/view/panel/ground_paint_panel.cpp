@@ -30,7 +30,7 @@ float shareOf(double interval) {
     return kNoneShare + (1 - kNoneShare) * static_cast<float>(std::clamp(share, 0.0, 1.0));
 }
 
-void drawInterval(PanelHost& host, const LivePaint& paint) {
+void drawInterval(SceneChanges& changes, const LivePaint& paint) {
     const std::string text = paint.now("contours");
     const auto number = numberOf(text);
     const double interval = number.value_or(0);
@@ -41,13 +41,14 @@ void drawInterval(PanelHost& host, const LivePaint& paint) {
     ImGui::SetNextItemWidth(-FLT_MIN);
     if (ImGui::SliderFloat("##interval", &share, 0, 1, shown.c_str(),
                            ImGuiSliderFlags_NoRoundToFormat | ImGuiSliderFlags_NoInput))
-        host.set("contours", fmt::format("{:.0f}", intervalAt(share)));
+        changes.set("contours", fmt::format("{:.0f}", intervalAt(share)));
     tooltip("Metres between contour lines, changed as it is dragged; at the left end there are none.");
 }
 
-void drawSeenFrom(PanelHost& host, LivePaint& paint) {
+void drawSeenFrom(SceneChanges& changes, Instruments& instruments, const ViewSession& session,
+                  LivePaint& paint) {
     static double height = 2;
-    bool on = host.seesFromClicks().has_value();
+    bool on = instruments.seesFrom().has_value();
     bool changed = ImGui::Checkbox("Clicks paint what is seen", &on);
     tooltip(
         "From each place that is clicked on the ground, while nothing moves. What is hidden from there is "
@@ -59,32 +60,32 @@ void drawSeenFrom(PanelHost& host, LivePaint& paint) {
         changed = true;
     }
     tooltip("How high the eye is that looks from there.");
-    if (changed) host.seeFromClicks(on ? std::optional(height) : std::nullopt);
+    if (changed) instruments.seeFrom(on ? std::optional(height) : std::nullopt);
     if (ImGui::Button("What is seen from here"))
-        paint.askSeenFrom(glm::dvec2(host.session()->pose().position), height);
+        paint.askSeenFrom(glm::dvec2(session.pose().position), height);
     tooltip("From the ground under the eyes, so high above it.");
     if (paint.now("paint").empty()) return;
     ImGui::SameLine();
-    if (ImGui::Button("None##paint")) host.set("paint", std::nullopt);
+    if (ImGui::Button("None##paint")) changes.set("paint", std::nullopt);
     tooltip("Takes what is painted away.");
 }
 
 }  // namespace
 
-void drawGroundPaint(PanelHost& host, const Scene& scene) {
-    auto* const paint = scene.offered<LivePaint>();
+void drawGroundPaint(SceneChanges& changes, Instruments& instruments, const ViewSession& session) {
+    auto* const paint = session.open().scene->offered<LivePaint>();
     if (!paint) return;
-    drawInterval(host, *paint);
-    drawSeenFrom(host, *paint);
+    drawInterval(changes, *paint);
+    drawSeenFrom(changes, instruments, session, *paint);
 }
 
-void drawHoursButton(PanelHost& host, const std::string& date) {
-    const Scene& scene = *host.session()->open().scene;
+void drawHoursButton(SceneChanges& changes, const std::string& date) {
+    const Scene& scene = *changes.scene()->scene;
     const auto* const paint = scene.offered<LivePaint>();
     if (!paint || !scene.offered<OnEarth>()) return;
     const std::string text = "hours:" + date;
     ImGui::BeginDisabled(paint->now("paint") == text);
-    if (ImGui::Button("Paint hours of sun")) host.set("paint", text);
+    if (ImGui::Button("Paint hours of sun")) changes.set("paint", text);
     ImGui::EndDisabled();
     tooltip(
         "How long the sun reaches each place of the ground on this day; it is worked out beside the flight.");

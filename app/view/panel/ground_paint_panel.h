@@ -2,14 +2,15 @@
 // from a place.
 #pragma once
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/instruments.h"
+#include "app/view/scene_changes.h"
 
 namespace stereonav {
 
 // Nothing where the scene's paint can not be exchanged.
-void drawGroundPaint(PanelHost& host, const Scene& scene);
+void drawGroundPaint(SceneChanges& changes, Instruments& instruments, const ViewSession& session);
 
 // --paint hours of a date, "2026-12-21", as a button.
-void drawHoursButton(PanelHost& host, const std::string& date);
+void drawHoursButton(SceneChanges& changes, const std::string& date);
 
 }  // namespace stereonav

@@ -23,17 +23,17 @@ void drawEntry(const LegendEntry& entry, int id) {
 
 }  // namespace
 
-void drawLegend(PanelHost& host, const Scene& scene) {
+void drawLegend(const Scene& scene) {
     const auto* const live = scene.offered<LivePaint>();
     const std::shared_ptr<const PaintLegend> newest = live ? live->legend() : nullptr;
     const PaintLegend* const painted = newest ? newest.get() : scene.offered<const PaintLegend>();
     if (!painted) return;
     int id = 0;
     for (const Legend& legend : painted->legends) {
-        quietText(host, legend.title);
+        quietText(legend.title);
         for (const LegendEntry& entry : legend.entries) drawEntry(entry, id++);
     }
-    for (const std::string& note : painted->notes) quietText(host, note);
+    for (const std::string& note : painted->notes) quietText(note);
 }
 
 }  // namespace stereonav

@@ -57,10 +57,8 @@ double halfFovAcross(const ViewSession& session, const SizeOption& size) {
 
 }  // namespace
 
-bool MapPanel::has(PanelHost& host) {
-    ViewSession* const session = host.session();
-    if (!session) return false;
-    const Scene& scene = *session->open().scene;
+bool MapPanel::has(const ViewSession& session) {
+    const Scene& scene = *session.open().scene;
     const auto* const line = scene.offered<LineOnMap>();
     return scene.offered<MapFromAbove>() || (line && line->places.size() > 1);
 }
@@ -95,24 +93,21 @@ void MapPanel::look(const std::shared_ptr<const OpenScene>& scene) {
     }
 }
 
-void MapPanel::draw(PanelHost& host) {
-    ViewSession* const session = host.session();
-    if (!session) return;
-    look(session->openShared());
-    const auto* const line = session->open().scene->offered<LineOnMap>();
+void MapPanel::draw(ViewSession& session, KeyframeEdit& edit, const SizeOption& eye) {
+    look(session.openShared());
+    const auto* const line = session.open().scene->offered<LineOnMap>();
     if (mMap)
-        drawPicture(host, *session);
+        drawPicture(session, edit, eye);
     else if (line && line->places.size() > 1)
-        drawLine(host, *session, *line);
+        drawLine(session, edit, eye, *line);
     else
-        return quietText(host, mMaking.valid() ? "drawing the map" : "no map");
-    if (host.keyframes().any() && mFlown.anyBlocked) quietText(host, "Red: a wall is in the way.");
+        return quietText(mMaking.valid() ? "drawing the map" : "no map");
+    if (edit.any() && mFlown.anyBlocked) quietText("Red: a wall is in the way.");
 }
 
-void MapPanel::drawPath(PanelHost& host, ViewSession& session, const Placed& placed) {
+void MapPanel::drawPath(ViewSession& session, KeyframeEdit& edit, const Placed& placed) {
     constexpr ImU32 kWay = IM_COL32(255, 255, 255, 150), kBlocked = IM_COL32(255, 60, 60, 255);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const KeyframeEdit& edit = host.keyframes();
     const bool edits = edit.any();
     if (edits && mFlownVersion != edit.version()) try {
             mFlownVersion = edit.version();
@@ -120,7 +115,7 @@ void MapPanel::drawPath(PanelHost& host, ViewSession& session, const Placed& pla
         } catch (const Error&) {
             mFlown = {};  // what can not be flown has no line
         }
-    const auto& samples = edits ? mFlown.path.samples() : session.path().samples();
+    const auto& samples = edits ? mFlown.path.samples() : session.paths().path().samples();
     for (std::size_t n = 1; n < samples.size(); ++n)
         list.AddLine(placed(samples[n - 1].pose.position), placed(samples[n].pose.position),
                      edits && mFlown.blocked[n - 1] ? kBlocked : kWay, edits ? 2.0f : 1.5f);
@@ -135,9 +130,8 @@ void MapPanel::drawPath(PanelHost& host, ViewSession& session, const Placed& pla
     if (edit.chosen()) handle(*edit.chosen(), 0.34f, markColor());  // over its neighbours
 }
 
-bool MapPanel::dragKeyframes(PanelHost& host, ViewSession& session, const Placed& placed,
+bool MapPanel::dragKeyframes(ViewSession& session, KeyframeEdit& edit, const Placed& placed,
                              const Unplaced& unplaced) {
-    KeyframeEdit& edit = host.keyframes();
     if (!edit.any()) return false;
     const ImVec2 pointer = ImGui::GetIO().MousePos;
     const auto under = keyframeUnder(edit, pointer, placed);
@@ -165,7 +159,7 @@ bool MapPanel::dragKeyframes(PanelHost& host, ViewSession& session, const Placed
     return true;
 }
 
-void MapPanel::drawPicture(PanelHost& host, ViewSession& session) {
+void MapPanel::drawPicture(ViewSession& session, KeyframeEdit& edit, const SizeOption& eye) {
     const float width = ImGui::GetContentRegionAvail().x;
     const float scale = std::min(width / static_cast<float>(mMap->picture.width()),
                                  kTallest * width / static_cast<float>(mMap->picture.height()));
@@ -182,9 +176,9 @@ void MapPanel::drawPicture(PanelHost& host, ViewSession& session) {
         return ImVec2(from.x + scale * static_cast<float>(pixel.x),
                       from.y + scale * static_cast<float>(pixel.y));
     };
-    drawPath(host, session, placed);
+    drawPath(session, edit, placed);
     const Pose pose = session.pose();
-    drawEye(placed(pose.position), anglesOf(pose).heading, halfFovAcross(session, host.pictureSize()));
+    drawEye(placed(pose.position), anglesOf(pose).heading, halfFovAcross(session, eye));
     list.PopClipRect();
     const auto pointed = [&](const ImVec2& at) {
         const glm::dvec2 pixel((at.x - from.x) / scale, (at.y - from.y) / scale);
@@ -194,7 +188,7 @@ void MapPanel::drawPicture(PanelHost& host, ViewSession& session) {
     const auto dragged = [&](const ImVec2& at, const glm::dvec3& origin) {
         return overGround(session.flight(), origin, pointed(at));
     };
-    if (dragKeyframes(host, session, placed, dragged) || !hovered) return;
+    if (dragKeyframes(session, edit, placed, dragged) || !hovered) return;
     const glm::dvec2 world = pointed(ImGui::GetIO().MousePos);
     const glm::dvec3 there(world.x, world.y, pose.position.z);
     std::string text = fmt::format("{:.0f} m east, {:.0f} m north", world.x, world.y);
@@ -211,7 +205,8 @@ void MapPanel::drawPicture(PanelHost& host, ViewSession& session) {
     session.flyTo(goal);
 }
 
-void MapPanel::drawLine(PanelHost& host, ViewSession& session, const LineOnMap& line) {
+void MapPanel::drawLine(ViewSession& session, KeyframeEdit& edit, const SizeOption& eye,
+                        const LineOnMap& line) {
     glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     const auto flat = [&](const glm::dvec3& world) {
         return glm::dvec2(glm::dot(world, line.right), -glm::dot(world, line.up));
@@ -245,16 +240,16 @@ void MapPanel::drawLine(PanelHost& host, ViewSession& session, const LineOnMap& 
         const float away = std::hypot(at.x - pointer.x, at.y - pointer.y);
         if (away < best) best = away, nearest = &line.places[n];
     }
-    if (host.keyframes().any()) drawPath(host, session, placed);
+    if (edit.any()) drawPath(session, edit, placed);
     const Pose pose = session.pose();
     const glm::dvec3 forward = pose.forward();
     const double heading = std::atan2(glm::dot(forward, line.right), glm::dot(forward, line.up));
-    drawEye(placed(pose.position), heading, halfFovAcross(session, host.pictureSize()));
+    drawEye(placed(pose.position), heading, halfFovAcross(session, eye));
     // On the line, which is clear of the wall.
     const auto dragged = [&](const ImVec2&, const glm::dvec3& origin) {
         return nearest ? nearest->world : origin;
     };
-    if (dragKeyframes(host, session, placed, dragged) || !hovered || !nearest) return;
+    if (dragKeyframes(session, edit, placed, dragged) || !hovered || !nearest) return;
     list.AddCircle(placed(nearest->world), 0.35f * ImGui::GetFontSize(), markColor(), 0, 2);
     tooltip(fmt::format("{} from the start; click: fly there", lengthText(nearest->along)));
     if (clicked) session.flyAlong(nearest->along);

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "app/view/keyframe_edit.h"
-#include "app/view/panel/panel_host.h"
 #include "app/view/panel/panel_texture.h"
+#include "app/view/session.h"
 #include "engine/base/progress.h"
 
 struct ImVec2;
@@ -20,8 +20,9 @@ class MapPanel {
 public:
     ~MapPanel() { forget(); }
     // Whether the scene has one.
-    static bool has(PanelHost& host);
-    void draw(PanelHost& host);
+    static bool has(const ViewSession& session);
+    // eye: pixels of its picture.
+    void draw(ViewSession& session, KeyframeEdit& edit, const SizeOption& eye);
     void forget();  // textures and what is being made; while the context is there
 
 private:
@@ -29,11 +30,12 @@ private:
     // Between the world and the screen.
     using Placed = std::function<ImVec2(const glm::dvec3&)>;
     using Unplaced = std::function<glm::dvec3(const ImVec2&, const glm::dvec3& from)>;
-    void drawPath(PanelHost& host, ViewSession& session, const Placed& placed);
+    void drawPath(ViewSession& session, KeyframeEdit& edit, const Placed& placed);
     // Of the last item, which is the map. True: the pointer is theirs.
-    bool dragKeyframes(PanelHost& host, ViewSession& session, const Placed& placed, const Unplaced& unplaced);
-    void drawPicture(PanelHost& host, ViewSession& session);
-    void drawLine(PanelHost& host, ViewSession& session, const LineOnMap& line);
+    bool dragKeyframes(ViewSession& session, KeyframeEdit& edit, const Placed& placed,
+                       const Unplaced& unplaced);
+    void drawPicture(ViewSession& session, KeyframeEdit& edit, const SizeOption& eye);
+    void drawLine(ViewSession& session, KeyframeEdit& edit, const SizeOption& eye, const LineOnMap& line);
 
     std::shared_ptr<const OpenScene> mScene;
     std::shared_ptr<Progress> mProgress;  // of what is being made

@@ -18,13 +18,13 @@ namespace stereonav {
 namespace {
 
 // Heights over the distance; under the pointer the place is shown in the picture too.
-void drawProfile(PanelHost& host, const MeasuredSurface& measured) {
+void drawProfile(Instruments& instruments, const MeasuredSurface& measured) {
     const std::vector<glm::dvec2>& profile = measured.profile;
     if (profile.size() < 2 || !(profile.back().x > profile.front().x)) return;
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const glm::dvec2& point : profile)
         if (std::isfinite(point.y)) low = std::min(low, point.y), high = std::max(high, point.y);
-    if (!(low <= high)) return quietText(host, "no height is known along it");
+    if (!(low <= high)) return quietText("no height is known along it");
     if (high == low) low -= 0.5, high += 0.5;
     const float font = ImGui::GetFontSize();
     const ImVec2 size(ImGui::GetContentRegionAvail().x, 6 * font), corner = ImGui::GetCursorScreenPos();
@@ -49,18 +49,18 @@ void drawProfile(PanelHost& host, const MeasuredSurface& measured) {
         const std::size_t index = static_cast<std::size_t>(next - profile.begin());
         const ImVec2 top = at({profile[index].x, high}), bottom = at({profile[index].x, low});
         list.AddLine(top, bottom, ink);
-        host.markWorld(measured.places[index]);
+        instruments.mark(measured.places[index]);
         tooltip(std::isfinite(profile[index].y)
                     ? fmt::format("{} along the line, {:.1f} m high", lengthText(profile[index].x),
                                   profile[index].y)
                     : fmt::format("{} along the line, no height is known", lengthText(profile[index].x)));
     }
-    quietText(host, fmt::format("{:.1f} to {:.1f} m, {}", low, high, lengthText(length)));
+    quietText(fmt::format("{:.1f} to {:.1f} m, {}", low, high, lengthText(length)));
 }
 
 // Of grounds: lines of sight are told among the figures.
-void drawEyeHeight(PanelHost& host, MeasuredLine& line) {
-    const Scene& scene = *host.session()->open().scene;
+void drawEyeHeight(const ViewSession& session, MeasuredLine& line) {
+    const Scene& scene = *session.open().scene;
     if (line.closed() || !scene.offered<LivePaint>()) return;
     double height = line.eyeHeight();
     ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
@@ -72,27 +72,28 @@ void drawEyeHeight(PanelHost& host, MeasuredLine& line) {
 }
 
 // Of the line, as the commands `profile` and `measure` write it.
-void drawSaving(PanelHost& host) {
+void drawSaving(WindowJobs& jobs, const MeasuredLine& line) {
     static std::string file = "profile.svg";
-    const bool busy = host.job() && host.job()->running();
+    const bool busy = jobs.busy();
     ImGui::SetNextItemWidth(-5 * ImGui::GetFontSize());
     ImGui::InputTextWithHint("##measured file", "profile.svg", &file);
     tooltip("A .svg or .csv of the profile, or a .geojson of the line with its figures.");
     ImGui::SameLine();
     ImGui::BeginDisabled(busy || file.empty());
-    if (ImGui::Button("Save##measured")) host.saveMeasured(file);
+    if (ImGui::Button("Save##measured")) jobs.saveMeasured(line, file);
     ImGui::EndDisabled();
     tooltip("Written beside the flight; where a file is there already, the new one gets a number.");
 }
 
 }  // namespace
 
-void drawMeasurePanel(PanelHost& host) {
-    MeasuredLine* const line = host.measured();
+void drawMeasurePanel(Instruments& instruments, WindowJobs& jobs, ViewSession& session,
+                      const Clipboard& clipboard) {
+    MeasuredLine* const line = instruments.measured();
     if (!line) return;
-    host.markWorld(std::nullopt);  // unless the pointer is over the profile
-    bool on = host.measuring();
-    if (ImGui::Checkbox("Clicks add places", &on)) host.measure(on);
+    instruments.mark(std::nullopt);  // unless the pointer is over the profile
+    bool on = instruments.measuring();
+    if (ImGui::Checkbox("Clicks add places", &on)) instruments.measure(on);
     tooltip("Each click on the picture, while nothing moves, is the line's next place. Key: Ctrl+M");
     const bool empty = line->places().empty();
     ImGui::BeginDisabled(empty);
@@ -104,27 +105,27 @@ void drawMeasurePanel(PanelHost& host) {
     if (ImGui::Checkbox("Area", &closed)) line->setClosed(closed);
     tooltip("Joins the last place to the first: three places or more.");
     ImGui::EndDisabled();
-    drawTakenLines(host);
+    drawTakenLines(session, *line);
     if (!line->problem().empty()) wrappedText(line->problem());
     if (line->places().size() < 2)
-        return quietText(
-            host, empty ? "Two places and more are measured." : "One place: another one makes a line.");
+        return quietText(empty ? "Two places and more are measured."
+                               : "One place: another one makes a line.");
     if (line->busy())
-        quietText(host, fmt::format("measuring, {:.0f} %: any change ends it", 100 * line->fraction()));
+        quietText(fmt::format("measuring, {:.0f} %: any change ends it", 100 * line->fraction()));
     const MeasuredSurface* const measured = line->measured();
     if (!measured) return;
-    factTable(host, "measured", measured->facts);
-    drawEyeHeight(host, *line);
-    drawProfile(host, *measured);
-    const std::string where = measuredWords(*host.session()->open().scene, *line);
-    if (ImGui::Button("Copy figures")) host.copy(linesOf(measured->facts));
+    factTable("measured", measured->facts);
+    drawEyeHeight(session, *line);
+    drawProfile(instruments, *measured);
+    const std::string where = measuredWords(*session.open().scene, *line);
+    if (ImGui::Button("Copy figures")) clipboard.copy(linesOf(measured->facts));
     if (where.empty()) return;
     ImGui::SameLine();
     if (ImGui::Button("Copy command"))
-        host.copy(fmt::format("stereonav measure {} {} --csv measured.csv --geojson measured.geojson",
-                              shellWord(host.session()->open().scene->name), where));
+        clipboard.copy(fmt::format("stereonav measure {} {} --csv measured.csv --geojson measured.geojson",
+                                   shellWord(session.open().scene->name), where));
     tooltip("Measures the same without a window, and writes it as CSV and GeoJSON.");
-    drawSaving(host);
+    drawSaving(jobs, *line);
 }
 
 }  // namespace stereonav

@@ -1,10 +1,13 @@
 // A line over the surface: its places, what it measures, and its profile.
 #pragma once
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/clipboard.h"
+#include "app/view/instruments.h"
+#include "app/view/window_jobs.h"
 
 namespace stereonav {
 
-void drawMeasurePanel(PanelHost& host);
+void drawMeasurePanel(Instruments& instruments, WindowJobs& jobs, ViewSession& session,
+                      const Clipboard& clipboard);
 
 }  // namespace stereonav

@@ -2,93 +2,104 @@
 
 #include <imgui.h>
 
+#include "app/view/clipboard.h"
+#include "app/view/flown_keyframes.h"
 #include "app/view/panel/controls.h"
+#include "app/view/panel_stage.h"
+#include "app/view/picture_marks.h"
+#include "app/view/second_side.h"
+#include "app/view/window_input.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/text/printable.h"
 
 namespace stereonav {
 namespace {
 
-void item(PanelHost& host, const char* label, const char* key, ViewCommand command, bool checked = false) {
-    if (ImGui::MenuItem(label, key, checked, host.session() != nullptr)) host.act({command});
+void item(const PanelParts& parts, const char* label, const char* key, ViewCommand command,
+          bool checked = false) {
+    if (ImGui::MenuItem(label, key, checked, parts.session != nullptr)) parts.actions.ask({command});
 }
 
-void fileMenu(PanelHost& host, MenuWishes& wishes) {
+void fileMenu(const PanelParts& parts, MenuWishes& wishes) {
     if (!ImGui::BeginMenu("File")) return;
-    const bool shown = host.session() != nullptr;
+    const bool shown = parts.session != nullptr;
     if (ImGui::MenuItem("Open...", "Ctrl+O")) wishes.openFile = true;
     if (wishes.other && ImGui::MenuItem("Open the other study...")) wishes.openOther = true;
     if (ImGui::MenuItem("Start page", "Ctrl+N")) wishes.start = true;
     ImGui::Separator();
     if (ImGui::MenuItem("Save scene...", "Ctrl+S", false, shown)) wishes.saveScene = true;
-    item(host, "Save picture", "P", ViewCommand::Screenshot);
+    item(parts, "Save picture", "P", ViewCommand::Screenshot);
     if (ImGui::MenuItem("Save picture as...", nullptr, false, shown)) wishes.picture = true;
     if (ImGui::MenuItem("Copy command line", nullptr, false, shown))
-        host.copy(commandLineOf(host.settingsToOpen()));
+        parts.clipboard.copy(commandLineOf(parts.second.settingsToOpen()));
     tooltip("The command that opens the window as it is set now.");
     ImGui::Separator();
-    if (ImGui::MenuItem("Quit", "Ctrl+Q")) host.quit();
+    if (ImGui::MenuItem("Quit", "Ctrl+Q")) parts.actions.ask({ViewCommand::QuitAtOnce});
     ImGui::EndMenu();
 }
 
-void editMenu(PanelHost& host) {
+void editMenu(const PanelParts& parts) {
     if (!ImGui::BeginMenu("Edit")) return;
-    if (ImGui::MenuItem("Undo", "Ctrl+Z", false, host.canUndo())) host.undo();
-    if (ImGui::MenuItem("Redo", "Ctrl+Y", false, host.canRedo())) host.redo();
-    item(host, "Reset view and stereo", "R", ViewCommand::Reset);
+    const KeyframeEdit& keyframes = parts.keyframes.edit();
+    const SceneSettings& settings = parts.changes.settings();
+    const bool undo = parts.session && (keyframes.canUndo() || settings.canUndo());
+    const bool redo = parts.session && (keyframes.canRedo() || settings.canRedo());
+    if (ImGui::MenuItem("Undo", "Ctrl+Z", false, undo)) parts.actions.ask({ViewCommand::Undo});
+    if (ImGui::MenuItem("Redo", "Ctrl+Y", false, redo)) parts.actions.ask({ViewCommand::Redo});
+    item(parts, "Reset view and stereo", "R", ViewCommand::Reset);
     ImGui::EndMenu();
 }
 
-void scaleMenu(PanelHost& host) {
+void scaleMenu(const PanelParts& parts) {
     if (!ImGui::BeginMenu("Size of the interface")) return;
     for (const float scale : {0.75f, 1.0f, 1.25f, 1.5f, 1.75f, 2.0f}) {
         char label[16];
         snprintf(label, sizeof label, "%.0f %%", 100.0 * scale);
-        InterfaceLook look = host.look();
+        InterfaceLook look = parts.stage.panelled().look();
         if (ImGui::MenuItem(label, nullptr, look.scale == scale)) {
             look.scale = scale;
-            host.setLook(look);
+            parts.stage.panelled().setLook(look);
         }
     }
     ImGui::EndMenu();
 }
 
-void viewMenu(PanelHost& host, MenuWishes& wishes) {
+void viewMenu(const PanelParts& parts, MenuWishes& wishes) {
     if (!ImGui::BeginMenu("View")) return;
     ImGui::MenuItem("Panels", "F2", wishes.side);
     ImGui::MenuItem("Places, map and slices", "F3", wishes.left);
     if (wishes.unfolded) ImGui::MenuItem("Unfolded wall", "F10", wishes.unfolded);
     if (ImGui::MenuItem("Picture alone", "Tab")) wishes.hideAll = true;
-    item(host, "Panels in their own window", "F7", ViewCommand::Controls, host.controlsApart());
-    if (bool labels = host.placeLabels(); ImGui::MenuItem("Names of places", nullptr, &labels))
-        host.showPlaceLabels(labels);
+    item(parts, "Panels in their own window", "F7", ViewCommand::Controls, parts.stage.controls() != nullptr);
+    if (bool labels = parts.marks.showsNames(); ImGui::MenuItem("Names of places", nullptr, &labels))
+        parts.marks.showNames(labels);
     tooltip("Of kept places that are in view, over the picture.");
-    item(host, "Whole screen", "F11", ViewCommand::FullScreen, host.fullScreen());
+    item(parts, "Whole screen", "F11", ViewCommand::FullScreen, parts.display.fullScreen());
     ImGui::Separator();
-    InterfaceLook look = host.look();
+    InterfaceLook look = parts.stage.panelled().look();
     if (ImGui::MenuItem("Dark", nullptr, look.dark)) look.dark = true;
     if (ImGui::MenuItem("Light", nullptr, !look.dark)) look.dark = false;
-    if (!(look == host.look())) host.setLook(look);
-    scaleMenu(host);
+    if (!(look == parts.stage.panelled().look())) parts.stage.panelled().setLook(look);
+    scaleMenu(parts);
     ImGui::EndMenu();
 }
 
-void modeItems(PanelHost& host, OutputLayout layout) {
-    ViewSession* const session = host.session();
+void modeItems(const PanelParts& parts, OutputLayout layout) {
+    ViewSession* const session = parts.session;
     for (const OutputModeInfo& mode : outputModes()) {
         if (mode.layout != layout) continue;
         const bool now = session && session->mode() == mode.mode;
         if (ImGui::MenuItem(std::string(mode.longName).c_str(), std::string(mode.shortName).c_str(), now,
                             session != nullptr))
-            host.act({ViewCommand::SetMode, mode.mode});
+            parts.actions.ask({ViewCommand::SetMode, mode.mode});
     }
 }
 
-void stereoMenu(PanelHost& host) {
+void stereoMenu(const PanelParts& parts) {
     if (!ImGui::BeginMenu("Stereo")) return;
-    const ViewSession* const session = host.session();
-    item(host, "Stereo", "3", ViewCommand::ToggleStereo, session && session->stereoOn());
-    item(host, "Swap the eyes", "X", ViewCommand::SwapEyes, session && session->swapped());
+    const ViewSession* const session = parts.session;
+    item(parts, "Stereo", "3", ViewCommand::ToggleStereo, session && session->stereoOn());
+    item(parts, "Swap the eyes", "X", ViewCommand::SwapEyes, session && session->swapped());
     ImGui::Separator();
     constexpr std::pair<OutputLayout, const char*> kLayouts[] = {
         {OutputLayout::OneEye, "One eye"},
@@ -103,71 +114,73 @@ void stereoMenu(PanelHost& host) {
         {OutputLayout::QuadBuffer, "Shutter glasses, by the driver"}};
     for (const auto& [layout, name] : kLayouts)
         if (ImGui::BeginMenu(name)) {
-            modeItems(host, layout);
+            modeItems(parts, layout);
             if (layout == OutputLayout::Anaglyph) {
                 ImGui::Separator();
-                item(host, "in linear light", "L", ViewCommand::LinearAnaglyph);
+                item(parts, "in linear light", "L", ViewCommand::LinearAnaglyph);
             }
             ImGui::EndMenu();
         }
     ImGui::EndMenu();
 }
 
-void flightMenu(PanelHost& host, MenuWishes& wishes) {
+void flightMenu(const PanelParts& parts, MenuWishes& wishes) {
     if (!ImGui::BeginMenu("Flight")) return;
-    ViewSession* const session = host.session();
-    item(host, "Home", "Space", ViewCommand::Home);
-    item(host, "Keep this place", "Ctrl+B", ViewCommand::AddPlace);
+    ViewSession* const session = parts.session;
+    item(parts, "Home", "Space", ViewCommand::Home);
+    item(parts, "Keep this place", "Ctrl+B", ViewCommand::AddPlace);
     ImGui::Separator();
-    item(host, "Open a flight...", nullptr, ViewCommand::OpenPath);
-    item(host, session && session->recording() ? "End recording" : "Record", "z", ViewCommand::Record);
-    item(host, session && session->playing() ? "Stop playing" : "Play", "Shift+Z", ViewCommand::Play);
+    item(parts, "Open a flight...", nullptr, ViewCommand::OpenPath);
+    item(parts, session && session->paths().recording() ? "End recording" : "Record", "z",
+         ViewCommand::Record);
+    item(parts, session && session->paths().playing() ? "Stop playing" : "Play", "Shift+Z",
+         ViewCommand::Play);
     if (ImGui::MenuItem("Make a movie...", nullptr, false, session != nullptr)) wishes.movie = true;
     ImGui::Separator();
-    item(host, "Speed by the distance ahead", "Shift+F", ViewCommand::SpeedByDistance,
-         session && session->speedByDistance());
-    item(host, "Hold the mouse", "Y", ViewCommand::CaptureMouse, session && session->mouseCaptured());
+    item(parts, "Speed by the distance ahead", "Shift+F", ViewCommand::SpeedByDistance,
+         session && session->moves().speedByDistance());
+    item(parts, "Hold the mouse", "Y", ViewCommand::CaptureMouse, session && session->mouseCaptured());
     if (session) {
         ImGui::Separator();
         const Flight& flight = session->flight();
         for (int mode = 0; mode < flight.modeCount(); ++mode)
             if (ImGui::MenuItem(std::string(flight.modeName(mode)).c_str(), "F", mode == flight.mode()) &&
                 mode != flight.mode())
-                host.act({.command = ViewCommand::SetFlightMode, .number = mode});
+                parts.actions.ask({.command = ViewCommand::SetFlightMode, .number = mode});
         if (flight.lineMode())
-            item(host, "Turn round, fly back", "Backspace", ViewCommand::TurnRound, flight.goesBack());
+            item(parts, "Turn round, fly back", "Backspace", ViewCommand::TurnRound, flight.goesBack());
     }
     ImGui::EndMenu();
 }
 
-void toolsMenu(PanelHost& host, MenuWishes& wishes) {
+void toolsMenu(const PanelParts& parts, MenuWishes& wishes) {
     if (!ImGui::BeginMenu("Tools")) return;
     if (ImGui::MenuItem("Find anything...", "Ctrl+P")) wishes.search = true;
-    ViewSession* const session = host.session();
+    ViewSession* const session = parts.session;
     const bool sliced = session && session->open().scene->offered<SliceSource>();
-    if (ImGui::MenuItem("Slices", "V", session && session->slicesShown(), sliced))
-        host.act({ViewCommand::Slices});
+    if (ImGui::MenuItem("Slices", "V", session && session->slices().shown(), sliced))
+        parts.actions.ask({ViewCommand::Slices});
     ImGui::EndMenu();
 }
 
 }  // namespace
 
-float drawMenuBar(PanelHost& host, MenuWishes& wishes) {
+float drawMenuBar(const PanelParts& parts, MenuWishes& wishes) {
     if (!ImGui::BeginMainMenuBar()) return 0;
-    fileMenu(host, wishes);
-    editMenu(host);
-    viewMenu(host, wishes);
-    stereoMenu(host);
-    flightMenu(host, wishes);
-    toolsMenu(host, wishes);
+    fileMenu(parts, wishes);
+    editMenu(parts);
+    viewMenu(parts, wishes);
+    stereoMenu(parts);
+    flightMenu(parts, wishes);
+    toolsMenu(parts, wishes);
     if (ImGui::MenuItem("Help")) wishes.help = true;
     tooltip("All keys: F1");
     // What is open, where there is room for it.
-    const std::string name = printable(host.sceneName());
+    const std::string name = printable(parts.changes.settings().sceneName());
     const float width = ImGui::CalcTextSize(name.c_str()).x, left = ImGui::GetContentRegionAvail().x;
     if (const float margin = ImGui::GetFontSize(); width + 2 * margin < left) {
         ImGui::SameLine(ImGui::GetCursorPosX() + left - width - margin);
-        ImGui::PushStyleColor(ImGuiCol_Text, quietColor(host.look()));
+        ImGui::PushStyleColor(ImGuiCol_Text, quietNow());
         ImGui::TextUnformatted(name.c_str());
         ImGui::PopStyleColor();
     }

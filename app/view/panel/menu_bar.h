@@ -1,7 +1,7 @@
 // The bar of menus on top.
 #pragma once
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/panel/panel_parts.h"
 
 namespace stereonav {
 
@@ -16,6 +16,6 @@ struct MenuWishes {
 };
 
 // Its height in units of the interface.
-float drawMenuBar(PanelHost& host, MenuWishes& wishes);
+float drawMenuBar(const PanelParts& parts, MenuWishes& wishes);
 
 }  // namespace stereonav

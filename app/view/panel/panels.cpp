@@ -6,6 +6,9 @@
 #include <functional>
 #include <utility>
 
+#include "app/view/clipboard.h"
+#include "app/view/flown_keyframes.h"
+#include "app/view/frame_presenter.h"
 #include "app/view/input.h"
 #include "app/view/panel/controls.h"
 #include "app/view/panel/coverage_panel.h"
@@ -23,6 +26,9 @@
 #include "app/view/panel/start_pictures.h"
 #include "app/view/panel/status_bar.h"
 #include "app/view/panel/unfolded_panel.h"
+#include "app/view/panel_stage.h"
+#include "app/view/picture_pointer.h"
+#include "app/view/second_side.h"
 
 namespace stereonav {
 namespace {
@@ -64,17 +70,37 @@ struct Panels::State {
     StartPage start;
     SideTools tools;
 
-    void drawHelp(PanelHost& host);
+    void open(const PanelParts& parts, const std::filesystem::path& file);
+    void drawHelp();
     void drawColumn(Column& column, bool atRight, float top, const std::function<void()>& content);
-    void drawLeft(PanelHost& host);
-    void drawUnfolded(PanelHost& host);
-    void drawFindings(PanelHost& host);
+    void drawLeft(const PanelParts& parts);
+    void drawUnfolded(const PanelParts& parts);
+    void drawFindings(const PanelParts& parts);
 };
 
 Panels::Panels() : mState(std::make_unique<State>()) {}
 Panels::~Panels() = default;
 
-void Panels::State::drawHelp(PanelHost& host) {
+// What was chosen among the files. What fails is told.
+void Panels::State::open(const PanelParts& parts, const std::filesystem::path& file) {
+    ViewSession* const session = parts.session;
+    switch (files.purpose()) {
+        case FileBrowser::For::Open:
+            return parts.changes.open(file.string());
+        case FileBrowser::For::OpenOther:
+            return parts.second.open(file.string());
+        case FileBrowser::For::OpenPath:
+            if (session) parts.notices.tryTo([&] { session->paths().open(readPath(file)); });
+            return;
+        case FileBrowser::For::SaveScene:
+            parts.notices.tryTo([&] {
+                const std::filesystem::path place = parts.changes.settings().save(file);
+                if (session) session->notify("saved " + place.string());
+            });
+    }
+}
+
+void Panels::State::drawHelp() {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({whole.x / 2, whole.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -94,7 +120,7 @@ void Panels::State::drawHelp(PanelHost& host) {
                 ImGui::TableNextColumn();
                 ImGui::TextUnformatted(keys[n].keys.c_str());
                 ImGui::TableNextColumn();
-                quietLine(host, keys[n].meaning + "   ");
+                quietLine(keys[n].meaning + "   ");
             }
         }
         ImGui::EndTable();
@@ -137,49 +163,55 @@ void Panels::State::drawColumn(Column& column, bool atRight, float top,
     ImGui::PopID();
 }
 
-void Panels::State::drawLeft(PanelHost& host) {
-    ViewSession* const session = host.session();
-    if (!session) return quietText(host, "nothing is open yet");
+void Panels::State::drawLeft(const PanelParts& parts) {
+    ViewSession* const session = parts.session;
+    if (!session) return quietText("nothing is open yet");
+    Instruments& instruments = parts.instruments;
     const auto open = [](const char* label) {
         return ImGui::CollapsingHeader(label, ImGuiTreeNodeFlags_DefaultOpen);
     };
-    if (open("Places")) places.draw(host);
-    if (MapPanel::has(host) && open("Map")) map.draw(host);
-    if (ImGui::CollapsingHeader("Measure",
-                                host.measuring() || (host.measured() && !host.measured()->places().empty())
-                                    ? ImGuiTreeNodeFlags_DefaultOpen
-                                    : 0))
-        drawMeasurePanel(host);
-    if (FindingsPanel::has(host)) drawFindings(host);
-    coverage.draw(host);
-    if (SecondPanel::has(host) && open("Other study") && second.draw(host))
+    if (open("Places")) places.draw(parts.kept, parts.actions);
+    if (MapPanel::has(*session) && open("Map"))
+        map.draw(*session, parts.keyframes.edit(), parts.stage.eyeSize());
+    if (ImGui::CollapsingHeader("Measure", instruments.measuring() || !instruments.line().places().empty()
+                                               ? ImGuiTreeNodeFlags_DefaultOpen
+                                               : 0))
+        drawMeasurePanel(instruments, parts.jobs, *session, parts.clipboard);
+    if (FindingsPanel::has(instruments)) drawFindings(parts);
+    coverage.draw(instruments.coverage(), *session, parts.actions);
+    if (SecondPanel::has(session) && open("Other study") &&
+        second.draw(parts.second, *session, parts.changes.loading().busy))
         files.open(FileBrowser::For::OpenOther);
-    if (session->open().scene->offered<SliceSource>() && open("Slices")) slices.draw(host);
+    if (session->open().scene->offered<SliceSource>() && open("Slices"))
+        slices.draw(*session, parts.study, instruments);
 }
 
-void Panels::State::drawFindings(PanelHost& host) {
+void Panels::State::drawFindings(const PanelParts& parts) {
     if (showFindings) ImGui::SetNextItemOpen(true);
-    const bool open =
-        ImGui::CollapsingHeader("Findings", FindingsPanel::inUse(host) ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    const bool open = ImGui::CollapsingHeader(
+        "Findings", FindingsPanel::inUse(parts.instruments) ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     if (std::exchange(showFindings, false)) ImGui::SetScrollHereY(0);
     if (!open) return;
-    if (const auto place = findings.draw(host)) slices.show(*place);
+    if (const auto place =
+            findings.draw(parts.instruments, parts.study, *parts.session, parts.notices, parts.clipboard))
+        slices.show(*place);
 }
 
 // Between the columns, over the line at the bottom.
-void Panels::State::drawUnfolded(PanelHost& host) {
-    if (!showsUnfolded || hidden || !UnfoldedPanel::has(host)) return unfolded.hide(host);
+void Panels::State::drawUnfolded(const PanelParts& parts) {
+    if (!showsUnfolded || hidden || !UnfoldedPanel::has(parts.session))
+        return unfolded.hide(parts.session, parts.instruments);
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float height = std::min(kStrip * ImGui::GetFontSize(), 0.5f * whole.y);
     ImGui::SetNextWindowPos({left.taken, whole.y - below - height});
     ImGui::SetNextWindowSize({std::max(whole.x - left.taken - side.taken, 1.0f), height});
     ImGui::Begin("##unfolded", nullptr, kPlainBox);
-    unfolded.draw(host);
+    unfolded.draw(*parts.session, parts.instruments, parts.pictures.frame(), parts.pointer.world());
     ImGui::End();
     strip = height;
 }
 
-void Panels::draw(PanelHost& host) {
+void Panels::draw(const PanelParts& parts) {
     State& state = *mState;
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     state.left.taken = state.side.taken = 0;
@@ -191,9 +223,9 @@ void Panels::draw(PanelHost& host) {
         MenuWishes wishes;
         wishes.side = &state.side.shown;
         wishes.left = &state.left.shown;
-        wishes.other = SecondPanel::has(host);
-        if (UnfoldedPanel::has(host)) wishes.unfolded = &state.showsUnfolded;
-        top = drawMenuBar(host, wishes);
+        wishes.other = SecondPanel::has(parts.session);
+        if (UnfoldedPanel::has(parts.session)) wishes.unfolded = &state.showsUnfolded;
+        top = drawMenuBar(parts, wishes);
         if (wishes.openFile) state.files.open(FileBrowser::For::Open);
         if (wishes.openOther) state.files.open(FileBrowser::For::OpenOther);
         if (wishes.saveScene) state.files.open(FileBrowser::For::SaveScene);
@@ -207,17 +239,18 @@ void Panels::draw(PanelHost& host) {
             // Drawers: the one that was opened last.
             (sideBefore ? state.side : state.left).shown = false;
         }
-        if (state.left.shown) state.drawColumn(state.left, false, top, [&] { state.drawLeft(host); });
+        if (state.left.shown) state.drawColumn(state.left, false, top, [&] { state.drawLeft(parts); });
         if (state.side.shown)
-            state.drawColumn(state.side, true, top, [&] { drawSidePanels(host, state.tools); });
-        state.below = drawStatusBar(host, state.left.taken, state.side.taken);
+            state.drawColumn(state.side, true, top, [&] { drawSidePanels(parts, state.tools); });
+        state.below = drawStatusBar(parts, state.left.taken, state.side.taken);
     }
-    state.drawUnfolded(host);
-    if (state.start.shown() && state.start.draw(host)) state.files.open(FileBrowser::For::Open);
-    state.files.draw(host);
-    state.search.draw(host);
-    if (state.help) state.drawHelp(host);
-    drawNotices(host, state.left.taken, state.side.taken, top);
+    state.drawUnfolded(parts);
+    if (state.start.shown() && state.start.draw(parts.changes, parts.kept, parts.looks))
+        state.files.open(FileBrowser::For::Open);
+    if (const auto chosen = state.files.draw(parts.looks)) state.open(parts, *chosen);
+    state.search.draw(parts.changes, parts.actions);
+    if (state.help) state.drawHelp();
+    drawNotices(parts, state.left.taken, state.side.taken, top);
 }
 
 Panels::Rest Panels::rest(const glm::vec2& whole) const {

@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/panel/panel_parts.h"
 
 namespace stereonav {
 
@@ -16,7 +16,7 @@ public:
     ~Panels();
 
     // One layout; inside Interface::layOut.
-    void draw(PanelHost& host);
+    void draw(const PanelParts& parts);
 
     // What is left for the picture, in units of the interface: corner and size. Of the last layout.
     struct Rest {

@@ -25,8 +25,8 @@ bool button(const char* label, const char* tip) {
     return pressed;
 }
 
-void drawEdits(PanelHost& host, ViewSession& session) {
-    const RecordedPath& path = session.path();
+void drawEdits(ViewSession& session, KeyframeEdit& edit) {
+    const RecordedPath& path = session.paths().path();
     static double from = 0, to = 1;  // shares of the duration
     ImGui::SetNextItemWidth(-FLT_MIN);
     float ends[2] = {static_cast<float>(from), static_cast<float>(to)};
@@ -37,7 +37,7 @@ void drawEdits(PanelHost& host, ViewSession& session) {
     tooltip("The part that Trim keeps, from and to, of the duration.");
     if (button("Trim", "Keeps that part.")) {
         const double start = path.startTime(), duration = path.duration();
-        session.editPath([=](const RecordedPath& all) {
+        session.paths().edit([=](const RecordedPath& all) {
             return trimmed(all, start + from * duration, start + to * duration);
         });
         from = 0;
@@ -45,18 +45,18 @@ void drawEdits(PanelHost& host, ViewSession& session) {
     }
     ImGui::SameLine();
     if (button("Smooth", "Takes out what shakes within half a second; the ends stay."))
-        session.editPath([](const RecordedPath& all) { return smoothed(all, kSmoothSeconds); });
+        session.paths().edit([](const RecordedPath& all) { return smoothed(all, kSmoothSeconds); });
     ImGui::SameLine();
     if (button("Even pace", "The same way in the same time, at one speed."))
-        session.editPath([](const RecordedPath& all) { return evenlyPaced(all, std::nullopt); });
+        session.paths().edit([](const RecordedPath& all) { return evenlyPaced(all, std::nullopt); });
     if (button("Undo##path", "The path before the last change.")) {
-        if (host.keyframes().canUndo())
-            host.keyframes().undo();
+        if (edit.canUndo())
+            edit.undo();
         else
-            session.undoPath();
+            session.paths().undo();
     }
     ImGui::SameLine();
-    if (button("Save", "Writes the path as flight_0001.gltf and so on.")) session.savePath();
+    if (button("Save", "Writes the path as flight_0001.gltf and so on.")) session.paths().save();
 }
 
 // How high the chosen one is over the ground, where there is some.
@@ -75,8 +75,7 @@ void drawKeyframeHeight(KeyframeEdit& edit, const Flight& flight) {
     tooltip("How high the chosen keyframe is over where the flight may come to the ground.");
 }
 
-void drawKeyframes(PanelHost& host, ViewSession& session) {
-    KeyframeEdit& edit = host.keyframes();
+void drawKeyframes(ViewSession& session, KeyframeEdit& edit, const Bookmarks* places) {
     const auto tried = [&](const auto& what) {
         try {
             what();
@@ -86,12 +85,12 @@ void drawKeyframes(PanelHost& host, ViewSession& session) {
     };
     const double speed = session.flight().speed();
     if (!edit.any()) {
-        const bool path = session.path().samples().size() > 1;
+        const bool path = session.paths().path().samples().size() > 1;
         ImGui::BeginDisabled(!path);
         if (button("Keyframes of the path", "A few that the path is kept with, to be moved on the map (F3)."))
-            tried([&] { edit.start(keyframesToEdit(session.path())); });
+            tried([&] { edit.start(keyframesToEdit(session.paths().path())); });
         ImGui::EndDisabled();
-        if (const Bookmarks* const places = host.places(); places && places->list().size() > 1) {
+        if (places && places->list().size() > 1) {
             if (button(
                     "Fly through the places",
                     "A path through the kept places, in their order, smooth and eased. Its keyframes can be "
@@ -106,9 +105,9 @@ void drawKeyframes(PanelHost& host, ViewSession& session) {
         return;
     }
     const std::size_t count = edit.keys().size();
-    quietText(host, edit.chosen() ? fmt::format("keyframe {} of {}", *edit.chosen() + 1, count)
-                    : count == 1  ? "one keyframe: a path needs two"
-                                  : fmt::format("{} keyframes: drag them on the map (F3)", count));
+    quietText(edit.chosen() ? fmt::format("keyframe {} of {}", *edit.chosen() + 1, count)
+              : count == 1  ? "one keyframe: a path needs two"
+                            : fmt::format("{} keyframes: drag them on the map (F3)", count));
     if (button("Add this eye", "As a keyframe, after the chosen one or at the end."))
         tried([&] { edit.add(session.pose(), speed); });
     ImGui::SameLine();
@@ -120,7 +119,7 @@ void drawKeyframes(PanelHost& host, ViewSession& session) {
     if (edit.chosen()) drawKeyframeHeight(edit, session.flight());
 }
 
-void drawMovie(PanelHost& host, ViewSession& session) {
+void drawMovie(const ViewSession& session, WindowJobs& jobs) {
     static MovieWish movie{"flight.mp4"};
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##movie", "flight.mp4", &movie.file);
@@ -140,39 +139,41 @@ void drawMovie(PanelHost& host, ViewSession& session) {
     movie.fps = std::clamp(movie.fps, 1.0, 240.0);
     tooltip("Frames a second.");
     ImGui::SameLine();
-    const bool busy = host.job() && host.job()->running();
-    ImGui::BeginDisabled(busy || movie.file.empty() || session.path().samples().size() < 2);
-    if (ImGui::Button("Make movie")) host.makeMovie(movie);
+    const bool busy = jobs.busy();
+    ImGui::BeginDisabled(busy || movie.file.empty() || session.paths().path().samples().size() < 2);
+    if (ImGui::Button("Make movie")) jobs.makeMovie(movie);
     ImGui::EndDisabled();
     tooltip("Of this path, in the mode that is shown. It goes on beside the flight.");
 }
 
 }  // namespace
 
-void drawPathPanel(PanelHost& host, ViewSession& session) {
-    if (button(session.recording() ? "End recording" : "Record", "Key: z")) host.act({ViewCommand::Record});
+void drawPathPanel(ViewSession& session, KeyframeEdit& edit, const Bookmarks* places, WindowJobs& jobs,
+                   AskedActions& actions) {
+    if (button(session.paths().recording() ? "End recording" : "Record", "Key: z"))
+        actions.ask({ViewCommand::Record});
     ImGui::SameLine();
-    if (button(session.playing() ? "Stop" : "Play", "Key: Shift+Z")) host.act({ViewCommand::Play});
+    if (button(session.paths().playing() ? "Stop" : "Play", "Key: Shift+Z")) actions.ask({ViewCommand::Play});
     ImGui::SameLine();
-    if (button("Home", "Key: Space")) host.act({ViewCommand::Home});
+    if (button("Home", "Key: Space")) actions.ask({ViewCommand::Home});
     ImGui::SameLine();
-    if (button("Open...", "A flight from a file, in the path's place.")) host.act({ViewCommand::OpenPath});
-    const RecordedPath& path = session.path();
+    if (button("Open...", "A flight from a file, in the path's place.")) actions.ask({ViewCommand::OpenPath});
+    const RecordedPath& path = session.paths().path();
     const bool any = path.samples().size() > 1;
-    quietText(host,
-              any ? fmt::format("A flight of {:.1f} s, {} places.", path.duration(), path.samples().size())
+    quietText(any ? fmt::format("A flight of {:.1f} s, {} places.", path.duration(), path.samples().size())
                   : "No flight yet: Record makes one.");
-    if (any) drawEdits(host, session);
-    drawKeyframes(host, session);
-    drawMovie(host, session);
-    bool byDistance = session.speedByDistance();
-    if (ImGui::Checkbox("speed by the distance ahead", &byDistance)) host.act({ViewCommand::SpeedByDistance});
+    if (any) drawEdits(session, edit);
+    drawKeyframes(session, edit, places);
+    drawMovie(session, jobs);
+    bool byDistance = session.moves().speedByDistance();
+    if (ImGui::Checkbox("speed by the distance ahead", &byDistance))
+        actions.ask({ViewCommand::SpeedByDistance});
     tooltip(
         "What is ahead is reached in about four seconds, near or far; over the sky the speed is as ever. "
         "Key: "
         "Shift+F");
-    quietText(host, fmt::format("speed {}/s: the wheel changes it, Shift is four times",
-                                lengthText(session.speed())));
+    quietText(fmt::format("speed {}/s: the wheel changes it, Shift is four times",
+                          lengthText(session.moves().speed())));
 }
 
 }  // namespace stereonav

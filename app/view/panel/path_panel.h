@@ -1,10 +1,15 @@
 // The flight that is played: recorded, cut, smoothed, kept, made into a movie.
 #pragma once
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/bookmarks.h"
+#include "app/view/keyframe_edit.h"
+#include "app/view/window_input.h"
+#include "app/view/window_jobs.h"
 
 namespace stereonav {
 
-void drawPathPanel(PanelHost& host, ViewSession& session);
+// places: null where none can be kept.
+void drawPathPanel(ViewSession& session, KeyframeEdit& edit, const Bookmarks* places, WindowJobs& jobs,
+                   AskedActions& actions);
 
 }  // namespace stereonav

@@ -9,22 +9,21 @@
 
 namespace stereonav {
 
-void PlacesPanel::draw(PanelHost& host) {
-    ViewSession* const session = host.session();
-    Bookmarks* const places = host.places();
-    if (!session || !places) return;
-    if (ImGui::Button("Home")) host.act({ViewCommand::Home});
+void PlacesPanel::draw(KeptPlaces& kept, AskedActions& actions) {
+    Bookmarks* const places = kept.places();
+    if (!places) return;
+    if (ImGui::Button("Home")) actions.ask({ViewCommand::Home});
     tooltip("Back to the start. Key: Space");
     ImGui::SameLine();
-    if (ImGui::Button("+ Add")) host.addPlace();
+    if (ImGui::Button("+ Add")) actions.ask({ViewCommand::AddPlace});
     tooltip("Keeps this place, for this file. Key: Ctrl+B");
-    if (places->list().empty()) quietText(host, "No places yet: + keeps the one that is shown.");
+    if (places->list().empty()) quietText("No places yet: + keeps the one that is shown.");
     // A copy: what is pressed changes the list.
     const std::vector<Bookmark> list = places->list();
-    for (const Bookmark& place : list) drawPlace(host, *places, place);
+    for (const Bookmark& place : list) drawPlace(kept, *places, place);
 }
 
-void PlacesPanel::drawPlace(PanelHost& host, Bookmarks& places, const Bookmark& place) {
+void PlacesPanel::drawPlace(KeptPlaces& kept, Bookmarks& places, const Bookmark& place) {
     ImGui::PushID(place.name.c_str());
     const float font = ImGui::GetFontSize(), width = 4.6f * font;
     if (!place.thumbnail.empty()) {
@@ -36,7 +35,7 @@ void PlacesPanel::drawPlace(PanelHost& host, Bookmarks& places, const Bookmark& 
             }
         if (ImGui::ImageButton(picture.id(), {width, width * kThumbnailHeight / kThumbnailWidth}, {0, 0},
                                {1, 1}, 0))
-            host.goToPlace(place);
+            kept.goTo(place);
         tooltip("Fly there.");
         ImGui::SameLine();
     }
@@ -51,7 +50,7 @@ void PlacesPanel::drawPlace(PanelHost& host, Bookmarks& places, const Bookmark& 
     } else {
         plainText(place.name);
     }
-    if (ImGui::SmallButton("Go")) host.goToPlace(place);
+    if (ImGui::SmallButton("Go")) kept.goTo(place);
     tooltip("Fly there.");
     ImGui::SameLine();
     if (ImGui::SmallButton("Rename")) mRenaming = mName = place.name;

@@ -6,18 +6,19 @@
 #include <string>
 
 #include "app/view/bookmarks.h"
-#include "app/view/panel/panel_host.h"
+#include "app/view/kept_places.h"
 #include "app/view/panel/panel_texture.h"
+#include "app/view/window_input.h"
 
 namespace stereonav {
 
 class PlacesPanel {
 public:
-    void draw(PanelHost& host);
+    void draw(KeptPlaces& kept, AskedActions& actions);
     void forget() { mPictures.clear(); }
 
 private:
-    void drawPlace(PanelHost& host, Bookmarks& places, const Bookmark& place);
+    void drawPlace(KeptPlaces& kept, Bookmarks& places, const Bookmark& place);
 
     std::map<std::string, PanelTexture> mPictures;  // by their files
     std::string mRenaming, mName;

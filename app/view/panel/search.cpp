@@ -30,7 +30,7 @@ bool matches(const std::string& text, const std::string& words) {
 
 }  // namespace
 
-void SearchBox::draw(PanelHost& host) {
+void SearchBox::draw(SceneChanges& changes, AskedActions& actions) {
     if (!mOpen) return;
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize();
@@ -63,10 +63,10 @@ void SearchBox::draw(PanelHost& host) {
         ImGui::SameLine(0.5f * font);
         ImGui::TextUnformatted(help.meaning.c_str());
         ImGui::SameLine(width - 9 * font);
-        quietText(host, help.keys);
+        quietText(help.keys);
         if ((clicked || (entered && chosen)) && help.action) {
             mOpen = false;
-            host.act(*help.action);
+            actions.ask(*help.action);
         }
         ImGui::PopID();
     }
@@ -75,16 +75,16 @@ void SearchBox::draw(PanelHost& host) {
         if (!matches(labelOf(option) + " " + option.help, mWords)) continue;
         ImGui::PushID(&option);
         ++row;
-        if (host.applies(option)) {
-            optionControl(host, option);
+        if (changes.settings().applies(option)) {
+            optionControl(changes, option);
         } else {
-            quietText(host, labelOf(option) + ": not of this scene");
+            quietText(labelOf(option) + ": not of this scene");
         }
-        quietText(host, option.help);
+        quietText(option.help);
         ImGui::PopID();
     }
     mChosen = std::min(mChosen, std::max(row - 1, 0));
-    if (row == 0) quietText(host, "Nothing has these words.");
+    if (row == 0) quietText("Nothing has these words.");
     ImGui::EndChild();
     ImGui::End();
 }

@@ -1,7 +1,8 @@
 // Find anything: options, commands and modes by words, each with its key and its present value, set there.
 #pragma once
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/scene_changes.h"
+#include "app/view/window_input.h"
 
 namespace stereonav {
 
@@ -10,7 +11,7 @@ public:
     void open() { mOpen = mFresh = true; }
     void close() { mOpen = false; }
     bool isOpen() const { return mOpen; }
-    void draw(PanelHost& host);
+    void draw(SceneChanges& changes, AskedActions& actions);
 
 private:
     bool mOpen = false, mFresh = false;

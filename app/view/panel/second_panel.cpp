@@ -16,9 +16,8 @@ constexpr int kLeastWidth = 64, kMostWidth = 480;  // pixels of its picture
 
 }  // namespace
 
-bool SecondPanel::has(PanelHost& host) {
-    ViewSession* const session = host.session();
-    if (!session || !host.secondStudy()) return false;
+bool SecondPanel::has(const ViewSession* session) {
+    if (!session) return false;
     const Scene& scene = *session->open().scene;
     return scene.offered<const MatchingLine>() && scene.offered<RayCast>();
 }
@@ -28,23 +27,23 @@ void SecondPanel::forget() {
     mShown.reset();
 }
 
-bool SecondPanel::draw(PanelHost& host) {
-    SecondStudy& second = *host.secondStudy();
+bool SecondPanel::draw(SecondSide& side, const ViewSession& session, bool loading) {
+    SecondStudy& second = side.study();
     if (second.loading()) {
-        quietText(host, fmt::format("opening the other study  {:.0f} %", 100 * second.fraction()));
+        quietText(fmt::format("opening the other study  {:.0f} %", 100 * second.fraction()));
         if (ImGui::Button("Cancel##second")) second.cancel();
         return false;
     }
     if (second.other()) {
-        drawPicture(host, second);
+        drawPicture(side, session, loading);
         return false;
     }
-    quietText(host, "The same colon in another study: its matching place is shown here.");
+    quietText("The same colon in another study: its matching place is shown here.");
     return ImGui::Button("Open the other study...");
 }
 
-void SecondPanel::drawPicture(PanelHost& host, SecondStudy& second) {
-    const ViewSession& session = *host.session();
+void SecondPanel::drawPicture(SecondSide& side, const ViewSession& session, bool loading) {
+    SecondStudy& second = side.study();
     const auto place = second.matching(*session.open().scene, session.pose());
     if (!place) return;
     const float wide = std::max(ImGui::GetContentRegionAvail().x, 16.0f), high = 0.75f * wide;
@@ -59,16 +58,16 @@ void SecondPanel::drawPicture(PanelHost& host, SecondStudy& second) {
     else
         ImGui::Dummy({wide, high});
     const std::filesystem::path name = second.other()->scene->name;
-    quietText(host, fmt::format("{}: {:.0f} of {:.0f} mm along, looking {}",
-                                name.filename().empty() ? name.string() : name.filename().string(),
-                                1e3 * place->along, 1e3 * place->length, place->back ? "back" : "ahead"));
-    if (!second.matches()) quietText(host, "Not of the same colon: its places do not match.");
+    quietText(fmt::format("{}: {:.0f} of {:.0f} mm along, looking {}",
+                          name.filename().empty() ? name.string() : name.filename().string(),
+                          1e3 * place->along, 1e3 * place->length, place->back ? "back" : "ahead"));
+    if (!second.matches()) quietText("Not of the same colon: its places do not match.");
     tooltip(
         fmt::format("Matched along both lines; how unlike they are: {:.2f}, 0 of a line with itself. Whose "
                     "studies they are is not known.",
                     second.cost()));
-    ImGui::BeginDisabled(host.loading().busy);
-    if (ImGui::Button("Swap")) host.swapStudies();
+    ImGui::BeginDisabled(loading);
+    if (ImGui::Button("Swap")) side.swap();
     ImGui::EndDisabled();
     tooltip("Flies in the other study from here on; nothing is read again.");
     ImGui::SameLine();

@@ -3,21 +3,21 @@
 
 #include <memory>
 
-#include "app/view/panel/panel_host.h"
 #include "app/view/panel/panel_texture.h"
+#include "app/view/second_side.h"
 #include "app/view/second_study.h"
 
 namespace stereonav {
 
 class SecondPanel {
 public:
-    static bool has(PanelHost& host);  // whether the scene has a line to match
+    static bool has(const ViewSession* session);  // whether the scene has a line to match
     // True: another study is to be chosen.
-    bool draw(PanelHost& host);
+    bool draw(SecondSide& side, const ViewSession& session, bool loading);
     void forget();  // what belongs to the window's context
 
 private:
-    void drawPicture(PanelHost& host, SecondStudy& second);
+    void drawPicture(SecondSide& side, const ViewSession& session, bool loading);
 
     PanelTexture mTexture;
     std::shared_ptr<const SecondPicture> mShown;  // the texture's

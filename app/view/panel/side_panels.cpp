@@ -10,131 +10,139 @@
 #include <tuple>
 #include <utility>
 
+#include "app/view/clipboard.h"
+#include "app/view/flown_keyframes.h"
+#include "app/view/frame_presenter.h"
+#include "app/view/kept_places.h"
 #include "app/view/panel/comfort_meter.h"
 #include "app/view/panel/controls.h"
 #include "app/view/panel/ground_paint_panel.h"
 #include "app/view/panel/legend.h"
 #include "app/view/panel/path_panel.h"
+#include "app/view/panel_stage.h"
+#include "app/view/scene_facts.h"
+#include "app/view/second_side.h"
 #include "app/view/status.h"
 
 namespace stereonav {
 namespace {
 
-std::vector<const Option*> optionsOf(const PanelHost& host, OptionPanel panel) {
+std::vector<const Option*> optionsOf(const SceneChanges& changes, OptionPanel panel) {
     std::vector<const Option*> options;
     for (const Option& option : optionTable())
-        if ((option.commands & command::kView) && option.panel == panel && host.applies(option))
+        if ((option.commands & command::kView) && option.panel == panel && changes.settings().applies(option))
             options.push_back(&option);
     return options;
 }
 
-void command(PanelHost& host, const char* label, ViewCommand which, const char* tip) {
-    if (ImGui::Button(label)) host.act({which});
+void drawOptions(SceneChanges& changes, OptionPanel panel) {
+    for (const Option* const option : optionsOf(changes, panel)) optionControl(changes, *option);
+}
+
+void command(AskedActions& actions, const char* label, ViewCommand which, const char* tip) {
+    if (ImGui::Button(label)) actions.ask({which});
     tooltip(tip);
 }
 
-void drawView(PanelHost& host, ViewSession& session) {
-    for (const Option* const option : optionsOf(host, OptionPanel::View)) optionControl(host, *option);
-    quietText(host, host.screen().words);
+void drawView(const PanelParts& parts, ViewSession& session) {
+    drawOptions(parts.changes, OptionPanel::View);
+    quietText(parts.display.screen().words);
     tooltip("Parallax in millimetres and degrees is by this. It is kept for this monitor.");
     bool stereo = session.stereoOn(), swapped = session.swapped();
-    if (ImGui::Checkbox("stereo", &stereo)) host.act({ViewCommand::ToggleStereo});
+    if (ImGui::Checkbox("stereo", &stereo)) parts.actions.ask({ViewCommand::ToggleStereo});
     tooltip("Two eyes, or one. Key: 3");
     ImGui::SameLine();
-    if (ImGui::Checkbox("swap eyes", &swapped)) host.act({ViewCommand::SwapEyes});
+    if (ImGui::Checkbox("swap eyes", &swapped)) parts.actions.ask({ViewCommand::SwapEyes});
     tooltip("Where depth is inverted. Key: X");
     if (session.open().scene->offered<RoomAround>()) {
         bool follows = session.followsClearance();
         if (ImGui::Checkbox("eyes follow the room", &follows) && follows)
-            host.act({ViewCommand::FollowClearance});
+            parts.actions.ask({ViewCommand::FollowClearance});
         tooltip("As far apart as the room around them suits; setting them by hand ends it. Key: C");
     }
     bool clamps = session.eyes().clamp();
     if (ImGui::Checkbox("keep comfortable", &clamps)) session.eyes().setClamp(clamps);
     tooltip("Brings the eyes together, slowly, while the picture's parallax is more than is comfortable.");
-    const ViewFrame* const frame = host.frame();
+    const ViewFrame* const frame = parts.pictures.frame();
     if (!frame || !frame->request.twoEyes) return;
-    drawComfortMeter(host, *frame);
-    const ScreenWords onScreen = host.onScreen(*frame);
+    drawComfortMeter(parts.display, *frame);
+    const ScreenWords onScreen = parts.display.wordsOf(*frame);
     const std::string warning = onScreen.warning.empty() ? warningLine(*frame) : onScreen.warning;
-    if (!onScreen.parallax.empty()) quietText(host, onScreen.parallax);
-    quietText(host, warning.empty() ? fmt::format("parallax {:+.1f} to {:+.1f} % of the width",
-                                                  100 * frame->nearParallax, 100 * frame->farParallax)
-                                    : warning);
-}
-
-void drawOptions(PanelHost& host, OptionPanel panel) {
-    for (const Option* const option : optionsOf(host, panel)) optionControl(host, *option);
+    if (!onScreen.parallax.empty()) quietText(onScreen.parallax);
+    quietText(warning.empty() ? fmt::format("parallax {:+.1f} to {:+.1f} % of the width",
+                                            100 * frame->nearParallax, 100 * frame->farParallax)
+                              : warning);
 }
 
 // Of scenes whose light can be baked: those that `bake` takes.
-void drawBake(PanelHost& host, ViewSession&) {
+void drawBake(WindowJobs& jobs) {
     const Option* const light = viewOption("light");
     const Option* const what = findOption(command::kBake, "what");
-    if (!light || !what || !host.bakes()) return;
+    if (!light || !what || !jobs.bakes()) return;
     static int chosen = 1;
     static double minutes = 2;
     const std::vector<std::string>& words = what->value.words;
     ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
     if (ImGui::BeginCombo("##what", words[static_cast<std::size_t>(chosen)].c_str())) {
         for (std::size_t n = 0; n < words.size(); ++n)
-            if (host.bakeTakes("what", words[n]) && ImGui::Selectable(words[n].c_str()))
+            if (jobs.bakeTakes("what", words[n]) && ImGui::Selectable(words[n].c_str()))
                 chosen = static_cast<int>(n);
         ImGui::EndCombo();
     }
     tooltip(what->help);
     ImGui::SameLine();
-    if (host.bakeTakes("minutes", "1")) {
+    if (jobs.bakeTakes("minutes", "1")) {
         ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
         ImGui::DragScalar("##minutes", ImGuiDataType_Double, &minutes, 0.05f, nullptr, nullptr, "%.1f min");
         minutes = std::clamp(minutes, 0.1, 600.0);
         tooltip("It takes this long, or less where all is done before.");
         ImGui::SameLine();
     }
-    const bool busy = host.job() && host.job()->running();
+    const bool busy = jobs.busy();
     ImGui::BeginDisabled(busy);
-    if (ImGui::Button("Bake")) host.bakeLight(words[static_cast<std::size_t>(chosen)], minutes);
+    if (ImGui::Button("Bake")) jobs.bakeLight(words[static_cast<std::size_t>(chosen)], minutes);
     ImGui::EndDisabled();
     tooltip(
         "Computes light with its shadows and reflections beforehand, and shows it. It goes on beside the "
         "flight.");
 }
 
-void drawLight(PanelHost& host, ViewSession& session, SunPanel& sun) {
-    if (SunPanel::has(host)) sun.draw(host);
-    drawOptions(host, OptionPanel::Light);
-    drawBake(host, session);
+void drawLight(SceneChanges& changes, WindowJobs& jobs, ViewSession& session, SunPanel& sun) {
+    if (SunPanel::has(changes)) sun.draw(changes, session);
+    drawOptions(changes, OptionPanel::Light);
+    drawBake(jobs);
     const std::string why = session.open().scene->whyLightStays();
     if (session.open().scene->offered<TurningLight>())
-        quietText(host, "U H J K, or the cross of a gamepad, move the light.");
+        quietText("U H J K, or the cross of a gamepad, move the light.");
     else if (!why.empty())
-        quietText(host, "The light stands still: " + why + ".");
+        quietText("The light stands still: " + why + ".");
 }
 
-void drawMaterial(PanelHost& host, ViewSession& session, TransferPanel& transfer) {
-    if (TransferPanel::has(host)) transfer.draw(host);
-    drawOptions(host, OptionPanel::Material);
-    drawGroundPaint(host, *session.open().scene);
-    drawLegend(host, *session.open().scene);
-    const auto* const surface = session.open().scene->offered<SurfaceChoices>();
+void drawMaterial(const PanelParts& parts, ViewSession& session, TransferPanel& transfer) {
+    const Scene& scene = *session.open().scene;
+    if (TransferPanel::has(scene)) transfer.draw(parts.changes, session, parts.stage.panelled().look().grey);
+    drawOptions(parts.changes, OptionPanel::Material);
+    drawGroundPaint(parts.changes, parts.instruments, session);
+    drawLegend(scene);
+    const auto* const surface = scene.offered<SurfaceChoices>();
     if (!surface) return;
-    bool translucent = *session.surface().translucent;
-    if (ImGui::Checkbox("translucent", &translucent)) host.act({ViewCommand::ToggleTranslucent});
+    bool translucent = *session.surface().now().translucent;
+    if (ImGui::Checkbox("translucent", &translucent)) parts.actions.ask({ViewCommand::ToggleTranslucent});
     tooltip("Seen through, by the transfer function, or an opaque surface. Key: T");
     ImGui::SameLine();
-    command(host, "Next function", ViewCommand::NextTransfer, "Key: Shift+T");
-    if (!session.surface().ambient) return;
-    command(host, "Ambient light", ViewCommand::NextAmbient,
+    command(parts.actions, "Next function", ViewCommand::NextTransfer, "Key: Shift+T");
+    if (!session.surface().now().ambient) return;
+    command(parts.actions, "Ambient light", ViewCommand::NextAmbient,
             "The next method of ambient light, or none. Key: O");
     ImGui::SameLine();
-    command(host, "Modulate", ViewCommand::NextModulation,
+    command(parts.actions, "Modulate", ViewCommand::NextModulation,
             "Opacity by variance, by gradient, as it is. Key: B");
 }
 
 // One quantity over the last frames, with its newest value.
-void plot(PanelHost& host, const char* label, double FrameCost::*what, const char* unit) {
+void plot(const FramePresenter& pictures, const char* label, double FrameCost::*what, const char* unit) {
     std::array<float, 120> values{};
-    const auto& costs = host.costs();
+    const auto& costs = pictures.costs();
     const std::size_t count = std::min(values.size(), costs.size());
     for (std::size_t n = 0; n < count; ++n)
         values[n] = static_cast<float>(costs[costs.size() - count + n].*what);
@@ -150,47 +158,43 @@ void plot(PanelHost& host, const char* label, double FrameCost::*what, const cha
 }
 
 // What the right eye shows, and how far it is from the truth.
-void drawTruth(PanelHost& host, ViewSession& session) {
+void drawTruth(ViewSession& session, const ViewFrame* frame) {
     constexpr std::tuple<TruthView, const char*, const char*> kViews[] = {
         {TruthView::None, "as made", "The right eye as it is made."},
         {TruthView::FullCast, "full", "The right eye cast in full. Key: F4"},
         {TruthView::Difference, "x5", "Five times its difference from a full cast; black: none. Key: F5"},
         {TruthView::Holes, "holes", "What was cast, since the left eye did not see it, in red. Key: F6"}};
-    quietLine(host, "right eye");
+    quietLine("right eye");
     for (const auto& [view, label, tip] : kViews) {
         if (view != TruthView::None) ImGui::SameLine();
         if (ImGui::RadioButton(label, session.truth() == view)) session.setTruth(view);
         tooltip(tip);
     }
-    if (const ViewFrame* const frame = host.frame(); frame && !frame->truthNote.empty())
-        quietText(host, frame->truthNote);
-    if (const ViewFrame* const frame = host.frame())
-        if (const std::string measured = session.measuredText(*frame); !measured.empty())
-            quietText(host, measured);
+    if (!frame) return;
+    if (!frame->truthNote.empty()) quietText(frame->truthNote);
+    if (const std::string measured = session.measuredText(*frame); !measured.empty()) quietText(measured);
 }
 
-void drawQuality(PanelHost& host, ViewSession& session) {
-    drawOptions(host, OptionPanel::Quality);
-    drawTruth(host, session);
-    plot(host, "left", &FrameCost::left_ms, "ms");
-    plot(host, "right", &FrameCost::right_ms, "ms");
-    plot(host, "warp", &FrameCost::warp_ms, "ms");
-    plot(host, "fill", &FrameCost::fill_ms, "ms");
-    plot(host, "holes", &FrameCost::holes, "%");
-    if (const ViewFrame* const frame = host.frame())
-        quietText(host, frameText(*frame, host.framesPerSecond()));
+void drawQuality(SceneChanges& changes, const FramePresenter& pictures, ViewSession& session) {
+    drawOptions(changes, OptionPanel::Quality);
+    drawTruth(session, pictures.frame());
+    plot(pictures, "left", &FrameCost::left_ms, "ms");
+    plot(pictures, "right", &FrameCost::right_ms, "ms");
+    plot(pictures, "warp", &FrameCost::warp_ms, "ms");
+    plot(pictures, "fill", &FrameCost::fill_ms, "ms");
+    plot(pictures, "holes", &FrameCost::holes, "%");
+    if (const ViewFrame* const frame = pictures.frame())
+        quietText(frameText(*frame, pictures.framesPerSecond()));
 }
 
-void drawFacts(PanelHost& host) {
-    const Facts* const facts = host.facts();
-    if (!facts) return quietText(host, "being collected");
-    factTable(host, "facts", *facts);
+void drawFacts(const Facts* facts) {
+    if (!facts) return quietText("being collected");
+    factTable("facts", *facts);
 }
 
 // Of what is seen, in any size and kind of file.
-void drawPicture(PanelHost& host) {
+void drawPicture(WindowJobs& jobs, const SizeOption& shown) {
     static PictureWish picture{"view.png"};
-    const SizeOption shown = host.pictureSize();
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##picture", "view.png", &picture.file);
     tooltip(
@@ -204,14 +208,14 @@ void drawPicture(PanelHost& host) {
     picture.width = static_cast<int>(std::lround(times * shown.width));
     picture.height = static_cast<int>(std::lround(times * shown.height));
     ImGui::SameLine();
-    const bool busy = host.job() && host.job()->running();
+    const bool busy = jobs.busy();
     ImGui::BeginDisabled(busy || picture.file.empty());
-    if (ImGui::Button("Save picture")) host.savePicture(picture);
+    if (ImGui::Button("Save picture")) jobs.savePicture(picture);
     ImGui::EndDisabled();
     tooltip(
         "Of what is seen now; both eyes are made in full, unless a method is set. It goes on beside the "
         "flight.");
-    quietText(host, fmt::format("{} x {} pixels an eye", picture.width, picture.height));
+    quietText(fmt::format("{} x {} pixels an eye", picture.width, picture.height));
 }
 
 bool heading(const char* label, bool open) {
@@ -220,34 +224,37 @@ bool heading(const char* label, bool open) {
 
 }  // namespace
 
-void drawSidePanels(PanelHost& host, SideTools& tools) {
-    ViewSession* const session = host.session();
-    if (!session) return quietText(host, "nothing is open yet");
-    const auto any = [&](OptionPanel panel) { return !optionsOf(host, panel).empty(); };
-    if (heading("View and stereo", true)) drawView(host, *session);
-    if (any(OptionPanel::Light) && heading("Light", true)) drawLight(host, *session, tools.sun);
+void drawSidePanels(const PanelParts& parts, SideTools& tools) {
+    ViewSession* const session = parts.session;
+    if (!session) return quietText("nothing is open yet");
+    SceneChanges& changes = parts.changes;
+    const auto any = [&](OptionPanel panel) { return !optionsOf(changes, panel).empty(); };
+    if (heading("View and stereo", true)) drawView(parts, *session);
+    if (any(OptionPanel::Light) && heading("Light", true))
+        drawLight(changes, parts.jobs, *session, tools.sun);
     if (any(OptionPanel::Material) && heading("Material", false))
-        drawMaterial(host, *session, tools.transfer);
-    if (any(OptionPanel::Medium) && heading("Medium", false)) drawOptions(host, OptionPanel::Medium);
+        drawMaterial(parts, *session, tools.transfer);
+    if (any(OptionPanel::Medium) && heading("Medium", false)) drawOptions(changes, OptionPanel::Medium);
     if (tools.showPath) ImGui::SetNextItemOpen(true);
     const bool path = heading("Flight and path", false);
     if (std::exchange(tools.showPath, false)) ImGui::SetScrollHereY(0);
-    if (path) drawPathPanel(host, *session);
+    if (path) drawPathPanel(*session, parts.keyframes.edit(), parts.kept.places(), parts.jobs, parts.actions);
     if (tools.showPicture) ImGui::SetNextItemOpen(true);
     const bool picture = heading("Picture", false);
     if (std::exchange(tools.showPicture, false)) ImGui::SetScrollHereY(0);
-    if (picture) drawPicture(host);
-    if (heading("Quality and cost", false)) drawQuality(host, *session);
-    if (any(OptionPanel::Study) && heading("Study", false)) drawOptions(host, OptionPanel::Study);
-    if (heading("Scene", false)) drawFacts(host);
+    if (picture) drawPicture(parts.jobs, parts.stage.eyeSize());
+    if (heading("Quality and cost", false)) drawQuality(changes, parts.pictures, *session);
+    if (any(OptionPanel::Study) && heading("Study", false)) drawOptions(changes, OptionPanel::Study);
+    if (heading("Scene", false)) drawFacts(parts.facts.of(changes.worker()));
     if (heading("Command line", false)) {
-        quietText(host, commandLineOf(host.settingsToOpen()));
-        if (ImGui::Button("Copy##view")) host.copy(commandLineOf(host.settingsToOpen()));
+        quietText(commandLineOf(parts.second.settingsToOpen()));
+        if (ImGui::Button("Copy##view")) parts.clipboard.copy(commandLineOf(parts.second.settingsToOpen()));
         tooltip("Opens the window as it is set now.");
         ImGui::SameLine();
         const std::string at = poseText(session->pose());
         if (ImGui::Button("Copy for a picture"))
-            host.copy(renderLineOf(withEyes(host.settings(), session->stereo()), at, host.pictureSize()));
+            parts.clipboard.copy(renderLineOf(withEyes(changes.settings().now(), session->stereo()), at,
+                                              parts.stage.eyeSize()));
         tooltip("Writes what is seen now into view.png, as it is set now.");
     }
 }

@@ -2,7 +2,7 @@
 // costs.
 #pragma once
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/panel/panel_parts.h"
 #include "app/view/panel/sun_panel.h"
 #include "app/view/panel/transfer_panel.h"
 
@@ -16,6 +16,6 @@ struct SideTools {
     bool showPath = false;     // in the next layout "Flight and path" is opened and scrolled to
 };
 
-void drawSidePanels(PanelHost& host, SideTools& tools);
+void drawSidePanels(const PanelParts& parts, SideTools& tools);
 
 }  // namespace stereonav

@@ -66,12 +66,9 @@ void SlicesPanel::windowControls(const SliceStudy& study) {
     tooltip("The slices go through the eye; else through the place that was clicked.");
 }
 
-void SlicesPanel::draw(PanelHost& host) {
-    ViewSession* const session = host.session();
-    if (!session) return;
-    const std::shared_ptr<const SliceStudy> study = host.study();
-    if (!study)
-        return quietText(host, host.readingSlices() ? "reading the slices" : "not read: V reads them");
+void SlicesPanel::draw(ViewSession& session, StudyReading& reading, Instruments& instruments) {
+    const std::shared_ptr<const SliceStudy> study = reading.wanted(session);
+    if (!study) return quietText(reading.busy() ? "reading the slices" : "not read: V reads them");
     if (mStudy.lock() != study) {
         mStudy = study;
         mViews = {};
@@ -79,13 +76,14 @@ void SlicesPanel::draw(PanelHost& host) {
         mLevel = study->windowLevel;
         mZoom = 1;
     }
-    if (mFollows) mCross = session->pose().position;
+    if (mFollows) mCross = session.pose().position;
     windowControls(*study);
     for (const SliceAxis axis : {SliceAxis::Axial, SliceAxis::Coronal, SliceAxis::Sagittal})
-        drawView(host, *session, *study, axis);
+        drawView(session, instruments, *study, axis);
 }
 
-void SlicesPanel::drawView(PanelHost& host, ViewSession& session, const SliceStudy& study, SliceAxis axis) {
+void SlicesPanel::drawView(ViewSession& session, Instruments& instruments, const SliceStudy& study,
+                           SliceAxis axis) {
     View& view = mViews[static_cast<std::size_t>(axis)];
     const int width = std::max(static_cast<int>(ImGui::GetContentRegionAvail().x), 16);
     // The picture is a part of a larger one about the cross where it is enlarged.
@@ -152,8 +150,8 @@ void SlicesPanel::drawView(PanelHost& host, ViewSession& session, const SliceStu
             mCross = *world;
         }
         if (world && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::IsItemDeactivated())
-            if (const FindingList* const findings = host.findings(); findings && findings->clicks())
-                host.addFinding(*world);
+            if (const FindingList* const findings = instruments.findings(); findings && findings->clicks())
+                instruments.addFinding(*world);
         if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::IsMouseDown(ImGuiMouseButton_Right))
             tooltip(
                 "click: the other slices through here\ndouble click: fly there\nwheel: slices; Ctrl+wheel: "

@@ -4,7 +4,7 @@
 #include <array>
 #include <memory>
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/instruments.h"
 #include "app/view/panel/panel_texture.h"
 #include "app/view/slice_picture.h"
 #include "engine/scene/slices.h"
@@ -13,7 +13,7 @@ namespace stereonav {
 
 class SlicesPanel {
 public:
-    void draw(PanelHost& host);
+    void draw(ViewSession& session, StudyReading& reading, Instruments& instruments);
     void forget();
     // The slices go through that place from now on.
     void show(const glm::dvec3& place) { mFollows = false, mCross = place; }
@@ -28,7 +28,7 @@ private:
         bool follows = true;
         std::weak_ptr<const OpenScene> scene;  // whose lumen it shows
     };
-    void drawView(PanelHost& host, ViewSession& session, const SliceStudy& study, SliceAxis axis);
+    void drawView(ViewSession& session, Instruments& instruments, const SliceStudy& study, SliceAxis axis);
     void windowControls(const SliceStudy& study);
 
     std::weak_ptr<const SliceStudy> mStudy;

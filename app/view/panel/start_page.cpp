@@ -26,7 +26,7 @@ constexpr Card kCards[] = {{"terrain", "Terrain", "mountains over a plain"},
                            {"wax", "Wax", "light that goes in"}};
 
 // One scene to open: its picture, which moves under the pointer, and its name. width: units.
-bool drawCard(PanelHost& host, const Card& card, float width) {
+bool drawCard(const Card& card, float width) {
     ImGui::BeginGroup();
     ImGui::PushID(card.scene);
     const ImVec2 from = ImGui::GetCursorScreenPos();
@@ -36,13 +36,13 @@ bool drawCard(PanelHost& host, const Card& card, float width) {
     drawStartPicture(card.scene, from, size, hovered);
     if (hovered)
         ImGui::GetWindowDrawList()->AddRect(from, {from.x + size.x, from.y + size.y},
-                                            ImGui::GetColorU32(accentColor(host.look())), 0, 0, 2);
+                                            ImGui::GetColorU32(accentNow()), 0, 0, 2);
     if (hovered) tooltip(card.words);
     ImGui::TextUnformatted(card.title);
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     if (ImGui::CalcTextSize(card.title).x + gap + ImGui::CalcTextSize(card.words).x < width) {
         ImGui::SameLine();
-        quietLine(host, card.words);
+        quietLine(card.words);
     }
     ImGui::PopID();
     ImGui::EndGroup();
@@ -57,7 +57,7 @@ void StartPage::show(bool shown) {
 }
 
 // True: it is to be opened. width: units.
-bool StartPage::drawRecentFile(PanelHost& host, const RecentFile& file, float width) {
+bool StartPage::drawRecentFile(FileLooks& looks, const RecentFile& file, float width) {
     const float font = ImGui::GetFontSize(), height = 2.6f * font;
     const ImVec2 picture(height * kThumbnailWidth / kThumbnailHeight, height);
     const std::string name =
@@ -80,13 +80,13 @@ bool StartPage::drawRecentFile(PanelHost& host, const RecentFile& file, float wi
     list.PushClipRect({text, from.y}, {from.x + width, to.y}, true);
     list.AddText({text, from.y + 0.2f * font}, ImGui::GetColorU32(ImGuiCol_Text), name.c_str());
     const std::string where = printable(file.path.parent_path().string());
-    list.AddText({text, from.y + 1.35f * font}, ImGui::GetColorU32(quietColor(host.look())), where.c_str());
+    list.AddText({text, from.y + 1.35f * font}, ImGui::GetColorU32(quietNow()), where.c_str());
     list.PopClipRect();
     if (hovered) {
         ImGui::BeginTooltip();
         ImGui::PushTextWrapPos(34 * font);
         plainText(file.path.string());
-        drawFileLook(host, host.lookAt(file.path), 8, 34 * font);
+        drawFileLook(looks.look(file.path), 8, 34 * font);
         ImGui::PopTextWrapPos();
         ImGui::EndTooltip();
     }
@@ -105,13 +105,13 @@ PanelTexture* StartPage::pictureOf(const RecentFile& file) {
     return known->second.any() ? &known->second : nullptr;
 }
 
-void StartPage::drawRecent(PanelHost& host, float width) {
+void StartPage::drawRecent(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks, float width) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const int columns = width > 30 * ImGui::GetFontSize() ? 2 : 1;
     const float each = (width - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns);
     std::string open;
     int shown = 0;
-    for (const RecentFile& file : host.recentFiles()) {
+    for (const RecentFile& file : kept.recent().list()) {
         const std::string path = file.path.string();
         if (std::find_if(std::begin(kCards), std::end(kCards),
                          [&](const Card& card) { return path == card.scene; }) != std::end(kCards))
@@ -120,16 +120,16 @@ void StartPage::drawRecent(PanelHost& host, float width) {
         if (shown == 0) ImGui::Spacing();
         if (shown % columns != 0) ImGui::SameLine();
         ImGui::PushID(shown++);
-        if (drawRecentFile(host, file, each - 1)) open = path;
+        if (drawRecentFile(looks, file, each - 1)) open = path;
         ImGui::PopID();
     }
-    if (!mForget.empty()) host.forgetRecent(std::exchange(mForget, {}));
+    if (!mForget.empty()) kept.forgetRecent(std::exchange(mForget, {}));
     if (open.empty()) return;
     mShown = false;
-    host.open(open);
+    changes.open(open);
 }
 
-bool StartPage::draw(PanelHost& host) {
+bool StartPage::draw(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks) {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize();
     const float width = std::min(whole.x - font, 56 * font);
@@ -143,23 +143,22 @@ bool StartPage::draw(PanelHost& host) {
     const int columns = width > 30 * font ? 4 : 2;
     for (int n = 0; n < 4; ++n) {
         if (n % columns != 0) ImGui::SameLine();
-        if (drawCard(host, kCards[n],
+        if (drawCard(kCards[n],
                      (inside - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns) - 1)) {
             mShown = false;
-            host.open(kCards[n].scene);
+            changes.open(kCards[n].scene);
         }
     }
     ImGui::Spacing();
     if (ImGui::Button("Open a file or folder...")) look = true;
     tooltip("An elevation model, a CT study, a mesh or a scene. Key: Ctrl+O");
     ImGui::SameLine();
-    quietText(host, "or drop it here: GeoTIFF and other elevation models, DICOM, NIfTI, NRRD, glTF");
-    drawRecent(host, inside);
+    quietText("or drop it here: GeoTIFF and other elevation models, DICOM, NIfTI, NRRD, glTF");
+    drawRecent(changes, kept, looks, inside);
     ImGui::Separator();
-    quietText(host, "Look: drag, or the arrow keys.");
-    quietText(host, "Fly: W S A D; the wheel changes the speed, Space goes home.");
+    quietText("Look: drag, or the arrow keys.");
+    quietText("Fly: W S A D; the wheel changes the speed, Space goes home.");
     quietText(
-        host,
         "Stereo: the menu Stereo has a mode for each display; M tries the next. Ctrl+P finds anything.");
     if (ImGui::Button("Close")) mShown = false;
     ImGui::End();

@@ -5,8 +5,10 @@
 #include <map>
 #include <string>
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/file_looks.h"
+#include "app/view/kept_places.h"
 #include "app/view/panel/panel_texture.h"
+#include "app/view/scene_changes.h"
 
 namespace stereonav {
 
@@ -15,13 +17,13 @@ public:
     void show(bool shown);
     bool shown() const { return mShown; }
     // True: a file is to be looked for.
-    bool draw(PanelHost& host);
+    bool draw(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks);
 
     void forget() { mPictures.clear(); }  // what belongs to the window's context
 
 private:
-    bool drawRecentFile(PanelHost& host, const RecentFile& file, float width);
-    void drawRecent(PanelHost& host, float width);
+    bool drawRecentFile(FileLooks& looks, const RecentFile& file, float width);
+    void drawRecent(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks, float width);
     PanelTexture* pictureOf(const RecentFile& file);
 
     bool mShown = false;

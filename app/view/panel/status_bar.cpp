@@ -6,9 +6,17 @@
 #include <cmath>
 
 #include "app/output/length_text.h"
+#include "app/view/clipboard.h"
+#include "app/view/frame_presenter.h"
+#include "app/view/instruments.h"
 #include "app/view/panel/comfort_meter.h"
 #include "app/view/panel/controls.h"
+#include "app/view/picture_pointer.h"
+#include "app/view/scene_changes.h"
 #include "app/view/status.h"
+#include "app/view/window_closing.h"
+#include "app/view/window_input.h"
+#include "app/view/window_jobs.h"
 
 namespace stereonav {
 namespace {
@@ -63,64 +71,63 @@ std::string placeText(ViewSession& session) {
 }
 
 // Of the place under the pointer, a piece for each fact.
-void placePieces(PanelHost& host, Row& row) {
-    for (const Fact& fact : host.pointedFacts())
-        row.text(fact.text, fact.label.value_or("") + ", under the pointer");
+void placePieces(const Facts& facts, Row& row) {
+    for (const Fact& fact : facts) row.text(fact.text, fact.label.value_or("") + ", under the pointer");
 }
 
 // Asked once for a monitor, and only of who sees with two eyes.
-bool asksForScreen(PanelHost& host) {
-    ViewSession* const session = host.session();
-    const ViewFrame* const frame = host.frame();
-    return session && frame && frame->request.twoEyes && !session->slicesShown() &&
-           infoOf(session->compose().mode).layout != OutputLayout::OneEye && host.screen().asks;
+bool asksForScreen(const PanelParts& parts) {
+    ViewSession* const session = parts.session;
+    const ViewFrame* const frame = parts.pictures.frame();
+    return session && frame && frame->request.twoEyes && !session->slices().shown() &&
+           infoOf(session->compose().mode).layout != OutputLayout::OneEye && parts.display.screen().asks;
 }
 
-void askForScreen(PanelHost& host, float wrap) {
+void askForScreen(const PanelParts& parts, float wrap) {
     static double width_mm = 0;  // as it is being written
     wrappedText("How wide is this screen? It does not tell, so parallax in mm is a guess.", wrap);
-    if (!(width_mm > 0)) width_mm = std::round(host.screen().width_mm);
+    if (!(width_mm > 0)) width_mm = std::round(parts.display.screen().width_mm);
     ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
     ImGui::InputDouble("mm##screen", &width_mm, 0, 0, "%.0f");
     ImGui::SameLine();
     ImGui::BeginDisabled(!(width_mm > 0 && std::isfinite(width_mm)));
-    if (ImGui::Button("Set")) host.set("screen-width", fmt::format("{:.6g}", width_mm));
+    if (ImGui::Button("Set")) parts.changes.set("screen-width", fmt::format("{:.6g}", width_mm));
     ImGui::EndDisabled();
     tooltip("Of the whole monitor. It is kept, and can be changed in the panel View and stereo.");
     ImGui::SameLine();
-    if (ImGui::Button("Not now")) host.leaveScreenUnknown();
+    if (ImGui::Button("Not now")) parts.display.leaveUnknown();
     tooltip("It is not asked again.");
 }
 
-void askBeforeClosing(PanelHost& host, const std::string& question, float wrap) {
-    ImGui::PushStyleColor(ImGuiCol_Text, warningColor(host.look()));
+void askBeforeClosing(const PanelParts& parts, const std::string& question, float wrap) {
+    ImGui::PushStyleColor(ImGuiCol_Text, warningNow());
     wrappedText(question, wrap);
     ImGui::PopStyleColor();
-    if (ImGui::Button("Quit##closing")) host.answerClosing(true);
+    if (ImGui::Button("Quit##closing")) parts.actions.ask({ViewCommand::QuitAtOnce});
     ImGui::SameLine();
-    if (ImGui::Button("Go on##closing")) host.answerClosing(false);
+    if (ImGui::Button("Go on##closing")) parts.closing.goOn();
 }
 
-void drawPreparing(PanelHost& host, const PaintWork& work, float wrap) {
+void drawPreparing(const PanelParts& parts, const PaintWork& work, float wrap) {
     wrappedText(work.what, wrap);
     ImGui::ProgressBar(static_cast<float>(work.fraction), {std::min(wrap, 20 * ImGui::GetFontSize()), 0});
     ImGui::SameLine();
-    if (ImGui::Button("Cancel##prepare")) host.cancelPreparing();
+    if (ImGui::Button("Cancel##prepare")) parts.changes.cancelPreparing();
 }
 
-void drawPainting(PanelHost& host, const PaintWork& work, float wrap) {
+void drawPainting(const PanelParts& parts, const PaintWork& work, float wrap) {
     wrappedText(work.what.empty() ? "painting the ground" : work.what, wrap);
     // What does not tell how far it is has no figure.
     ImGui::ProgressBar(static_cast<float>(work.fraction), {std::min(wrap, 20 * ImGui::GetFontSize()), 0},
                        work.fraction > 0 ? nullptr : "");
     ImGui::SameLine();
     if (ImGui::Button("Cancel##paint"))
-        if (auto* const paint = host.session()->open().scene->offered<LivePaint>()) paint->cancel();
+        if (auto* const paint = parts.session->open().scene->offered<LivePaint>()) paint->cancel();
 }
 
 }  // namespace
 
-float drawStatusBar(PanelHost& host, float left, float right) {
+float drawStatusBar(const PanelParts& parts, float left, float right) {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float height = ImGui::GetFontSize() + 2 * ImGui::GetStyle().FramePadding.y + 2;
     ImGui::SetNextWindowPos({left, whole.y - height});
@@ -129,74 +136,75 @@ float drawStatusBar(PanelHost& host, float left, float right) {
     ImGui::Begin("##status", nullptr, kBar);
     ImGui::PopStyleVar();
     Row row(ImGui::GetContentRegionAvail().x);
-    ViewSession* const session = host.session();
-    const ViewFrame* const frame = host.frame();
-    if (session && session->slicesShown()) {
-        row.text(session->sliceStatus());
+    ViewSession* const session = parts.session;
+    const ViewFrame* const frame = parts.pictures.frame();
+    if (session && session->slices().shown()) {
+        row.text(session->slices().status());
     } else if (session && frame) {
-        const double rate = host.framesPerSecond();
+        const double rate = parts.pictures.framesPerSecond();
         row.text(rate > 0 ? fmt::format("{:5.1f} /s", rate) : "  rest ",
                  "frames a second, while something moves");
-        if (const std::string age = host.ageText(); !age.empty())
+        if (const std::string age = parts.pictures.ageText(); !age.empty())
             row.text(age,
                      "since the picture was asked for that is shown, warped to where the eyes are now; and "
                      "how much of the width and height it was cast in");
         if (frame->lacksDetail)
             row.text("coarse ground", "Finer tiles are on their way: the picture is drawn again with them.");
-        placePieces(host, row);
+        placePieces(parts.pointer.facts(), row);
         row.text(costText(*frame), frameText(*frame, rate));
-        if (frame->request.twoEyes && row.room(comfortMeterWidth())) drawComfortMeter(host, *frame);
+        if (frame->request.twoEyes && row.room(comfortMeterWidth())) drawComfortMeter(parts.display, *frame);
         if (const std::string measured = session->measuredText(*frame); !measured.empty())
             row.text(
                 measured.substr(0, measured.find(',')),
                 measured + (frame->rays > 1
                                 ? "\nBoth eyes are cast in full, again and again, while the picture rests."
                                 : "\nThe right eye against a full cast, measured while the picture rests."));
-        if (session->playing())
-            row.text(
-                fmt::format("playing {:.1f} of {:.1f} s", session->playTime(), session->path().duration()));
-        if (session->recording()) row.text(fmt::format("recording {:.1f} s", session->recorded()));
+        if (session->paths().playing())
+            row.text(fmt::format("playing {:.1f} of {:.1f} s", session->paths().time(),
+                                 session->paths().path().duration()));
+        if (session->paths().recording())
+            row.text(fmt::format("recording {:.1f} s", session->paths().recorded()));
         row.text(placeText(*session));
         row.text(std::string(infoOf(session->compose().mode).longName) +
                  (session->swapped() ? ", swapped" : ""));
         row.text(std::string(frame->request.way.method), "how the right eye was made: N");
-        row.text(fmt::format("speed {}/s", lengthText(session->speed())), "the wheel changes it");
+        row.text(fmt::format("speed {}/s", lengthText(session->moves().speed())), "the wheel changes it");
     }
     ImGui::End();
     return height;
 }
 
-void drawNotices(PanelHost& host, float left, float right, float top) {
+void drawNotices(const PanelParts& parts, float left, float right, float top) {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float width = whole.x - left - right, margin = 0.6f * ImGui::GetFontSize();
-    const ViewWorker::Loading loading = host.loading();
-    ViewSession* const session = host.session();
+    const ViewWorker::Loading loading = parts.changes.loading();
+    ViewSession* const session = parts.session;
     const std::string notice = session ? session->notice() : "";
-    const bool waits = loading.busy && (host.loadingSeconds() > kPatience || !session);
-    const Job* const job = host.job() && host.job()->running() ? host.job() : nullptr;
-    const bool asks = asksForScreen(host);
-    const std::optional<PaintWork> painting = host.painting();
-    const std::optional<PaintWork> preparing = host.preparing();
-    const std::string closing = host.closingQuestion();
-    const bool works = waits || job || host.readingSlices() || painting || preparing || !closing.empty();
-    if (notice.empty() && host.failure().empty() && !works && !asks) return;
+    const bool waits = loading.busy && (parts.changes.loadingSeconds() > kPatience || !session);
+    const Job* const job = parts.jobs.busy() ? parts.jobs.job() : nullptr;
+    const bool asks = asksForScreen(parts);
+    const std::optional<PaintWork> painting = parts.instruments.painting();
+    const std::optional<PaintWork> preparing = parts.changes.preparing();
+    const std::string closing = parts.closing.question();
+    const bool works = waits || job || parts.study.fraction() || painting || preparing || !closing.empty();
+    if (notice.empty() && parts.notices.failure().empty() && !works && !asks) return;
     const float wrap =
         std::max(std::min(width - 2 * margin, 46 * ImGui::GetFontSize()) - 4 * ImGui::GetFontSize(), 60.0f);
     ImGui::SetNextWindowPos({left + width / 2, top + margin}, ImGuiCond_Always, {0.5f, 0});
     ImGui::Begin("##notices", nullptr, kBar | ImGuiWindowFlags_AlwaysAutoResize);
-    if (!closing.empty()) askBeforeClosing(host, closing, wrap);
-    if (!host.failure().empty()) {
-        ImGui::PushStyleColor(ImGuiCol_Text, warningColor(host.look()));
-        wrappedText(host.failure(), wrap);
+    if (!closing.empty()) askBeforeClosing(parts, closing, wrap);
+    if (!parts.notices.failure().empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, warningNow());
+        wrappedText(parts.notices.failure(), wrap);
         ImGui::PopStyleColor();
-        if (ImGui::Button("Dismiss")) host.forgetFailure();
+        if (ImGui::Button("Dismiss")) parts.notices.forgetFailure();
         ImGui::SameLine();
-        if (ImGui::Button("Copy")) host.copy(host.failure());
+        if (ImGui::Button("Copy")) parts.clipboard.copy(parts.notices.failure());
     }
     if (!notice.empty()) wrappedText(notice, wrap);
     if (waits) {
         wrappedText(loading.what.empty() ? "loading" : loading.what, wrap);
-        const double gone = host.loadingSeconds();
+        const double gone = parts.changes.loadingSeconds();
         std::string text = fmt::format("{:.0f} %", 100 * loading.fraction);
         // What is left is told once it is more than a guess.
         if (loading.fraction > 0.1 && gone > 2)
@@ -204,17 +212,17 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
         ImGui::ProgressBar(static_cast<float>(loading.fraction),
                            {std::min(wrap, 20 * ImGui::GetFontSize()), 0}, text.c_str());
         ImGui::SameLine();
-        if (ImGui::Button("Cancel")) host.cancelLoading();
+        if (ImGui::Button("Cancel")) parts.changes.cancelLoading();
     }
-    if (const std::optional<double> read = host.readingSlices()) {
+    if (const std::optional<double> read = parts.study.fraction()) {
         wrappedText("reading the slices", wrap);
         ImGui::ProgressBar(static_cast<float>(*read), {std::min(wrap, 20 * ImGui::GetFontSize()), 0});
         ImGui::SameLine();
-        if (ImGui::Button("Cancel##slices")) host.cancelSlices();
+        if (ImGui::Button("Cancel##slices")) parts.study.cancel();
     }
-    if (painting) drawPainting(host, *painting, wrap);
-    if (preparing) drawPreparing(host, *preparing, wrap);
-    if (asks) askForScreen(host, wrap);
+    if (painting) drawPainting(parts, *painting, wrap);
+    if (preparing) drawPreparing(parts, *preparing, wrap);
+    if (asks) askForScreen(parts, wrap);
     if (job) {
         wrappedText(job->what(), wrap);
         std::string text = fmt::format("{:.0f} %", 100 * job->fraction());
@@ -225,7 +233,7 @@ void drawNotices(PanelHost& host, float left, float right, float top) {
                            {std::min(wrap, 20 * ImGui::GetFontSize()), 0}, text.c_str());
         tooltip(job->progress());
         ImGui::SameLine();
-        if (ImGui::Button("Cancel##job")) host.cancelJob();
+        if (ImGui::Button("Cancel##job")) parts.jobs.cancel();
     }
     ImGui::End();
 }

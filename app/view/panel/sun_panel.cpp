@@ -18,15 +18,14 @@ constexpr double kPlaceDegree = std::numbers::pi / 180;
 constexpr double kNoNorth = 0.0005 * kPlaceDegree;  // less is not told
 
 // What says where the sun stands: what the scene takes at once comes first.
-const Option* sunOption(PanelHost& host) {
-    const ViewSession* const session = host.session();
-    if (!session) return nullptr;
+const Option* sunOption(const SceneChanges& changes) {
+    if (!changes.scene()) return nullptr;
     const Option *const sun = viewOption("sun"), *const light = viewOption("light-from");
-    const bool ofSun = sun && host.applies(*sun);
+    const bool ofSun = sun && changes.settings().applies(*sun);
     // Of ground that is shown as a medium; of clouds there is no sun by date.
-    const bool ofGround = ofSun || session->open().scene->offered<OnEarth>();
-    const bool ofLight = light && host.applies(*light) && ofGround;
-    if (ofLight && (!ofSun || (host.live(*light) && !host.live(*sun)))) return light;
+    const bool ofGround = ofSun || changes.scene()->scene->offered<OnEarth>();
+    const bool ofLight = light && changes.settings().applies(*light) && ofGround;
+    if (ofLight && (!ofSun || (changes.live(*light) && !changes.live(*sun)))) return light;
     return ofSun ? sun : nullptr;
 }
 
@@ -55,8 +54,8 @@ bool angleControl(const char* label, double& radians, double most, const char* t
 
 }  // namespace
 
-bool SunPanel::has(PanelHost& host) {
-    return sunOption(host) != nullptr;
+bool SunPanel::has(const SceneChanges& changes) {
+    return sunOption(changes) != nullptr;
 }
 
 // Of the scene's middle, so that it stays while one flies.
@@ -127,7 +126,7 @@ bool SunPanel::drawClock() {
     return changed;
 }
 
-bool SunPanel::drawPlace(PanelHost& host) {
+bool SunPanel::drawPlace() {
     PlaceOnEarth& place = mClock->place;
     if (mOnEarth) {
         const double north = place.latitude / kPlaceDegree, east = place.longitude / kPlaceDegree;
@@ -135,7 +134,7 @@ bool SunPanel::drawPlace(PanelHost& host) {
                                        std::abs(east), east < 0 ? "W" : "E");
         if (std::abs(mNorth) > kNoNorth)
             text += fmt::format("\ntrue north {:+.2f} degrees from the map's", mNorth / kPlaceDegree);
-        quietText(host, text);
+        quietText(text);
         return false;
     }
     bool changed = angleControl("N##latitude", place.latitude, 90, "Latitude in degrees, south negative.");
@@ -144,14 +143,13 @@ bool SunPanel::drawPlace(PanelHost& host) {
     return changed;
 }
 
-void SunPanel::draw(PanelHost& host) {
-    ViewSession* const session = host.session();
-    const Option* const option = sunOption(host);
-    if (!session || !option || !ImGui::TreeNode("Sun by date and time")) return;
-    look(*session);
+void SunPanel::draw(SceneChanges& changes, ViewSession& session) {
+    const Option* const option = sunOption(changes);
+    if (!option || !ImGui::TreeNode("Sun by date and time")) return;
+    look(session);
     ImGui::BeginGroup();
     bool changed = drawClock();
-    changed |= drawPlace(host);
+    changed |= drawPlace();
     ImGui::EndGroup();
     const bool done = ImGui::IsItemDeactivatedAfterEdit();
     if (mTold != mClock) {
@@ -160,13 +158,13 @@ void SunPanel::draw(PanelHost& host) {
     }
     const std::string text = sunOptionText(mThen.world);
     // What is computed anew for each place of the sun is, once it is let go.
-    if (host.live(*option) ? changed : done) host.set(option->key, text);
-    quietText(host, describe(mThen));
-    drawHoursButton(host, dateText(*mClock));
-    if (host.valueOf(*option).value_or("") != text) {
-        const auto given = host.settings().find(option->key);
-        const bool isSet = given != host.settings().end() && given->second.back() == text;
-        if (!isSet && ImGui::Button("Set the sun")) host.set(option->key, text);
+    if (changes.live(*option) ? changed : done) changes.set(option->key, text);
+    quietText(describe(mThen));
+    drawHoursButton(changes, dateText(*mClock));
+    if (changes.valueOf(*option).value_or("") != text) {
+        const auto given = changes.settings().now().find(option->key);
+        const bool isSet = given != changes.settings().now().end() && given->second.back() == text;
+        if (!isSet && ImGui::Button("Set the sun")) changes.set(option->key, text);
         if (!isSet) tooltip("The light is set otherwise now: this sets it to the date and time.");
     }
     ImGui::TreePop();

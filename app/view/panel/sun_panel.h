@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/scene_changes.h"
 #include "app/view/sun_clock.h"
 
 namespace stereonav {
@@ -13,13 +13,13 @@ namespace stereonav {
 class SunPanel {
 public:
     // Whether the scene has a sun that options place.
-    static bool has(PanelHost& host);
-    void draw(PanelHost& host);
+    static bool has(const SceneChanges& changes);
+    void draw(SceneChanges& changes, ViewSession& session);
 
 private:
     void look(ViewSession& session);
     bool drawClock();
-    bool drawPlace(PanelHost& host);
+    bool drawPlace();
 
     std::weak_ptr<const OpenScene> mScene;
     std::optional<SunClock> mClock;

@@ -15,20 +15,19 @@ namespace stereonav {
 namespace {
 
 // On the ground; what lies beside it is left out and told.
-void take(PanelHost& host, const TerrainScene& terrain, const std::vector<glm::dvec2>& line, bool closed,
-          const std::string& what) {
+void take(ViewSession& session, MeasuredLine& measured, const TerrainScene& terrain,
+          const std::vector<glm::dvec2>& line, bool closed, const std::string& what) {
     std::vector<glm::dvec3> places;
     for (const glm::dvec2& place : line) {
         const double height = terrain.ground.contains(place) ? terrain.ground.heightAt(place) : std::nan("");
         if (std::isfinite(height)) places.emplace_back(place, height);
     }
-    ViewSession& session = *host.session();
     const std::size_t beside = line.size() - places.size();
-    if (!host.measured()->take(places, closed))
+    if (!measured.take(places, closed))
         return session.notify(beside == line.size()
                                   ? fmt::format("{}: all of it lies outside the ground", what)
                                   : fmt::format("{}: one place on the ground makes no line", what));
-    std::string text = fmt::format("{}: {} places", what, host.measured()->places().size());
+    std::string text = fmt::format("{}: {} places", what, measured.places().size());
     if (places.size() > MeasuredLine::kMost) text += fmt::format(", thinned from {}", places.size());
     if (beside > 0) text += fmt::format("; {} outside the ground were left out", beside);
     session.notify(text);
@@ -41,8 +40,8 @@ std::string nameOf(const PaintedLine& line, std::size_t n) {
 
 }  // namespace
 
-void drawTakenLines(PanelHost& host) {
-    const Scene& scene = *host.session()->open().scene;
+void drawTakenLines(ViewSession& session, MeasuredLine& line) {
+    const Scene& scene = *session.open().scene;
     const auto* const terrain = scene.offered<const TerrainScene>();
     const auto* const paint = scene.offered<LivePaint>();
     if (!terrain || !paint) return;
@@ -50,14 +49,14 @@ void drawTakenLines(PanelHost& host) {
     const std::vector<PaintedLine>& lines = painted->lines;
     ImGui::BeginDisabled(lines.empty());
     if (lines.size() == 1 && ImGui::Button("Take track"))
-        take(host, *terrain, lines[0].world, lines[0].closed, nameOf(lines[0], 0));
+        take(session, line, *terrain, lines[0].world, lines[0].closed, nameOf(lines[0], 0));
     if (lines.size() != 1) {
         ImGui::SetNextItemWidth(8 * ImGui::GetFontSize());
         if (ImGui::BeginCombo("##tracks", "Take track")) {
             for (std::size_t n = 0; n < lines.size(); ++n) {
                 ImGui::PushID(static_cast<int>(n));
                 if (ImGui::Selectable(nameOf(lines[n], n).c_str()))
-                    take(host, *terrain, lines[n].world, lines[n].closed, nameOf(lines[n], n));
+                    take(session, line, *terrain, lines[n].world, lines[n].closed, nameOf(lines[n], n));
                 ImGui::PopID();
             }
             ImGui::EndCombo();
@@ -67,12 +66,12 @@ void drawTakenLines(PanelHost& host) {
     tooltip(
         "A line of the file that is drawn (tracks, under Material) is measured in the place of this one.");
     ImGui::SameLine();
-    const std::vector<PathSample>& flight = host.session()->path().samples();
+    const std::vector<PathSample>& flight = session.paths().path().samples();
     ImGui::BeginDisabled(flight.size() < 2);
     if (ImGui::Button("Take flight")) {
-        std::vector<glm::dvec2> line;
-        for (const PathSample& sample : flight) line.emplace_back(sample.pose.position);
-        take(host, *terrain, line, false, "the flight");
+        std::vector<glm::dvec2> under;
+        for (const PathSample& sample : flight) under.emplace_back(sample.pose.position);
+        take(session, line, *terrain, under, false, "the flight");
     }
     ImGui::EndDisabled();
     tooltip("The ground under the flight that Z plays.");

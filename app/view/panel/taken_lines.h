@@ -1,10 +1,11 @@
 // Lines that are not clicked but taken: tracks that are drawn on the ground, and the flight.
 #pragma once
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/measured_line.h"
+#include "app/view/session.h"
 
 namespace stereonav {
 
-void drawTakenLines(PanelHost& host);
+void drawTakenLines(ViewSession& session, MeasuredLine& line);
 
 }  // namespace stereonav

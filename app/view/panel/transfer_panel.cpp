@@ -21,9 +21,8 @@ constexpr float kHeight = 9, kReach = 0.6f, kDot = 0.3f;  // letters' heights
 constexpr double kZoom = 1.25, kOpacitySteps = 1000;
 constexpr const char* kPointPopup = "##point";
 
-const ShownValues* valuesOf(PanelHost& host) {
-    ViewSession* const session = host.session();
-    return session ? session->open().scene->offered<ShownValues>() : nullptr;
+const ShownValues* valuesOf(const Scene& scene) {
+    return scene.offered<ShownValues>();
 }
 
 double roundedOpacity(double opacity) {
@@ -38,10 +37,9 @@ TransferCurve rampOf(const std::optional<double>& isovalue, const ValueSpan& ran
 }
 
 // Of the curve, also under glasses that split colours.
-ImU32 colorOf(const PanelHost& host, const std::array<float, 3>& color, float alpha) {
+ImU32 colorOf(bool grey, const std::array<float, 3>& color, float alpha) {
     ImVec4 shown(color[0], color[1], color[2], alpha);
-    if (host.look().grey)
-        shown.x = shown.y = shown.z = 0.2126f * shown.x + 0.7152f * shown.y + 0.0722f * shown.z;
+    if (grey) shown.x = shown.y = shown.z = 0.2126f * shown.x + 0.7152f * shown.y + 0.0722f * shown.z;
     return ImGui::GetColorU32(shown);
 }
 
@@ -62,8 +60,8 @@ struct TransferPanel::Plot {
     ImVec2 end() const { return {from.x + size.x, from.y + size.y}; }
 };
 
-bool TransferPanel::has(PanelHost& host) {
-    return valuesOf(host) != nullptr;
+bool TransferPanel::has(const Scene& scene) {
+    return valuesOf(scene) != nullptr;
 }
 
 void TransferPanel::forget() {
@@ -97,46 +95,46 @@ void TransferPanel::count(const std::shared_ptr<const StudyValues>& values) {
 }
 
 // What is set counts, however it came about; while it is dragged, the hand does.
-void TransferPanel::follow(PanelHost& host, const ShownValues& shown) {
-    const std::string text = host.valueOf(*viewOption("transfer")).value_or("");
+void TransferPanel::follow(const SceneChanges& changes, const ShownValues& shown) {
+    const std::string text = changes.valueOf(*viewOption("transfer")).value_or("");
     if (!isCurveText(text))
         mCurve = TransferCurve(shown.function);
     else if (text != mText)
         mCurve = TransferCurve(transferFromCurve(text, "--transfer"));
     mText = text;
-    mIsovalue = numberOf(host.valueOf(*viewOption("isovalue")).value_or(""));
+    mIsovalue = numberOf(changes.valueOf(*viewOption("isovalue")).value_or(""));
     if (mHeld != Held::Nothing) return;
     mAll = viewOf(shown.values->range.lowest, shown.values->range.highest, mCurve);
     if (!mZoomed) mView = mAll;
 }
 
-void TransferPanel::change(PanelHost& host) {
+void TransferPanel::change(SceneChanges& changes) {
     mText = mCurve.text();
-    host.set("transfer", mText);
+    changes.set("transfer", mText);
 }
 
 std::string TransferPanel::withUnit(double value) const {
     return fmt::format("{:.6g}{}{}", value + 0.0, mValues->unit.empty() ? "" : " ", mValues->unit);
 }
 
-void TransferPanel::draw(PanelHost& host) {
-    const ShownValues* const shown = valuesOf(host);
+void TransferPanel::draw(SceneChanges& changes, const ViewSession& session, bool grey) {
+    const ShownValues* const shown = valuesOf(*session.open().scene);
     if (!shown) return;
     ImGui::PushID("transfer panel");
     count(shown->values);
-    follow(host, *shown);
-    drawPlot(host);
-    drawPoint(host);
-    drawButtons(host, shown->begun);
-    if (!*host.session()->surface().translucent)
-        quietText(host, "Opaque: a preset, or T, makes it translucent.");
+    follow(changes, *shown);
+    drawPlot(changes, grey);
+    drawPoint(changes);
+    drawButtons(changes, shown->begun);
+    if (!*session.surface().now().translucent)
+        quietText("Opaque: a preset, or T, makes it translucent.");
     else if (mCurve.empty() && !shown->function.empty())
-        quietText(host, fmt::format("This function has more points than can be edited, {}.",
-                                    shown->function.points().size()));
+        quietText(fmt::format("This function has more points than can be edited, {}.",
+                              shown->function.points().size()));
     ImGui::PopID();
 }
 
-void TransferPanel::drawPlot(PanelHost& host) {
+void TransferPanel::drawPlot(SceneChanges& changes, bool grey) {
     const float font = ImGui::GetFontSize();
     const Plot plot{ImGui::GetCursorScreenPos(),
                     {std::max(ImGui::GetContentRegionAvail().x, 4 * font), kHeight * font},
@@ -148,17 +146,17 @@ void TransferPanel::drawPlot(PanelHost& host) {
     list.AddRectFilled(plot.from, plot.end(), ImGui::GetColorU32(ImGuiCol_FrameBg));
     list.PushClipRect(plot.from, plot.end(), true);
     drawBars(plot);
-    drawColors(host, plot);
-    drawIsovalue(host, plot);
+    drawColors(plot, grey);
+    drawIsovalue(plot);
     drawCurve(plot);
     list.PopClipRect();
-    drawPoints(host, plot);
-    usePointer(host, plot);
+    drawPoints(plot, grey);
+    usePointer(changes, plot);
     const std::string right = withUnit(mView.rounded(mView.high));
-    quietLine(host, withUnit(mView.rounded(mView.low)));
+    quietLine(withUnit(mView.rounded(mView.low)));
     ImGui::SameLine(std::max(ImGui::GetCursorPosX(),
                              ImGui::GetCursorPosX() + plot.size.x - ImGui::CalcTextSize(right.c_str()).x));
-    quietLine(host, right);
+    quietLine(right);
 }
 
 void TransferPanel::drawBars(const Plot& plot) {
@@ -178,18 +176,18 @@ void TransferPanel::drawBars(const Plot& plot) {
     }
 }
 
-void TransferPanel::drawIsovalue(const PanelHost& host, const Plot& plot) {
+void TransferPanel::drawIsovalue(const Plot& plot) {
     if (!mIsovalue) return;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float x = plot.xOf(*mIsovalue), font = ImGui::GetFontSize();
-    const ImU32 color = ImGui::GetColorU32(warningColor(host.look()));
+    const ImU32 color = ImGui::GetColorU32(warningNow());
     list.AddLine({x, plot.from.y}, {x, plot.end().y}, color, std::max(0.1f * font, 1.0f));
     list.AddTriangleFilled({x - 0.35f * font, plot.from.y}, {x + 0.35f * font, plot.from.y},
                            {x, plot.from.y + 0.5f * font}, color);
 }
 
 // Under the curve, in bands of one colour each.
-void TransferPanel::drawColors(const PanelHost& host, const Plot& plot) {
+void TransferPanel::drawColors(const Plot& plot, bool grey) {
     const auto& points = mCurve.points();
     if (points.empty()) return;
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -212,7 +210,7 @@ void TransferPanel::drawColors(const PanelHost& host, const Plot& plot) {
             for (std::size_t c = 0; c < 3; ++c)
                 color[c] = from.color[c] + at((x + next) / 2) * (to.color[c] - from.color[c]);
             list.AddQuadFilled({x, a.y + at(x) * (b.y - a.y)}, {next, a.y + at(next) * (b.y - a.y)},
-                               {next, bottom}, {x, bottom}, colorOf(host, color, kAlpha));
+                               {next, bottom}, {x, bottom}, colorOf(grey, color, kAlpha));
         }
     }
     list.Flags = flags;
@@ -231,7 +229,7 @@ void TransferPanel::drawCurve(const Plot& plot) {
                                             std::max(0.1f * ImGui::GetFontSize(), 1.5f));
 }
 
-void TransferPanel::drawPoints(const PanelHost& host, const Plot& plot) {
+void TransferPanel::drawPoints(const Plot& plot, bool grey) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float dot = kDot * ImGui::GetFontSize();
     for (std::size_t n = 0; n < mCurve.points().size(); ++n) {
@@ -239,7 +237,7 @@ void TransferPanel::drawPoints(const PanelHost& host, const Plot& plot) {
         if (at.x < plot.from.x - 1 || at.x > plot.end().x + 1) continue;
         const bool held = n == mPoint && (mHeld == Held::Point || ImGui::IsPopupOpen(kPointPopup));
         list.AddCircleFilled(at, (held ? 1.6f : 1.3f) * dot, ImGui::GetColorU32(ImGuiCol_Text));
-        list.AddCircleFilled(at, dot, colorOf(host, mCurve.points()[n].color, 1));
+        list.AddCircleFilled(at, dot, colorOf(grey, mCurve.points()[n].color, 1));
     }
 }
 
@@ -258,7 +256,7 @@ bool TransferPanel::isovalueNear(const Plot& plot, const ImVec2& at) const {
     return mIsovalue && std::abs(plot.xOf(*mIsovalue) - at.x) <= 0.5f * kReach * ImGui::GetFontSize();
 }
 
-void TransferPanel::usePointer(PanelHost& host, const Plot& plot) {
+void TransferPanel::usePointer(SceneChanges& changes, const Plot& plot) {
     const ImGuiIO& io = ImGui::GetIO();
     const ImVec2 pointer = io.MousePos;
     const bool hovered = ImGui::IsItemHovered();
@@ -289,11 +287,12 @@ void TransferPanel::usePointer(PanelHost& host, const Plot& plot) {
                 mHeld = Held::Point;
                 mFromValue = mFromOpacity = 0;
             }
-            change(host);
+            change(changes);
         }
     }
     if (mHeld != Held::Nothing && !ImGui::IsItemActive()) mHeld = Held::Nothing;
-    if (mHeld != Held::Nothing && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) drag(host, plot, pointer);
+    if (mHeld != Held::Nothing && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0))
+        drag(changes, plot, pointer);
     if (!hovered) return;
     if (io.MouseWheel != 0 && mHeld == Held::Nothing) {
         mView = zoomed(mView, std::pow(kZoom, -io.MouseWheel), plot.valueAt(pointer.x), mAll);
@@ -302,20 +301,20 @@ void TransferPanel::usePointer(PanelHost& host, const Plot& plot) {
     tell(plot, pointer);
 }
 
-void TransferPanel::drag(PanelHost& host, const Plot& plot, const ImVec2& pointer) {
+void TransferPanel::drag(SceneChanges& changes, const Plot& plot, const ImVec2& pointer) {
     if (mHeld == Held::Isovalue) {
         // Where nothing has the value there is no surface.
         const ValueSpan& range = mValues->range;
         const double value =
             std::clamp(plot.view.rounded(plot.valueAt(pointer.x)),
                        std::min(range.lowest + plot.view.step(), range.highest), range.highest);
-        if (value != mIsovalue) host.set("isovalue", fmt::format("{:.6g}", value));
+        if (value != mIsovalue) changes.set("isovalue", fmt::format("{:.6g}", value));
         return;
     }
     if (mPoint >= mCurve.points().size()) return;
     const double opacity = plot.opacityAt(pointer.y) + mFromOpacity;
     mCurve.move(mPoint, plot.view.rounded(plot.valueAt(pointer.x) + mFromValue), roundedOpacity(opacity));
-    change(host);
+    change(changes);
 }
 
 void TransferPanel::tell(const Plot& plot, const ImVec2& pointer) {
@@ -338,7 +337,7 @@ void TransferPanel::tell(const Plot& plot, const ImVec2& pointer) {
         (mCounts ? "\nbars: how many voxels, as a logarithm" : ""));
 }
 
-void TransferPanel::drawPoint(PanelHost& host) {
+void TransferPanel::drawPoint(SceneChanges& changes) {
     if (!ImGui::BeginPopup(kPointPopup)) return;
     if (mPoint >= mCurve.points().size()) {
         ImGui::CloseCurrentPopup();
@@ -351,7 +350,7 @@ void TransferPanel::drawPoint(PanelHost& host) {
                             ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoSmallPreview |
                                 ImGuiColorEditFlags_DisplayRGB)) {
         mCurve.recolor(mPoint, point.color);
-        change(host);
+        change(changes);
     }
     const std::string unit = mValues->unit.empty() ? "value" : mValues->unit;
     ImGui::SetNextItemWidth(7 * font);
@@ -362,27 +361,27 @@ void TransferPanel::drawPoint(PanelHost& host) {
         ImGui::DragScalar("opacity", ImGuiDataType_Double, &point.opacity, 0.002f, nullptr, nullptr, "%.4g");
     if (moved) {
         mCurve.move(mPoint, point.value, point.opacity);
-        change(host);
+        change(changes);
     }
     ImGui::BeginDisabled(mCurve.points().size() < 2);
     if (ImGui::Button("Remove") && mCurve.remove(mPoint)) {
-        change(host);
+        change(changes);
         ImGui::CloseCurrentPopup();
     }
     ImGui::EndDisabled();
     ImGui::EndPopup();
 }
 
-void TransferPanel::drawButtons(PanelHost& host, const BegunSurface& begun) {
-    const auto* const surface = host.session()->open().scene->offered<SurfaceChoices>();
+void TransferPanel::drawButtons(SceneChanges& changes, const BegunSurface& begun) {
+    const auto* const surface = changes.scene()->scene->offered<SurfaceChoices>();
     if (surface) {
         ImGui::SetNextItemWidth(8 * ImGui::GetFontSize());
         if (ImGui::BeginCombo("##presets", "Presets")) {
             const TransferCurve ramp = rampOf(mIsovalue, mValues->range);
-            if (!ramp.empty() && ImGui::Selectable("ramp")) host.set("transfer", ramp.text());
+            if (!ramp.empty() && ImGui::Selectable("ramp")) changes.set("transfer", ramp.text());
             for (const std::string& name : surface->transfers)
                 if (!name.empty() && ImGui::Selectable(name.c_str(), name == mText))
-                    host.set("transfer", name);
+                    changes.set("transfer", name);
             ImGui::EndCombo();
         }
         tooltip("Functions to begin with: a ramp over these values, and those by name.");
@@ -390,15 +389,15 @@ void TransferPanel::drawButtons(PanelHost& host, const BegunSurface& begun) {
     }
     if (ImGui::Button("Reset")) {
         if (!begun.translucent)
-            host.set("transfer", std::nullopt), host.set("opacity", std::nullopt);
+            changes.set("transfer", std::nullopt), changes.set("opacity", std::nullopt);
         else if (!begun.transfer.empty())
-            host.set("transfer", begun.transfer);
+            changes.set("transfer", begun.transfer);
         else
-            host.set("opacity", fmt::format("{}", begun.opacity));
+            changes.set("opacity", fmt::format("{}", begun.opacity));
         if (begun.isovalueChosen)
-            host.set("isovalue", std::nullopt);
+            changes.set("isovalue", std::nullopt);
         else if (begun.isovalue)
-            host.set("isovalue", fmt::format("{:.6g}", *begun.isovalue));
+            changes.set("isovalue", fmt::format("{:.6g}", *begun.isovalue));
         mZoomed = false;
     }
     tooltip("As it was opened.");

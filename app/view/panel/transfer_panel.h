@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/view/panel/panel_host.h"
+#include "app/view/scene_changes.h"
 #include "app/view/transfer_curve.h"
 #include "engine/base/progress.h"
 #include "engine/scene/shown_values.h"
@@ -20,8 +20,9 @@ class TransferPanel {
 public:
     ~TransferPanel() { forget(); }
     // Whether the scene has one.
-    static bool has(PanelHost& host);
-    void draw(PanelHost& host);
+    static bool has(const Scene& scene);
+    // grey: colours are shown so, under glasses that split them.
+    void draw(SceneChanges& changes, const ViewSession& session, bool grey);
     void forget();  // what is counted, and what was
 
 private:
@@ -29,19 +30,19 @@ private:
     struct Plot;
 
     void count(const std::shared_ptr<const StudyValues>& values);
-    void follow(PanelHost& host, const ShownValues& shown);
-    void change(PanelHost& host);
-    void drawPlot(PanelHost& host);
+    void follow(const SceneChanges& changes, const ShownValues& shown);
+    void change(SceneChanges& changes);
+    void drawPlot(SceneChanges& changes, bool grey);
     void drawBars(const Plot& plot);
-    void drawColors(const PanelHost& host, const Plot& plot);
+    void drawColors(const Plot& plot, bool grey);
     void drawCurve(const Plot& plot);
-    void drawPoints(const PanelHost& host, const Plot& plot);
-    void drawIsovalue(const PanelHost& host, const Plot& plot);
-    void usePointer(PanelHost& host, const Plot& plot);
-    void drag(PanelHost& host, const Plot& plot, const ImVec2& pointer);
+    void drawPoints(const Plot& plot, bool grey);
+    void drawIsovalue(const Plot& plot);
+    void usePointer(SceneChanges& changes, const Plot& plot);
+    void drag(SceneChanges& changes, const Plot& plot, const ImVec2& pointer);
     void tell(const Plot& plot, const ImVec2& pointer);
-    void drawPoint(PanelHost& host);
-    void drawButtons(PanelHost& host, const BegunSurface& begun);
+    void drawPoint(SceneChanges& changes);
+    void drawButtons(SceneChanges& changes, const BegunSurface& begun);
     std::size_t pointNear(const Plot& plot, const ImVec2& at) const;
     bool isovalueNear(const Plot& plot, const ImVec2& at) const;
     std::string withUnit(double value) const;

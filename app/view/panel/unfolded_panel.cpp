@@ -59,8 +59,7 @@ void drawRing(ImDrawList& list, const glm::dvec2& at, float radius, ImU32 color)
 
 }  // namespace
 
-bool UnfoldedPanel::has(PanelHost& host) {
-    ViewSession* const session = host.session();
+bool UnfoldedPanel::has(const ViewSession* session) {
     return session && session->open().scene->offered<const FlatWall>();
 }
 
@@ -68,8 +67,8 @@ void UnfoldedPanel::forget() {
     mTexture.reset();
 }
 
-void UnfoldedPanel::mark(PanelHost& host, const std::optional<glm::dvec3>& world) {
-    if (world || mMarked) host.markWorld(world);
+void UnfoldedPanel::mark(Instruments& instruments, const std::optional<glm::dvec3>& world) {
+    if (world || mMarked) instruments.mark(world);
     mMarked = world.has_value();
 }
 
@@ -80,9 +79,8 @@ void UnfoldedPanel::forgetPicture() {
 }
 
 // A scene that is gone is not kept for its wall.
-void UnfoldedPanel::hide(PanelHost& host) {
-    mark(host, std::nullopt);
-    const ViewSession* const session = host.session();
+void UnfoldedPanel::hide(const ViewSession* session, Instruments& instruments) {
+    mark(instruments, std::nullopt);
     if (!session || mOf.lock() == session->open().scene) return;
     mWork.cancel();
     mViews = {};
@@ -120,8 +118,8 @@ void UnfoldedPanel::takeMade(const std::shared_ptr<const Scene>& scene) {
 }
 
 // Nothing is begun before the thread of the last one has ended.
-void UnfoldedPanel::make(PanelHost& host) {
-    const std::shared_ptr<const OpenScene>& open = host.session()->openShared();
+void UnfoldedPanel::make(const ViewSession& session) {
+    const std::shared_ptr<const OpenScene>& open = session.openShared();
     if (mOf.lock() != open->scene) {
         mWork.cancel();
         mViews = {};
@@ -137,7 +135,7 @@ void UnfoldedPanel::make(PanelHost& host) {
     mMaking = mView;
     mMakingOf = open->scene;
     mWork.start(
-        [open, panorama = fromBothEnds(), paint = host.session()->paint()](Progress& progress) {
+        [open, panorama = fromBothEnds(), paint = session.paint()](Progress& progress) {
             const FlatWall& wall = *open->scene->offered<const FlatWall>();
             Made made{open, panorama ? wall.makePanorama(progress) : wall.makeFlat(progress), {}, paint};
             made.picture = made.flat->picture(tintOf(*open->scene, paint));
@@ -147,14 +145,14 @@ void UnfoldedPanel::make(PanelHost& host) {
 }
 
 // What was seen changes while one flies; the last picture stays until the next is there.
-void UnfoldedPanel::repaint(PanelHost& host) {
+void UnfoldedPanel::repaint(const ViewSession& session) {
     if (auto painted = mPainting.take())
         for (View& view : mViews)
             if (painted->flat == view.made.flat) {
                 view.made = *painted;
                 mTexture.reset();
             }
-    const std::shared_ptr<const EyePainter>& paint = host.session()->paint();
+    const std::shared_ptr<const EyePainter>& paint = session.paint();
     if (!made().flat || mPainting.busy() || paint == made().paint || Window::now() < mPaintNext) return;
     mPaintNext = Window::now() + kBetweenPaints;
     mPainting.start(
@@ -164,33 +162,34 @@ void UnfoldedPanel::repaint(PanelHost& host) {
         [] { Window::wake(); });
 }
 
-void UnfoldedPanel::draw(PanelHost& host) {
-    make(host);
-    repaint(host);
+void UnfoldedPanel::draw(ViewSession& session, Instruments& instruments, const ViewFrame* frame,
+                         const std::optional<glm::dvec3>& pointed) {
+    make(session);
+    repaint(session);
     if (made().flat && !mTexture.any()) {  // another picture, or the window's context is another one
         const int longest = std::max(made().picture.width(), made().picture.height());
         mTexture.set(made().picture, true, (longest + kMostTexels - 1) / kMostTexels);
     }
-    drawControls(host);
-    if (made().flat) return drawWall(host);
-    mark(host, std::nullopt);
-    drawMaking(host);
+    drawControls(session);
+    if (made().flat) return drawWall(session, instruments, frame, pointed);
+    mark(instruments, std::nullopt);
+    drawMaking();
 }
 
-void UnfoldedPanel::drawMaking(PanelHost& host) {
+void UnfoldedPanel::drawMaking() {
     if (mWork.busy()) {
-        quietLine(host, fmt::format("{}  {:.0f} %",
-                                    mMaking == kBothEnds ? "looking along the wall" : "unfolding the wall",
-                                    100 * mWork.fraction()));
+        quietLine(fmt::format("{}  {:.0f} %",
+                              mMaking == kBothEnds ? "looking along the wall" : "unfolding the wall",
+                              100 * mWork.fraction()));
         ImGui::SameLine();
         if (ImGui::Button("Cancel")) mWork.cancel();
         return;
     }
-    quietText(host, mViews[mView].problem);
+    quietText(mViews[mView].problem);
     if (ImGui::Button(fromBothEnds() ? "Look" : "Unfold")) mViews[mView].begun = false;
 }
 
-void UnfoldedPanel::save(PanelHost& host) {
+void UnfoldedPanel::save(ViewSession& session) {
     const std::string place = freePlace(mFiles[mView]).string();
     mSaving.start(
         [flat = made(), file = place](Progress&) {
@@ -202,11 +201,11 @@ void UnfoldedPanel::save(PanelHost& host) {
             }
         },
         [] { Window::wake(); });
-    host.session()->notify("saving " + place);
+    session.notify("saving " + place);
 }
 
-void UnfoldedPanel::drawControls(PanelHost& host) {
-    if (const auto said = mSaving.take()) host.session()->notify(*said);
+void UnfoldedPanel::drawControls(ViewSession& session) {
+    if (const auto said = mSaving.take()) session.notify(*said);
     bool ends = fromBothEnds();
     if (ImGui::Checkbox("from both ends", &ends)) show(ends ? kBothEnds : kLaidFlat);
     tooltip(
@@ -221,7 +220,7 @@ void UnfoldedPanel::drawControls(PanelHost& host) {
     ImGui::InputTextWithHint("##file", "unfolded.png", &mFiles[mView]);
     ImGui::SameLine();
     ImGui::BeginDisabled(mFiles[mView].empty() || mSaving.busy());
-    if (ImGui::Button("Save picture")) save(host);
+    if (ImGui::Button("Save picture")) save(session);
     ImGui::EndDisabled();
     tooltip(fromBothEnds()
                 ? "Both strips, with a mark for each centimetre of the line."
@@ -247,11 +246,12 @@ UnfoldedPanel::Part UnfoldedPanel::partSeen(const glm::dvec2& from, const glm::d
     return part;
 }
 
-void UnfoldedPanel::drawWall(PanelHost& host) {
+void UnfoldedPanel::drawWall(ViewSession& session, Instruments& instruments, const ViewFrame* frame,
+                             const std::optional<glm::dvec3>& pointed) {
     const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
     const glm::dvec2 from(corner.x, corner.y), size(std::max(room.x, 16.0f), std::max(room.y, 16.0f));
-    const Pose eye = host.session()->pose();
-    const LineThrough* const through = host.session()->open().scene->offered<const LineThrough>();
+    const Pose eye = session.pose();
+    const LineThrough* const through = session.open().scene->offered<const LineThrough>();
     const double column = through ? made().flat->columnAt(through->placeOnLine(eye.position).along) : 0;
     const Part part = partSeen(from, size, column);
     ImGui::InvisibleButton("##wall", unitsPoint(size));
@@ -260,9 +260,9 @@ void UnfoldedPanel::drawWall(PanelHost& host) {
     list.PushClipRect(unitsPoint(from), unitsPoint(from + size), true);
     list.AddImage(mTexture.id(), unitsPoint(part.unitsOf(glm::dvec2(0))),
                   unitsPoint(part.unitsOf({made().picture.width(), made().picture.height()})));
-    if (through) drawEye(host, part, column);
-    drawMarks(host, part);
-    usePointer(host, part);
+    if (through) drawEye(session, frame, part, column);
+    drawMarks(instruments, pointed, part);
+    usePointer(session, instruments, part);
     const double line = ImGui::GetTextLineHeight();
     const glm::dvec2 text = from + glm::dvec2(0.4 * line, size.y - 1.2 * line);
     if (!mUnder.empty()) {
@@ -280,13 +280,14 @@ const std::vector<glm::dvec2>& UnfoldedPanel::find(Found& found, const glm::dvec
 }
 
 // A line where the eye is, with an arrow the way that it looks, and a ring around what it looks at.
-void UnfoldedPanel::drawEye(PanelHost& host, const Part& part, double column) {
+void UnfoldedPanel::drawEye(const ViewSession& session, const ViewFrame* frame, const Part& part,
+                            double column) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const glm::dvec2 top(part.unitsOf({column, 0}).x, part.from.y), bottom(top.x, part.from.y + part.size.y);
     list.AddLine(unitsPoint(top), unitsPoint(bottom), kHalo, 4);
     list.AddLine(unitsPoint(top), unitsPoint(bottom), kFlatEyeColor, 2);
-    const Scene& scene = *host.session()->open().scene;
-    const Pose eye = host.session()->pose();
+    const Scene& scene = *session.open().scene;
+    const Pose eye = session.pose();
     const auto* const line = scene.offered<const MatchingLine>();
     if (const auto* const through = scene.offered<const LineThrough>(); line && through) {
         const bool back = looksBack(*line, through->placeOnLine(eye.position).along, eye);
@@ -294,7 +295,6 @@ void UnfoldedPanel::drawEye(PanelHost& host, const Part& part, double column) {
         list.AddTriangleFilled(unitsPoint(top), unitsPoint(top + glm::dvec2(1.4 * way, large)),
                                unitsPoint(top + glm::dvec2(0, 2 * large)), kFlatEyeColor);
     }
-    const ViewFrame* const frame = host.frame();
     if (!frame || frame->left.viewDepth.empty()) return;
     const auto seen =
         worldUnder(viewsOf(frame->request), frame->left.viewDepth, glm::dvec2(0.5), frame->request.guard);
@@ -303,9 +303,10 @@ void UnfoldedPanel::drawEye(PanelHost& host, const Part& part, double column) {
         drawRing(list, part.unitsOf(at), 0.45f * ImGui::GetFontSize(), kFlatEyeColor);
 }
 
-void UnfoldedPanel::drawMarks(PanelHost& host, const Part& part) {
+void UnfoldedPanel::drawMarks(const Instruments& instruments, const std::optional<glm::dvec3>& pointed,
+                              const Part& part) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const std::vector<FlatMark> marks = host.flatMarks();
+    const std::vector<FlatMark> marks = instruments.flatMarks();
     mMarks.resize(marks.size());
     const float radius = 0.4f * ImGui::GetFontSize();
     for (std::size_t n = 0; n < marks.size(); ++n) {
@@ -316,12 +317,12 @@ void UnfoldedPanel::drawMarks(PanelHost& host, const Part& part) {
                          marks[n].label.c_str());
         }
     }
-    if (const auto pointed = host.pointedWorld())
+    if (pointed)
         for (const glm::dvec2& at : find(mPointed, *pointed))
             drawRing(list, part.unitsOf(at), 0.45f * ImGui::GetFontSize(), kFlatSeenColor);
 }
 
-void UnfoldedPanel::usePointer(PanelHost& host, const Part& part) {
+void UnfoldedPanel::usePointer(ViewSession& session, Instruments& instruments, const Part& part) {
     const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
     const bool clicked = ImGui::IsItemDeactivated() && hovered && !mDragged;
     if (ImGui::IsItemActivated()) mDragged = false;
@@ -344,13 +345,13 @@ void UnfoldedPanel::usePointer(PanelHost& host, const Part& part) {
     const auto place = hovered ? made().flat->placeAt(static_cast<int>(std::floor(pixel.x)),
                                                       static_cast<int>(std::floor(pixel.y)))
                                : std::nullopt;
-    mark(host, place ? std::optional(place->wall) : std::nullopt);
+    mark(instruments, place ? std::optional(place->wall) : std::nullopt);
     mUnder = place ? fmt::format("{:.0f} mm along, click: fly there", 1e3 * place->along) : "";
     if (!clicked || !place) return;
-    Pose from = host.session()->pose();
+    Pose from = session.pose();
     from.position = place->line;
     const double away = glm::distance(place->line, place->wall);
-    if (away > 0) host.session()->flyTo(poseLookingAt(place->wall, std::min(away, kClickAway), from));
+    if (away > 0) session.flyTo(poseLookingAt(place->wall, std::min(away, kClickAway), from));
 }
 
 }  // namespace stereonav

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/view/beside_work.h"
-#include "app/view/panel/panel_host.h"
+#include "app/view/instruments.h"
 #include "app/view/panel/panel_texture.h"
 #include "engine/render/eye_painter.h"
 #include "engine/scene/flat_wall.h"
@@ -20,12 +20,16 @@ namespace stereonav {
 
 class UnfoldedPanel {
 public:
-    static bool has(PanelHost& host);  // whether the scene has a wall that can lie flat
+    static bool has(const ViewSession* session);  // whether the scene has a wall that can lie flat
 
     // Into all of the room that there is.
-    void draw(PanelHost& host);
-    void hide(PanelHost& host);  // it is not drawn: its mark in the flight goes, and what is of another scene
-    void forget();               // what belongs to the window's context
+    // frame: the newest, null before it; pointed: what is under the pointer in the flight.
+    void draw(ViewSession& session, Instruments& instruments, const ViewFrame* frame,
+              const std::optional<glm::dvec3>& pointed);
+    // It is not drawn: its mark in the flight goes, and what is of another scene. session: null before the
+    // first.
+    void hide(const ViewSession* session, Instruments& instruments);
+    void forget();  // what belongs to the window's context
     // Of the view that is chosen; null until it is there.
     const FlatPicture* flat() const { return made().flat.get(); }
     bool fromBothEnds() const { return mView == kBothEnds; }
@@ -59,22 +63,24 @@ private:
     };
 
     const Made& made() const { return mViews[mView].made; }
-    void make(PanelHost& host);
+    void make(const ViewSession& session);
     void takeMade(const std::shared_ptr<const Scene>& scene);
     void show(ViewOfWall view);
     void forgetPicture();
-    void repaint(PanelHost& host);
-    void drawMaking(PanelHost& host);
-    void drawControls(PanelHost& host);
-    void drawWall(PanelHost& host);
+    void repaint(const ViewSession& session);
+    void drawMaking();
+    void drawControls(ViewSession& session);
+    void drawWall(ViewSession& session, Instruments& instruments, const ViewFrame* frame,
+                  const std::optional<glm::dvec3>& pointed);
     Part partSeen(const glm::dvec2& from, const glm::dvec2& size, double eyeColumn);
-    void usePointer(PanelHost& host, const Part& part);
-    void drawEye(PanelHost& host, const Part& part, double column);
-    void drawMarks(PanelHost& host, const Part& part);
+    void usePointer(ViewSession& session, Instruments& instruments, const Part& part);
+    void drawEye(const ViewSession& session, const ViewFrame* frame, const Part& part, double column);
+    void drawMarks(const Instruments& instruments, const std::optional<glm::dvec3>& pointed,
+                   const Part& part);
     double rowsSeen() const;
     const std::vector<glm::dvec2>& find(Found& found, const glm::dvec3& world) const;
-    void mark(PanelHost& host, const std::optional<glm::dvec3>& world);
-    void save(PanelHost& host);
+    void mark(Instruments& instruments, const std::optional<glm::dvec3>& world);
+    void save(ViewSession& session);
 
     BesideWork<Made> mWork, mPainting;
     ViewOfWall mMaking = kLaidFlat;        // by mWork

@@ -1,0 +1,73 @@
+#include "app/view/panel_stage.h"
+
+#include <glm/common.hpp>
+#include <utility>
+
+namespace stereonav {
+namespace {
+
+constexpr double kFiguresWait = 0.1;      // seconds that figures and notices may be old in flight
+constexpr double kMostFiguresWait = 0.3;  // where no new picture comes
+
+}  // namespace
+
+PanelStage::~PanelStage() {
+    mControls.reset();
+    mWindow.use();
+    mPanels.forget();
+}
+
+void PanelStage::toggleControls() {
+    if (mControls) {
+        // Of the look, what belongs to the person goes back; the scale is each screen's own.
+        InterfaceLook look = mInterface.look();
+        look.dark = mControls->interface().look().dark;
+        mInterface.setLook(look);
+        mControls.reset();
+        mWindow.use();
+        return;
+    }
+    mNewPreview = true;
+    mControls = std::make_unique<ControlWindow>(mWindow, mInterface.look());
+}
+
+SizeOption PanelStage::windowSize() const {
+    const glm::ivec2 size = glm::max(mWindow.framebufferSize(), glm::ivec2(1));
+    return {size.x, size.y};
+}
+
+PicturePlace PanelStage::placeOf(const OutputModeInfo& mode) const {
+    const SizeOption window = windowSize();
+    const glm::ivec2 size(window.width, window.height);
+    const glm::vec2 units = glm::vec2(size) * interfacePlaces(mode).size;
+    return picturePlace(mode, size, mControls ? Panels::Rest{{0, 0}, units} : mPanels.rest(units), units);
+}
+
+SizeOption PanelStage::eyeSize() const {
+    const OutputModeInfo& mode = infoOf(this->mode());
+    return eyeSizeAt(mode, placeOf(mode));
+}
+
+// In flight each picture has other figures, which nobody reads as fast: the interface is laid out for what
+// the user does, and else ten times a second, together with a new picture: a window that is drawn for its
+// figures alone would make the next picture late.
+bool PanelStage::layOut(const InterfacePlaces& places, double dt, bool fresh, bool busy,
+                        const std::function<void()>& draw) {
+    mSinceLayout += dt;
+    const bool flying = mSession && mSession->moving() && busy == mLaidOutBusy;
+    const bool due = fresh ? mSinceLayout >= kFiguresWait : mSinceLayout >= kMostFiguresWait;
+    if (flying && !mDue && !due && !mInterface.waits(places)) return false;
+    mLaidOutBusy = busy;
+    mDue = false;
+    return mInterface.layOut(places, std::exchange(mSinceLayout, 0), [&] {
+        if (!mControls) draw();
+    });
+}
+
+void PanelStage::drawControls(double dt, const ViewFrame* frame, const std::function<void()>& draw) {
+    if (mControls && mControls->window().shouldClose()) toggleControls();
+    if (!mControls) return;
+    mControls->draw(mPanels, draw, frame, std::exchange(mNewPreview, false), dt);
+}
+
+}  // namespace stereonav

@@ -1,0 +1,26 @@
+// A line that the window shows for some seconds.
+#pragma once
+
+#include <string>
+
+namespace stereonav {
+
+class PassingNotice {
+public:
+    const std::string& text() const { return mText; }  // "": none
+    void say(const std::string& text) {
+        mText = text;
+        mLeft = kSeconds;
+    }
+    // dt seconds pass.
+    void step(double dt) {
+        if (mLeft > 0 && (mLeft -= dt) <= 0) mText.clear();
+    }
+
+private:
+    static constexpr double kSeconds = 4;
+    std::string mText;
+    double mLeft = 0;  // seconds
+};
+
+}  // namespace stereonav

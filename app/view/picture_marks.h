@@ -1,0 +1,52 @@
+// What is drawn over the picture in depth, for each eye: the pointer, names of places, the measured line,
+// findings.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/output/place_labels.h"
+#include "app/view/frame_presenter.h"
+#include "app/view/instruments.h"
+#include "app/view/kept_places.h"
+#include "app/view/panel_stage.h"
+#include "app/view/picture_pointer.h"
+#include "engine/display/eye_overlay.h"
+
+namespace stereonav {
+
+class PictureMarks {
+public:
+    // All of them outlive this.
+    PictureMarks(FramePresenter& pictures, const PicturePointer& pointer, const PanelStage& stage,
+                 const KeptPlaces& kept, const Instruments& instruments)
+        : mPictures(pictures), mPointer(pointer), mStage(stage), mKept(kept), mInstruments(instruments) {}
+
+    bool showsNames() const { return mNamesShown; }
+    void showNames(bool shown) { mNamesShown = shown; }
+    // Over the picture that is shown. session: none before the first scene. True: it looks otherwise than
+    // before.
+    bool draw(const std::optional<ViewSession>& session, const OutputModeInfo& mode);
+
+private:
+    std::vector<OverlayMark> marks(const ViewSession& session, const OutputModeInfo& mode);
+    void addNames(const std::shared_ptr<const OpenScene>& scene, std::vector<OverlayMark>& marks);
+    void addLine(std::vector<OverlayMark>& marks) const;
+    const std::vector<LabelledPlace>& namedPlaces(const std::shared_ptr<const OpenScene>& scene);
+
+    FramePresenter& mPictures;
+    const PicturePointer& mPointer;
+    const PanelStage& mStage;
+    const KeptPlaces& mKept;
+    const Instruments& mInstruments;
+    EyeOverlay mOverlay;
+    bool mNamesShown = true;
+    struct Names {
+        std::weak_ptr<const OpenScene> of;
+        int places = -1;  // versions
+        long long paint = 0;
+        std::vector<LabelledPlace> list;
+    } mNames;
+};
+
+}  // namespace stereonav

@@ -1,0 +1,215 @@
+#include "app/view/session_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "app/output/length_text.h"
+
+namespace stereonav {
+
+SessionSurface::SessionSurface(const std::shared_ptr<const OpenScene>& scene, PassingNotice& notice)
+    : mScene(scene), mNotice(notice) {
+    take();
+    if (const SurfaceChoices* const surface = choices()) mTriedTransfer = surface->transfer;
+}
+
+void SessionSurface::take() {
+    const SurfaceChoices* const surface = choices();
+    mIsovalue = surface ? surface->isovalue : std::nullopt;
+    mTranslucent = surface && surface->translucent;
+    mTransfer = surface ? surface->transfer : "";
+    mAmbient = surface ? surface->ambient : std::nullopt;
+}
+
+bool SessionSurface::act(ViewCommand command) {
+    switch (command) {
+        case ViewCommand::LowerIsovalue:
+            moveIsovalue(-1);
+            return true;
+        case ViewCommand::HigherIsovalue:
+            moveIsovalue(1);
+            return true;
+        case ViewCommand::ToggleTranslucent:
+            if (!choices()) return true;
+            mTranslucent = !mTranslucent;
+            askForChange();
+            mNotice.say(mTranslucent ? "translucent" : "opaque");
+            return true;
+        case ViewCommand::NextTransfer:
+            nextTransfer();
+            return true;
+        default:
+            return actOnAmbient(command);
+    }
+}
+
+bool SessionSurface::actOnAmbient(ViewCommand command) {
+    constexpr double kStep = 1.25;  // of radius and sigma, a key press
+    const auto act = [&](const auto& what) {
+        if (mAmbient)
+            what();
+        else
+            mNotice.say("openness lights volumes that are seen from outside, and takes their opacity");
+        return true;
+    };
+    switch (command) {
+        case ViewCommand::NextAmbient:
+            return act([&] { stepAmbient(1); });
+        case ViewCommand::PreviousAmbient:
+            return act([&] { stepAmbient(-1); });
+        case ViewCommand::SmallerRadius:
+            return act([&] { scaleRadius(1 / kStep); });
+        case ViewCommand::LargerRadius:
+            return act([&] { scaleRadius(kStep); });
+        case ViewCommand::NextModulation:
+            return act([&] { nextModulation(); });
+        case ViewCommand::LessSigma:
+            return act([&] { scaleSigma(1 / kStep); });
+        case ViewCommand::MoreSigma:
+            return act([&] { scaleSigma(kStep); });
+        default:
+            return false;
+    }
+}
+
+void SessionSurface::askForChange() {
+    SceneChange& change = mChange.emplace();
+    change.surface.isovalue = mIsovalue;
+    change.surface.translucent = mTranslucent;
+    change.surface.transfer = mTransfer;
+    change.surface.ambient = mAmbient;
+}
+
+SurfaceChange SessionSurface::now() const {
+    SurfaceChange now;
+    now.isovalue = mIsovalue;
+    now.translucent = mTranslucent;
+    now.transfer = mTransfer;
+    now.ambient = mAmbient;
+    return now;
+}
+
+void SessionSurface::set(const SurfaceChange& surface) {
+    if (!choices()) return;
+    if (surface.isovalue && mIsovalue) mIsovalue = surface.isovalue;
+    if (surface.translucent) mTranslucent = *surface.translucent;
+    if (surface.transfer) mTransfer = mTriedTransfer = *surface.transfer;
+    if (surface.ambient && mAmbient) mAmbient = surface.ambient;
+    askForChange();
+}
+
+void SessionSurface::forgetChange() {
+    if (mChange) return;  // asked for since
+    const std::optional<AmbientChoice> before = mAmbient;
+    take();
+    if (!before || !mAmbient) return;
+    // What is not shown keeps its radius for when it is.
+    if (!mAmbient->lit) mAmbient->radius = before->radius;
+    if (mAmbient->modulate.empty() && !mAmbient->lit) mAmbient->modulateRadius = before->modulateRadius;
+}
+
+void SessionSurface::nextTransfer() {
+    const SurfaceChoices* const surface = choices();
+    if (!surface || surface->transfers.empty()) return;
+    const std::vector<std::string>& all = surface->transfers;
+    const auto at = std::find(all.begin(), all.end(), mTriedTransfer);
+    // One that is opaque is first seen as it would be.
+    if (mTranslucent) mTransfer = at == all.end() || at + 1 == all.end() ? all.front() : *(at + 1);
+    mTriedTransfer = mTransfer;
+    mTranslucent = true;
+    askForChange();
+    mNotice.say("transfer function: " + (mTransfer.empty() ? "that of the options" : mTransfer));
+}
+
+// Off, and then each method.
+void SessionSurface::stepAmbient(int by) {
+    const std::vector<std::string>& methods = choices()->ambientMethods;
+    if (methods.empty()) return mNotice.say("baked light takes the place of ambient light");
+    const auto count = static_cast<int>(methods.size()) + 1;
+    const auto now = std::find(methods.begin(), methods.end(),
+                               mAmbient->method.empty() ? methods.front() : mAmbient->method);
+    const int at = mAmbient->lit ? static_cast<int>(now - methods.begin()) % (count - 1) + 1 : 0;
+    const int next = (at + by + count) % count;
+    // Opacity may be modulated by the same: what held without ambient light holds again.
+    if (!mAmbient->lit) mMethodUnlit = mAmbient->method;
+    mAmbient->lit = next > 0;
+    mAmbient->method = next > 0 ? methods[static_cast<std::size_t>(next - 1)] : mMethodUnlit;
+    askForChange();
+    mNotice.say(mAmbient->lit ? ambientText() : "the lamp in place of ambient light");
+}
+
+void SessionSurface::scaleRadius(double factor) {
+    const bool modulated = mTranslucent && !mAmbient->modulate.empty();
+    if (!mAmbient->lit && !modulated)
+        return mNotice.say("a radius is of ambient light (O), or of modulated opacity (B)");
+    double& radius = mAmbient->lit ? mAmbient->radius : mAmbient->modulateRadius;
+    const bool together = mAmbient->lit && mAmbient->modulateRadius == mAmbient->radius;
+    const double wanted = std::clamp(radius * factor, choices()->smallestRadius, choices()->largestRadius);
+    if (wanted == radius)
+        return mNotice.say(
+            fmt::format("{} is as {} as it can be", lengthText(radius), factor < 1 ? "near" : "far"));
+    radius = wanted;
+    if (together) mAmbient->modulateRadius = wanted;
+    askForChange();
+    mNotice.say(mAmbient->lit ? ambientText() : modulationText());
+}
+
+void SessionSurface::nextModulation() {
+    if (!mTranslucent) return mNotice.say("opacity is modulated where there is some: T makes it translucent");
+    std::string& by = mAmbient->modulate;
+    by = by.empty() ? "variance" : by == "variance" ? "gradient" : "";
+    mAmbient->sigma = 0;
+    askForChange();
+    mNotice.say(by.empty() ? "opacity as the transfer function has it" : "opacity by " + by);
+}
+
+void SessionSurface::scaleSigma(double factor) {
+    if (!mTranslucent || mAmbient->modulate.empty() || !(sigmaNow() > 0))
+        return mNotice.say("a sigma is of modulated opacity: B");
+    const double most = mAmbient->modulate == "gradient" ? 1.0 : choices()->largestSigma;
+    mAmbient->sigma = std::clamp(sigmaNow() * factor, most * 1e-6, most);
+    askForChange();
+    mNotice.say(modulationText());
+}
+
+double SessionSurface::sigmaNow() const {
+    return mAmbient->sigma > 0 ? mAmbient->sigma : choices()->chosenSigma;
+}
+
+std::string SessionSurface::ambientText() const {
+    return fmt::format("ambient light {} within {}", mAmbient->method.empty() ? "gaussian" : mAmbient->method,
+                       lengthText(mAmbient->radius));
+}
+
+std::string SessionSurface::modulationText() const {
+    std::string text =
+        fmt::format("opacity by {} within {}", mAmbient->modulate, lengthText(mAmbient->modulateRadius));
+    if (sigmaNow() > 0) text += fmt::format(", whole from {:.3g}", sigmaNow());
+    return text;
+}
+
+std::string SessionSurface::text() const {
+    std::string text;
+    if (mIsovalue) text += fmt::format("  surface at {:.6g}", *mIsovalue);
+    if (mTranslucent && !mTransfer.empty()) text += "  " + mTransfer;
+    if (mAmbient && mAmbient->lit) text += "  " + ambientText();
+    if (mAmbient && mTranslucent && !mAmbient->modulate.empty()) text += "  " + modulationText();
+    return text;
+}
+
+void SessionSurface::moveIsovalue(double steps) {
+    if (!mIsovalue) return;
+    *mIsovalue += steps * choices()->isovalueStep;
+    askForChange();
+    mNotice.say(fmt::format("surface at {:.6g}", *mIsovalue));
+}
+
+void SessionSurface::askForPieces(const PieceChoices& pieces) {
+    askForChange();
+    mChange->surface.isovalue.reset();
+    mChange->pieces = pieces;
+}
+
+}  // namespace stereonav

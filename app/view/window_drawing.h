@@ -1,0 +1,44 @@
+// Draws the window: the picture in its mode with what lies over it, once there is something new: the
+// processor is the ray caster's.
+#pragma once
+
+#include <functional>
+
+#include "app/view/frame_presenter.h"
+#include "app/view/panel_stage.h"
+#include "app/view/picture_marks.h"
+#include "app/view/picture_pointer.h"
+#include "app/view/view_display.h"
+#include "app/view/window_times.h"
+#include "engine/base/stopwatch.h"
+
+namespace stereonav {
+
+class WindowDrawing {
+public:
+    // All of them outlive this.
+    WindowDrawing(std::optional<ViewSession>& session, Window& window, ViewDisplay& display,
+                  PanelStage& stage, FramePresenter& pictures, const PicturePointer& pointer,
+                  PictureMarks& marks);
+
+    // turn: runs since the turn began; dt: seconds of the last one; busy: something is being loaded;
+    // drawPanels: lays them out. True: it was drawn.
+    bool draw(const Stopwatch& turn, double dt, bool busy, const std::function<void()>& drawPanels);
+
+private:
+    ComposeSetting setting() const;
+    void show(const ComposeSetting& setting);
+
+    std::optional<ViewSession>& mSession;
+    Window& mWindow;
+    ViewDisplay& mDisplay;
+    PanelStage& mStage;
+    FramePresenter& mPictures;
+    const PicturePointer& mPointer;
+    PictureMarks& mMarks;
+    ComposeSetting mDrawn;
+    PicturePlace mPlace;  // of what is drawn
+    WindowTimes mTimes;
+};
+
+}  // namespace stereonav
