@@ -1,11 +1,11 @@
 # The program: its rooms, its commands, and the modules that only it uses.
 stereonav_room(app/options LINK engine_frame engine_light engine_medium_model terrain_read colon_scene)
 stereonav_module(video app/ffmpeg LINK engine_image PkgConfig::FFMPEG)
+stereonav_room(app/scene LINK app_options terrain colon engine_light engine_medium engine_mesh engine_metrics engine_scene)
+stereonav_room(app/output MODULES video LINK app_scene engine_letters engine_peers)
 # All but main(): tests of the program's own functions link it too, so that nothing is compiled twice.
 add_library(program STATIC)
-add_dependencies(program stereonav_video)
-target_link_libraries(program PUBLIC app_options terrain colon engine_light engine_medium engine_mesh engine_metrics
-  engine_peers engine_scene engine_late engine_letters CLI11::CLI11 nlohmann_json::nlohmann_json)
+target_link_libraries(program PUBLIC app_output engine_late CLI11::CLI11)
 if(STEREONAV_SANITIZE)
   target_compile_options(program PRIVATE ${STEREONAV_SELDOM_HOT})
 endif()
@@ -16,7 +16,7 @@ if(STEREONAV_FAULTS)
 else()
   set(other_faults report/faults_on.cpp)
 endif()
-foreach(folder scene output command report report/papers)
+foreach(folder command report report/papers)
   set(excluded ${other_faults})
   if(NOT STEREONAV_DISPLAY)
     list(APPEND excluded report/papers/gpu.cpp)

@@ -1,6 +1,8 @@
 // `stereonav bake`: light worked out before it is looked at. Each type of scene has its own.
 #include <fmt/format.h>
 
+#include "app/command/bake_terrain.h"
+#include "app/command/bake_volume.h"
 #include "app/options/bake_options.h"
 #include "app/options/command.h"
 #include "app/options/option_numbers.h"
@@ -18,7 +20,8 @@ using scene_type::kTerrains, scene_type::kVolumes;
 
 int runBake(const BakeOptions& options) {
     const SceneType& type = sceneTypeNamed(options.scene.scene);
-    if (type.bake) return type.bake(options);
+    if (&type == &terrainType()) return bakeTerrain(options);
+    if (&type == &volumeType()) return bakeVolume(options);
     throw Error(options.scene.scene, "",
                 "expected a terrain or a CT study, found a " + std::string(type.noun),
                 "its light is worked out in each frame");

@@ -13,8 +13,8 @@
 
 #include "app/command/bake_finer.h"
 #include "app/command/cache_command.h"
+#include "app/options/output_place.h"
 #include "app/output/command_result.h"
-#include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/terrain_loading.h"

@@ -8,13 +8,13 @@
 #include <cstdio>
 
 #include "app/command/comparison_report.h"
-#include "app/command/narrowed_eyes.h"
-#include "app/command/scene_facts.h"
 #include "app/options/command.h"
 #include "app/options/option_take.h"
-#include "app/output/output_place.h"
+#include "app/options/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
+#include "app/scene/narrowed_eyes.h"
+#include "app/scene/scene_facts.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/parallel.h"

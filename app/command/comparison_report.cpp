@@ -10,9 +10,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "app/command/facts_json.h"
 #include "app/output/handed_name.h"
 #include "engine/metrics/error_plot.h"
+#include "engine/scene/facts_json.h"
 #include "engine/text/csv_text.h"
 #include "engine/text/json_text.h"
 #include "engine/text/printable.h"

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/command/colon_of.h"
 #include "app/options/command.h"
 #include "app/options/option_take.h"
+#include "app/options/output_place.h"
 #include "app/output/command_result.h"
-#include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
+#include "app/scene/colon_of.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/volume_flights.h"
 #include "colon/instruments/coverage.h"

@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "app/command/colon_of.h"
-#include "app/command/findings_words.h"
 #include "app/options/command.h"
 #include "app/options/option_numbers.h"
 #include "app/options/option_take.h"
+#include "app/options/output_place.h"
 #include "app/output/command_result.h"
-#include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/colon_loading.h"
+#include "app/scene/colon_of.h"
+#include "app/scene/findings_words.h"
 #include "app/scene/scene_loading.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "app/command/scene_facts.h"
-#include "app/output/length_text.h"
+#include "app/scene/scene_facts.h"
 #include "engine/base/parallel.h"
+#include "engine/text/length_text.h"
 
 namespace stereonav {
 namespace {

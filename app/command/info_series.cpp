@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/options/output_place.h"
 #include "app/output/handed_name.h"
-#include "app/output/output_place.h"
 #include "app/scene/scene_type.h"
 #include "colon/study/study.h"
 #include "engine/base/error.h"

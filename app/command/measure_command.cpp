@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "app/command/ground_line_options.h"
+#include "app/options/output_place.h"
 #include "app/output/command_result.h"
 #include "app/output/handed_name.h"
-#include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/ground_figures.h"
 #include "app/scene/scene_loading.h"

@@ -7,8 +7,8 @@
 
 #include "app/options/command.h"
 #include "app/options/option_take.h"
+#include "app/options/output_place.h"
 #include "app/output/command_result.h"
-#include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/scene_type.h"

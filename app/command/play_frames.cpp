@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "app/output/output_place.h"
+#include "app/options/output_place.h"
 #include "engine/base/file.h"
 #include "engine/image/image_file.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "app/command/ground_line_options.h"
+#include "app/options/output_place.h"
 #include "app/output/command_result.h"
-#include "app/output/output_place.h"
 #include "app/output/profile_chart.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"

@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "app/command/colon_of.h"
 #include "app/options/command.h"
 #include "app/options/option_numbers.h"
 #include "app/options/option_take.h"
+#include "app/options/output_place.h"
 #include "app/options/typed_values.h"
 #include "app/output/command_result.h"
 #include "app/output/handed_name.h"
-#include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/colon_loading.h"
+#include "app/scene/colon_of.h"
 #include "app/scene/scene_loading.h"
 #include "colon/instruments/finding.h"
 #include "colon/instruments/registration.h"

@@ -2,15 +2,15 @@
 #include <fmt/format.h>
 
 #include "app/command/paint_notes.h"
-#include "app/command/quality.h"
-#include "app/command/scene_facts.h"
 #include "app/options/command.h"
+#include "app/options/output_place.h"
 #include "app/options/picture_options.h"
 #include "app/output/command_result.h"
-#include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
 #include "app/output/stereo_picture.h"
+#include "app/scene/quality.h"
+#include "app/scene/scene_facts.h"
 #include "app/scene/traced_light.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"

@@ -8,10 +8,10 @@
 
 #include "app/options/command.h"
 #include "app/options/option_take.h"
+#include "app/options/output_place.h"
 #include "app/options/usual_words.h"
 #include "app/options/utc_text.h"
 #include "app/output/command_result.h"
-#include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/survey_part.h"

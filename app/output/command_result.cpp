@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/command/facts_json.h"
 #include "app/output/handed_name.h"
 #include "engine/base/file.h"
+#include "engine/scene/facts_json.h"
 #include "engine/text/json_text.h"
 #include "engine/text/printed.h"
 

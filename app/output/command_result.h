@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "app/options/output_place.h"
 #include "app/options/shared_options.h"
-#include "app/output/output_place.h"
 #include "engine/scene/facts.h"
 
 namespace stereonav {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/command/quality.h"
+#include "app/scene/quality.h"
 #include "engine/image/enlarge.h"
 #include "engine/scene/surface_paint.h"
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "app/command/narrowed_eyes.h"
 #include "app/output/place_names.h"
+#include "app/scene/narrowed_eyes.h"
 #include "app/scene/scene_loading.h"
 #include "engine/base/hash.h"
 #include "engine/frame/refined_frames.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/output/output_place.h"
+#include "app/options/output_place.h"
 #include "engine/base/file.h"
 #include "engine/image/image_file.h"
 #include "engine/image/stereo_picture_file.h"

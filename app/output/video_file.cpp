@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/output/output_place.h"
+#include "app/options/output_place.h"
 #include "app/output/video_check.h"
 #include "app/output/video_sink.h"
 #include "engine/base/error.h"

@@ -7,10 +7,10 @@
 
 #include "app/options/command.h"
 #include "app/options/option_take.h"
+#include "app/options/output_place.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "app/output/command_result.h"
-#include "app/output/output_place.h"
 #include "app/output/progress_bar.h"
 #include "app/report/json.h"
 #include "app/report/machine.h"

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "app/command/colon_of.h"
-#include "app/command/findings_words.h"
+#include "app/scene/colon_of.h"
+#include "app/scene/findings_words.h"
 #include "colon/instruments/polyp_view.h"
 #include "engine/base/module.h"
 

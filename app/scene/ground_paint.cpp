@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "app/options/paint_words.h"
-#include "app/output/length_text.h"
+#include "engine/text/length_text.h"
 #include "terrain/paint/contour_painter.h"
 #include "terrain/scene/slope_color.h"
 

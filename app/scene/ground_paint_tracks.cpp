@@ -5,9 +5,9 @@
 #include <numbers>
 #include <optional>
 
-#include "app/output/length_text.h"
 #include "app/scene/earth_alone.h"
 #include "engine/base/error.h"
+#include "engine/text/length_text.h"
 #include "terrain/paint/track_painter.h"
 #include "terrain/read/raster_file.h"
 #include "terrain/scene/followed_track.h"

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "app/options/number_text.h"
-#include "app/output/output_place.h"
+#include "app/options/output_place.h"
 #include "app/scene/volume_side.h"
 #include "engine/base/error.h"
 #include "engine/light/skies/spherical_harmonics.h"

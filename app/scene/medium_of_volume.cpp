@@ -1,10 +1,10 @@
 // A study as a medium: a colon's from inside, lit by a lamp at the head, or any volume from outside.
 #include <algorithm>
 
-#include "app/command/scene_facts.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/medium_of.h"
 #include "app/scene/medium_options.h"
+#include "app/scene/scene_facts.h"
 #include "app/scene/seen_volume_light.h"
 #include "engine/medium/model/noise_file.h"
 

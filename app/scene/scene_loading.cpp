@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "app/command/narrowed_eyes.h"
+#include "app/scene/narrowed_eyes.h"
 #include "app/scene/scene_type.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"

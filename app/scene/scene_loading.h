@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/options/output_place.h"
 #include "app/options/scene_options.h"
-#include "app/output/output_place.h"
 #include "app/scene/shown_as.h"
 #include "engine/base/progress.h"
 #include "engine/image/stereo_compose.h"

@@ -8,9 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/options/bake_options.h"
+#include "app/options/output_place.h"
 #include "app/options/scene_types.h"
-#include "app/output/output_place.h"
 #include "engine/base/progress.h"
 #include "engine/scene/facts.h"
 #include "engine/scene/scene.h"
@@ -41,8 +40,7 @@ struct SceneType {
     // Views, flight and medium into `scene`, which has not begun. Throws Error, Cancelled.
     void (*makeMedium)(const SceneOptions& options, SimdTarget simd, Progress& progress,
                        ShownMedium& scene) = nullptr;
-    int (*bake)(const BakeOptions& options) = nullptr;  // null: its light is worked out in each frame
-    bool hasGround = false, hasLine = false;            // for meshes of it; for the way through it
+    bool hasGround = false, hasLine = false;  // for meshes of it; for the way through it
 };
 
 const SceneType& meshType();

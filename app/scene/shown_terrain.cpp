@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/command/scene_facts.h"
 #include "app/scene/ground_paint.h"
 #include "app/scene/ground_painting.h"
+#include "app/scene/scene_facts.h"
 #include "app/scene/terrain_daylight.h"
 #include "engine/nav/navigator.h"
 #include "terrain/scene/ground_map.h"

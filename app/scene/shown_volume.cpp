@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "app/command/scene_facts.h"
 #include "app/options/refusals.h"
 #include "app/scene/colon_loading.h"
+#include "app/scene/scene_facts.h"
 #include "app/scene/shown_as.h"
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_coverage.h"

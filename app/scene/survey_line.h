@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/output/output_place.h"
+#include "app/options/output_place.h"
 #include "app/scene/survey_ground.h"
 
 namespace stereonav {

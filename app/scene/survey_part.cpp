@@ -6,9 +6,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "app/output/length_text.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
+#include "engine/text/length_text.h"
 #include "terrain/read/dem_reader.h"
 #include "terrain/scene/tiled_ground.h"
 

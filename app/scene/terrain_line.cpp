@@ -7,10 +7,10 @@
 #include <limits>
 #include <memory>
 
-#include "app/output/length_text.h"
 #include "app/scene/ground_figures.h"
 #include "app/scene/shown_terrain.h"
 #include "engine/base/error.h"
+#include "engine/text/length_text.h"
 #include "terrain/scene/tiled_ground.h"
 #include "terrain/survey/ground_line.h"
 #include "terrain/survey/ground_samples.h"

@@ -1,7 +1,6 @@
 // Terrain: elevation models, scenes that name one, and the built-in one.
 #include <filesystem>
 
-#include "app/command/bake_terrain.h"
 #include "app/scene/file_glance.h"
 #include "app/scene/medium_of.h"
 #include "app/scene/scene_type.h"
@@ -35,7 +34,6 @@ const SceneType& terrainType() {
                                 .glance = glanceAtTerrain,
                                 .load = loadTerrainScene,
                                 .makeMedium = makeFromTerrain,
-                                .bake = bakeTerrain,
                                 .hasGround = true};
     return type;
 }

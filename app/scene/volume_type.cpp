@@ -1,5 +1,4 @@
 // CT studies, and the built-in colon.
-#include "app/command/bake_volume.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/file_glance.h"
 #include "app/scene/medium_of.h"
@@ -30,7 +29,6 @@ const SceneType& volumeType() {
                                 .glance = glanceAtVolume,
                                 .load = loadColonScene,
                                 .makeMedium = makeFromVolume,
-                                .bake = bakeVolume,
                                 .hasLine = true};
     return type;
 }

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <memory>
 
-#include "app/output/output_place.h"
+#include "app/options/output_place.h"
 #include "app/view/kept_file.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"

@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "app/command/quality.h"
+#include "app/scene/quality.h"
 #include "app/scene/shown_volume.h"
 #include "app/view/sweep.h"
 #include "engine/scene/slices.h"

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/output/length_text.h"
 #include "app/view/kept_file.h"
 #include "engine/base/error.h"
 #include "engine/text/json_text.h"
+#include "engine/text/length_text.h"
 #include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {

@@ -5,8 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/output/length_text.h"
 #include "engine/scene/place_reader.h"
+#include "engine/text/length_text.h"
 
 namespace stereonav {
 namespace {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <utility>
 
-#include "app/output/length_text.h"
 #include "app/view/live_settings.h"
 #include "app/view/mode_steps.h"
 #include "app/view/raised_ground.h"
 #include "app/view/status.h"
+#include "engine/text/length_text.h"
 
 namespace stereonav {
 namespace {

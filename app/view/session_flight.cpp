@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/output/length_text.h"
 #include "engine/base/error.h"
 #include "engine/nav/depth_speed.h"
+#include "engine/text/length_text.h"
 
 namespace stereonav {
 namespace {

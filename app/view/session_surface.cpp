@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/output/length_text.h"
+#include "engine/text/length_text.h"
 
 namespace stereonav {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "app/output/length_text.h"
+#include "engine/text/length_text.h"
 
 namespace stereonav {
 namespace {

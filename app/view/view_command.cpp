@@ -1,7 +1,7 @@
 // The command that opens the window.
 #include "app/view/view_command.h"
 
-#include "app/output/output_place.h"
+#include "app/options/output_place.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/shown_as.h"
 #include "app/view/viewer.h"

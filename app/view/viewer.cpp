@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/output/output_place.h"
+#include "app/options/output_place.h"
 #include "app/output/stereo_frame.h"
 #include "app/view/raised_ground.h"
 #include "engine/base/stop.h"

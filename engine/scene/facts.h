@@ -1,5 +1,5 @@
 // What there is to say of a scene: figures with their names and units, as a tree. Text for people, the rows
-// of a report and JSON (app/command/facts_json.h) are prints of the same facts.
+// of a report and JSON (engine/scene/facts_json.h) are prints of the same facts.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Eyes come together where a lumen is narrow, in pictures and videos as in the window.
-#include "app/command/narrowed_eyes.h"
+#include "app/scene/narrowed_eyes.h"
 
 #include <gtest/gtest.h>
 

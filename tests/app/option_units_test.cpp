@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "app/command/colon_of.h"
 #include "app/scene/colon_loading.h"
+#include "app/scene/colon_of.h"
 #include "app/scene/light_loading.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/volume_flights.h"

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "app/command/quality.h"
 #include "app/output/stereo_frame.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/file_glance.h"
 #include "app/scene/light_loading.h"
+#include "app/scene/quality.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/survey_ground.h"
 #include "app/scene/volume_light.h"

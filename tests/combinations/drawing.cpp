@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "app/command/quality.h"
 #include "app/output/stereo_frame.h"
+#include "app/scene/quality.h"
 #include "app/scene/traced_light.h"
 #include "engine/medium/sweep/swept_frames.h"
 #include "engine/sampling/pixel_samples.h"

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "app/command/narrowed_eyes.h"
 #include "app/options/picture_options.h"
+#include "app/scene/narrowed_eyes.h"
 #include "app/scene/scene_loading.h"
 #include "engine/image/eye_image.h"
 #include "engine/sampling/edge_rays.h"

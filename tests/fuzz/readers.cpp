@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "app/command/findings_words.h"
 #include "app/report/json.h"
+#include "app/scene/findings_words.h"
 #include "colon/centreline/centreline.h"
 #include "colon/scene/colon_cache.h"
 #include "colon/study/picture_decoder.h"

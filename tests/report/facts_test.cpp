@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/command/facts_json.h"
-#include "app/command/scene_facts.h"
+#include "app/scene/scene_facts.h"
+#include "engine/scene/facts_json.h"
 
 namespace stereonav {
 namespace {

@@ -1,12 +1,12 @@
 // Findings as they are told: each figure of a document, a table and a line is that of the finding, in the
 // unit that its name says.
-#include "app/command/findings_words.h"
+#include "app/scene/findings_words.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "app/command/facts_json.h"
+#include "engine/scene/facts_json.h"
 #include "tests/support/table_text.h"
 
 namespace stereonav {

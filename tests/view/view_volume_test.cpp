@@ -8,10 +8,10 @@
 #include <limits>
 #include <string>
 
-#include "app/output/length_text.h"
 #include "app/view/input.h"
 #include "app/view/session.h"
 #include "app/view/status.h"
+#include "engine/text/length_text.h"
 #include "tests/view/fake_frames.h"
 #include "tests/view/fake_scene.h"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "app/output/length_text.h"
 #include "app/view/panel/controls.h"
+#include "engine/text/length_text.h"
 
 namespace stereonav {
 namespace {

@@ -10,9 +10,9 @@
 #include <limits>
 #include <numbers>
 
-#include "app/output/length_text.h"
 #include "app/view/panel/controls.h"
 #include "engine/base/error.h"
+#include "engine/text/length_text.h"
 
 namespace stereonav {
 namespace {

@@ -8,11 +8,11 @@
 #include <cfloat>
 #include <cmath>
 
-#include "app/output/length_text.h"
 #include "app/view/measured_command.h"
 #include "app/view/panel/controls.h"
 #include "app/view/panel/taken_lines.h"
 #include "engine/scene/live_paint.h"
+#include "engine/text/length_text.h"
 
 namespace stereonav {
 namespace {

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/output/length_text.h"
 #include "app/view/keyframe_edit.h"
 #include "app/view/panel/controls.h"
 #include "engine/base/error.h"
 #include "engine/camera/keyframes.h"
 #include "engine/camera/path_edit.h"
+#include "engine/text/length_text.h"
 
 namespace stereonav {
 namespace {

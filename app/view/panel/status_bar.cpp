@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "app/output/length_text.h"
 #include "app/view/clipboard.h"
 #include "app/view/frame_presenter.h"
 #include "app/view/instruments.h"
@@ -17,6 +16,7 @@
 #include "app/view/window_closing.h"
 #include "app/view/window_input.h"
 #include "app/view/window_jobs.h"
+#include "engine/text/length_text.h"
 
 namespace stereonav {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/command/scene_facts.h"
+#include "app/scene/scene_facts.h"
 
 #include <fmt/format.h>
 

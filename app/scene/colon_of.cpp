@@ -1,4 +1,4 @@
-#include "app/command/colon_of.h"
+#include "app/scene/colon_of.h"
 
 #include <fmt/format.h>
 

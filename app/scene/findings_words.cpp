@@ -1,14 +1,14 @@
-#include "app/command/findings_words.h"
+#include "app/scene/findings_words.h"
 
 #include <fmt/format.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/command/colon_of.h"
-#include "app/command/facts_json.h"
+#include "app/scene/colon_of.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/scene/facts_json.h"
 #include "engine/text/csv_text.h"
 #include "engine/text/json_check.h"
 #include "engine/text/json_text.h"

@@ -5,8 +5,8 @@
 
 #include <ctime>
 
-#include "app/command/findings_words.h"
 #include "app/options/built_without.h"
+#include "app/scene/findings_words.h"
 #include "engine/base/error.h"
 
 namespace stereonav {

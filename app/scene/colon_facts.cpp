@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "app/command/scene_facts.h"
+#include "app/scene/scene_facts.h"
 #include "app/scene/volume_inside.h"
 #include "colon/flight/colon_flight.h"
 #include "colon/scene/colon_scene.h"

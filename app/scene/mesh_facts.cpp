@@ -1,7 +1,7 @@
 // A mesh as `info` and the report describe it.
 #include <fmt/format.h>
 
-#include "app/command/scene_facts.h"
+#include "app/scene/scene_facts.h"
 #include "engine/mesh/mesh_renderer.h"
 
 namespace stereonav {

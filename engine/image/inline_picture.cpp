@@ -1,4 +1,4 @@
-#include "app/output/inline_picture.h"
+#include "engine/image/inline_picture.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "app/output/output_place.h"
+#include "app/options/output_place.h"
 
 #include <fmt/format.h>
 

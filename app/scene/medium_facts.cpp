@@ -5,11 +5,11 @@
 #include <numbers>
 #include <vector>
 
-#include "app/command/scene_facts.h"
-#include "app/output/length_text.h"
+#include "app/scene/scene_facts.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/pages.h"
 #include "engine/medium/sweep/medium_scene.h"
+#include "engine/text/length_text.h"
 
 namespace stereonav {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/command/facts_json.h"
+#include "engine/scene/facts_json.h"
 
 #include <nlohmann/json.hpp>
 

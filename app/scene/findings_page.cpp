@@ -5,12 +5,12 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "app/command/colon_of.h"
-#include "app/command/findings_words.h"
-#include "app/output/inline_picture.h"
+#include "app/scene/colon_of.h"
+#include "app/scene/findings_words.h"
 #include "colon/instruments/polyp_view.h"
 #include "colon/wall/line_of_sight.h"
 #include "engine/camera/stereo_rig.h"
+#include "engine/image/inline_picture.h"
 #include "engine/metrics/svg_chart.h"
 #include "engine/volume/volume_renderer.h"
 

@@ -1,4 +1,4 @@
-#include "app/command/quality.h"
+#include "app/scene/quality.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "app/command/scene_facts.h"
+#include "app/scene/scene_facts.h"
 #include "engine/math/earth_bend.h"
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/scene/landmark.h"

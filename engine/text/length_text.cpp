@@ -1,4 +1,4 @@
-#include "app/output/length_text.h"
+#include "engine/text/length_text.h"
 
 #include <fmt/format.h>
 

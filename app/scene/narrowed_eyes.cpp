@@ -1,4 +1,4 @@
-#include "app/command/narrowed_eyes.h"
+#include "app/scene/narrowed_eyes.h"
 
 #include <algorithm>
 #include <cmath>
