@@ -1,7 +1,6 @@
 // `stereonav info`: what was read, the frame plan, and what the program has started for it.
 #include <cstdio>
 
-#include "app/command/frame_facts.h"
 #include "app/command/info_series.h"
 #include "app/command/process_facts.h"
 #include "app/options/command.h"
@@ -9,6 +8,7 @@
 #include "app/output/command_result.h"
 #include "app/output/handed_name.h"
 #include "app/output/progress_bar.h"
+#include "app/scene/frame_facts.h"
 #include "app/scene/scene_loading.h"
 #include "engine/text/printed.h"
 

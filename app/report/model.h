@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "app/report/papers/papers.h"
+#include "app/report/paper_rows.h"
 #include "engine/metrics/pareto_verdict.h"
 #include "engine/metrics/svg_chart.h"
 

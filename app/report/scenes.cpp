@@ -7,9 +7,9 @@
 #include <cmath>
 #include <memory>
 
-#include "app/command/frame_facts.h"
 #include "app/report/run.h"
 #include "app/report/stability.h"
+#include "app/scene/frame_facts.h"
 #include "engine/base/file.h"
 #include "engine/base/parallel.h"
 #include "engine/frame/cast_frames.h"

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "app/report/mood.h"
-#include "app/report/papers/trial.h"
 #include "app/report/run.h"
+#include "app/report/stereo_trial.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {

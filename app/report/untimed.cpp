@@ -1,7 +1,7 @@
 #include "app/report/untimed.h"
 
-#include "app/report/papers/trial.h"
 #include "app/report/run.h"
+#include "app/report/stereo_trial.h"
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "app/report/papers/coherence.h"
+#include "app/report/coherence.h"
 #include "engine/stereo/right_eye.h"
 #include "tests/support/analytic_scene.h"
 

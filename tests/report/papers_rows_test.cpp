@@ -5,7 +5,7 @@
 
 #include "app/report/json.h"
 #include "app/report/page.h"
-#include "app/report/papers/papers.h"
+#include "app/report/paper_rows.h"
 #include "engine/base/error.h"
 #include "tests/support/xml_check.h"
 

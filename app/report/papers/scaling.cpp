@@ -8,7 +8,7 @@
 #include "app/report/light.h"
 #include "app/report/papers/data.h"
 #include "app/report/papers/run.h"
-#include "app/report/papers/trial.h"
+#include "app/report/stereo_trial.h"
 #include "app/report/subjects.h"
 #include "engine/light/bake/bake_rate.h"
 #include "engine/light/occlusion/occlusion.h"

@@ -9,7 +9,7 @@
 
 #include "app/report/papers/data.h"
 #include "app/report/papers/run.h"
-#include "app/report/papers/trial.h"
+#include "app/report/stereo_trial.h"
 #include "engine/simd/simd_target.h"
 
 namespace stereonav {

@@ -1,10 +1,10 @@
-#include "app/report/papers/trial.h"
+#include "app/report/stereo_trial.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "app/report/papers/coherence.h"
+#include "app/report/coherence.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/metrics/surface_difference.h"
 

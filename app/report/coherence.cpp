@@ -1,4 +1,4 @@
-#include "app/report/papers/coherence.h"
+#include "app/report/coherence.h"
 
 #include <algorithm>
 #include <vector>

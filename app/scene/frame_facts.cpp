@@ -1,4 +1,4 @@
-#include "app/command/frame_facts.h"
+#include "app/scene/frame_facts.h"
 
 #include <fmt/format.h>
 

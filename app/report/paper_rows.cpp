@@ -1,10 +1,11 @@
+#include "app/report/paper_rows.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "app/report/model.h"
-#include "app/report/papers/papers.h"
 #include "engine/text/csv_text.h"
 
 namespace stereonav {
