@@ -43,6 +43,5 @@ Centreline findCentreline(const LumenField& lumen, const DistanceVolume& distanc
 // toolkit and 3D Slicer write it, and the cell array Segment. Written atomically. Throws Error.
 bool isCentrelineFileName(const std::filesystem::path& file);
 void writeCentreline(const std::filesystem::path& file, const Centreline& line);
-Centreline readCentreline(const std::filesystem::path& file);  // .txt and .vtp/.vtk in the forms written here
 
 }  // namespace stereonav

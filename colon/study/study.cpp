@@ -137,14 +137,6 @@ bool isDicom(const fs::path& path, const StudyOptions& options) {
 
 }  // namespace
 
-std::vector<SeriesInfo> listSeries(const fs::path& folder) {
-    if (!isDicom(folder))
-        throw Error(folder.string(), "", "expected a folder of DICOM slices", "only these hold series");
-    std::vector<SeriesInfo> list;
-    for (const DicomSeries& series : scanFolder(folder)) list.push_back(series.info);
-    return list;
-}
-
 StudyGlance glanceAtStudy(const fs::path& path, Progress& progress) {
     if (isDicom(path)) return glanceAtSlices(path, progress);
     progress.report(0, "looking at the header");

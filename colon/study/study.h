@@ -49,9 +49,6 @@ struct SeriesInfo {
     std::string uid, description;
     int slices = 0;
 };
-// The series in a folder of DICOM files, in the order --series counts them, without localizers and the like.
-// Throws Error.
-std::vector<SeriesInfo> listSeries(const std::filesystem::path& folder);
 
 // A series by one of its slices.
 struct SeriesLook {
@@ -61,7 +58,8 @@ struct SeriesLook {
     Plane<PackedColor> picture;  // the middle slice in grey, pixels square; empty where there is a problem
     std::string problem;         // why it has no picture, one line; "" else
 };
-// Looks at all series, in the order of listSeries. Throws Error where the folder holds none.
+// Looks at all series in a folder of DICOM files, in the order that --series counts them, without localizers
+// and the like. Throws Error where the folder holds none.
 std::vector<SeriesLook> lookAtSeries(const std::filesystem::path& folder);
 
 // What headers alone say of a study: no sample is read.

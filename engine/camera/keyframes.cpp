@@ -73,15 +73,6 @@ std::size_t insertKeyframe(Keyframes& keyframes, const PathSample& keyframe) {
     return static_cast<std::size_t>(place);
 }
 
-std::size_t moveKeyframe(Keyframes& keyframes, std::size_t place, double time) {
-    checkPlace(keyframes, place);
-    Keyframes others = keyframes;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(place));
-    const std::size_t now = insertKeyframe(others, {time, keyframes[place].pose});
-    keyframes = std::move(others);
-    return now;
-}
-
 void removeKeyframe(Keyframes& keyframes, std::size_t place) {
     checkPlace(keyframes, place);
     keyframes.erase(keyframes.begin() + static_cast<std::ptrdiff_t>(place));

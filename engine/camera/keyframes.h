@@ -16,7 +16,6 @@ using Keyframes = std::vector<PathSample>;
 // poses and times that are not finite, times that another keyframe has, and places that the list does not
 // have.
 std::size_t insertKeyframe(Keyframes& keyframes, const PathSample& keyframe);
-std::size_t moveKeyframe(Keyframes& keyframes, std::size_t place, double time);  // seconds
 void removeKeyframe(Keyframes& keyframes, std::size_t place);
 
 // Poses with times from 0 on: each step takes what its way takes at that speed, or its turn at half a radian

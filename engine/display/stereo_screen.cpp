@@ -54,10 +54,6 @@ double pictureWidth(const StereoScreen& screen, double picturePixels, double scr
     return screen.width * (picturePixels / screenPixels);
 }
 
-double largestShare(double pictureWidth) {
-    return pictureWidth > 0 ? kEyeDistance / pictureWidth : 0;
-}
-
 std::string screenParallaxText(const ScreenParallax& nearest, const ScreenParallax& farthest) {
     if (nearest.millimetres == 0 && farthest.millimetres == 0) return "";
     return fmt::format("on the screen {:+.1f} to {:+.1f} mm, {:+.2f} to {:+.2f} degrees", nearest.millimetres,

@@ -41,10 +41,6 @@ ScreenParallax onScreen(double parallax, double pictureWidth, double distance);
 // widens again (half side by side) count with the pixels that they have before they are squeezed.
 double pictureWidth(const StereoScreen& screen, double picturePixels, double screenPixels);
 
-// The share of the picture's width that is kEyeDistance on the screen: no parallax may be larger. 0 where the
-// width is not more than 0.
-double largestShare(double pictureWidth);
-
 // "on the screen -3.2 to +8.1 mm, -0.31 to +0.77 degrees"; "" where nothing is known.
 std::string screenParallaxText(const ScreenParallax& nearest, const ScreenParallax& farthest);
 // "" unless the farthest thing diverges.

@@ -40,7 +40,6 @@ public:
     void step(const FlightInput& input, double dt) override;
 
     void turnBy(double yaw, double pitch) override;
-    void levelRoll() { mRoll = mRollRate = 0; }
 
     Pose pose() const override { return poseFromAngles(mPosition, mHeading, mPitch, mRoll); }
     // Places the viewer (lifted to the clearance where needed) at rest.

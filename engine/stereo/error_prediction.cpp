@@ -130,25 +130,6 @@ ErrorCalibration ErrorCalibrator::result() const {
     return calibration;
 }
 
-ErrorCalibration calibrateError(const EyeRenderer& renderer, std::span<const StereoViews> views,
-                                const WarpSetting& setting) {
-    WarpSetting warp = setting, full = setting;
-    warp.refinement = full.refinement = {};
-    full.method = RightEyeMethod::Full;
-    EyeImage left, warped, cast;
-    RightEye eye;
-    ErrorCalibrator calibrator;
-    for (const StereoViews& view : views) {
-        left.resize(view.left.width, view.left.height, renderer.viewDependence());
-        renderer.lookFrom(view.left, view.right);
-        renderEye(renderer, view.left, left);
-        eye.render(renderer, view, left, full, cast);
-        eye.render(renderer, view, left, warp, warped);
-        calibrator.add(warped, eye.holeMask(), cast);
-    }
-    return calibrator.result();
-}
-
 int classToCast(const Refinement& refinement, const ContrastCounts& counts, double pixels) {
     const ErrorCalibration& known = *refinement.calibration;
     const double allowed =

@@ -55,10 +55,6 @@ private:
     std::vector<Frame> mFrames;
 };
 
-// Warps and casts each of the views, at least one, of one size.
-ErrorCalibration calibrateError(const EyeRenderer& renderer, std::span<const StereoViews> views,
-                                const WarpSetting& setting);
-
 // The classes of a whole picture, all threads. classes is resized; counts those that are not holes.
 ContrastCounts findContrast(const Plane<std::uint32_t>& color, const Plane<std::uint8_t>& holes,
                             Plane<std::uint8_t>& classes);

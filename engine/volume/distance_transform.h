@@ -17,7 +17,6 @@ namespace stereonav {
 struct DistanceVolume : Volume<std::uint16_t> {
     static constexpr std::uint16_t kNoSeed = 65535;
     double unit = 0;  // metres
-    double metresAt(const glm::ivec3& v) const { return at(v) * unit; }
 };
 
 // Distance to the nearest voxel with mask 0, for every voxel with mask not 0; 0 elsewhere. Voxels beyond

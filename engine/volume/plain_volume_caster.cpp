@@ -9,13 +9,10 @@
 #include <glm/geometric.hpp>
 
 #include "engine/math/constants.h"
-#include "engine/volume/baked_data.h"
 #include "engine/volume/surface_cells.h"
 
 namespace stereonav {
 namespace {
-
-constexpr double kLeastLeft = 1.0 / 1024;
 
 using Corners = std::array<double, 8>;  // at x + 2 y + 4 z
 
@@ -268,12 +265,9 @@ glm::dvec3 plainNormal(const GreyVolume& volume, const glm::dvec3& voxel) {
     return share > 0 ? glm::normalize((1 - share) * bySlope + share * mean / length) : bySlope;
 }
 
-namespace {
-
-// Colour under a lamp whose constant ambient light is that.
-glm::dvec3 lampPlain(const VolumeLook& look, double ambient, const glm::dvec3& position,
-                     const glm::dvec3& normal, const glm::dvec3& head, const glm::dvec3& eye,
-                     const glm::dvec3& albedo) {
+glm::dvec3 shadePlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,
+                      const glm::dvec3& head, const glm::dvec3& eye, const glm::dvec3& albedo) {
+    const double ambient = look.ambient * (1 + look.varyingAmbient * normal.z);
     const glm::dvec3 toHead = head - position, toEye = eye - position;
     const double distance = glm::length(toHead);
     const glm::dvec3 l = distance > 0 ? toHead / distance : glm::dvec3(0.0);
@@ -289,82 +283,6 @@ glm::dvec3 lampPlain(const VolumeLook& look, double ambient, const glm::dvec3& p
     const double ratio = look.falloff > 0 ? distance / look.falloff : 0.0;
     const double light = 1 / (1 + ratio * ratio);
     return light * (albedo * (ambient + look.diffuse * std::max(facing, 0.0)) + highlight);
-}
-
-// 0..1 for bytes 0..255.
-double plainShare(const Volume<std::uint8_t>& bytes, const glm::dvec3& voxel) {
-    const glm::ivec3 cell = cellOf(bytes.frame, voxel);
-    const glm::dvec3 p = voxel - glm::dvec3(cell);
-    double sum = 0;
-    for (int n = 0; n < 8; ++n) {
-        const glm::ivec3 o(n & 1, n >> 1 & 1, n >> 2);
-        const double weight = (o.x ? p.x : 1 - p.x) * (o.y ? p.y : 1 - p.y) * (o.z ? p.z : 1 - p.z);
-        sum += weight * bytes.at(cell + o);
-    }
-    return sum / 255;
-}
-
-}  // namespace
-
-glm::dvec3 shadePlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,
-                      const glm::dvec3& head, const glm::dvec3& eye, const glm::dvec3& albedo) {
-    const double ambient = look.ambient * (1 + look.varyingAmbient * normal.z);
-    return lampPlain(look, ambient, position, normal, head, eye, albedo);
-}
-
-glm::dvec3 shadeBakedPlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,
-                           const glm::dvec3& head, const glm::dvec3& eye, const glm::dvec3& albedo) {
-    const IlluminationVolume::Light known = bakedLightAt(look.baked, position);
-    const glm::dvec3 lamp = shadePlain(look, position, normal, head, eye, albedo);
-    if (!(known.weight > 0)) return lamp;
-    if (look.baked.use == BakedLook::Use::Openness) return lamp * static_cast<double>(known.value.x);
-    const auto exposure = static_cast<double>(shownExposure(look.baked));
-    return albedo * glm::dvec3(known.value) * exposure + static_cast<double>(look.baked.lampShare) * lamp;
-}
-
-glm::dvec3 lightPlain(const VolumeLook& look, const VolumeFrame& frame, const glm::dvec3& voxel,
-                      const glm::dvec3& normal, const glm::dvec3& head, const glm::dvec3& eye,
-                      const glm::dvec3& albedo) {
-    const glm::dvec3 position = frame.worldFromVoxel(voxel);
-    if (!look.occlusion.openness || look.baked.light)
-        return shadeBakedPlain(look, position, normal, head, eye, albedo);
-    const double open = plainShare(*look.occlusion.openness, voxel);
-    return look.occlusion.strength * open * albedo +
-           static_cast<double>(look.occlusion.lampShare) *
-               lampPlain(look, 0, position, normal, head, eye, albedo);
-}
-
-PlainComposite compositePlain(const GreyVolume& volume, const VolumeLook& look, const PlainRay& worldRay,
-                              const glm::dvec3& head, double stepVoxels) {
-    PlainComposite result;
-    const VolumeFrame& frame = volume.frame;
-    if (frame.size.x < 2 || frame.size.y < 2 || frame.size.z < 2 || look.transfer.empty()) return result;
-    const VoxelRay ray(frame, worldRay);
-    if (!(ray.begin <= ray.end)) return result;
-    const double step = stepVoxels * std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z});
-    const double dt = step / glm::length(worldRay.direction);
-    const auto tAt = [&](double k) { return worldRay.nearDepth + k * dt; };
-    double square = 0;
-    double k = std::ceil((ray.begin - worldRay.nearDepth) / dt);
-    for (; result.left >= kLeastLeft && tAt(k) <= ray.end; ++k) {
-        const glm::dvec3 voxel = glm::clamp(ray.at(tAt(k)), glm::dvec3(0.0), glm::dvec3(frame.size - 1));
-        const double value = plainValue(volume, voxel) * volume.scale + volume.offset;
-        ++result.samples;
-        double extinction = look.transfer.extinction(value);
-        if (look.modulation) extinction *= plainShare(*look.modulation, voxel);
-        const double opacity = -std::expm1(-extinction * step);
-        if (!(opacity > 0)) continue;
-        if (result.firstDepth == kInfinity) result.firstDepth = tAt(k);
-        const glm::dvec3 albedo(look.transfer.at(value).color);
-        result.color +=
-            result.left * opacity *
-            lightPlain(look, frame, voxel, plainNormal(volume, voxel), head, worldRay.eye, albedo);
-        const double behind = tAt(k) - result.firstDepth;
-        square += result.left * opacity * behind * behind;
-        result.left *= 1 - opacity;
-    }
-    if (result.left < 1) result.spread = std::sqrt(square / (1 - result.left));
-    return result;
 }
 
 }  // namespace stereonav

@@ -169,14 +169,4 @@ TransferFunction readTransferFunction(const std::filesystem::path& file) {
     return parseTransferFunction(readTextFile(file), file.string());
 }
 
-void writeTransferFunction(const std::filesystem::path& file, const TransferFunction& function) {
-    std::string text = "# value red green blue opacity: sRGB in 0 to 1, opacity of a layer of reference_mm\n";
-    text += fmt::format("reference_mm {}\n", function.referenceLength() * 1e3);
-    const auto encoded = [](float linear) { return std::min(srgbFromLinear(linear), 1.0f); };
-    for (const TransferPoint& p : function.points())
-        text += fmt::format("{} {} {} {} {}\n", p.value, encoded(p.color.x), encoded(p.color.y),
-                            encoded(p.color.z), p.opacity);
-    writeTextFile(file, text);
-}
-
 }  // namespace stereonav

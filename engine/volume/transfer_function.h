@@ -51,6 +51,5 @@ private:
 // comments. Throws Error with file and line.
 TransferFunction parseTransferFunction(std::string_view text, const std::string& source);
 TransferFunction readTransferFunction(const std::filesystem::path& file);
-void writeTransferFunction(const std::filesystem::path& file, const TransferFunction& function);
 
 }  // namespace stereonav

@@ -18,13 +18,6 @@ constexpr double kFlatter =
 constexpr double kHalfRough =
     0.12;  // slope at which ground has half of that; level ground, as water, has none
 
-double fadeOf(double t) {
-    return t * t * t * (t * (t * 6 - 15) + 10);
-}
-double riseOfFade(double t) {
-    return 30 * t * t * (1 - t) * (1 - t);
-}
-
 }  // namespace
 
 GroundDetail::GroundDetail(const Heightfield& ground) : mSpacing(ground.spacing()), mWidth(ground.width()) {
@@ -67,32 +60,6 @@ DetailData GroundDetail::forKernels(const TerrainLook& look) const {
         slope *= kFlatter;
     }
     return data;
-}
-
-double detailAt(const DetailData& detail, int i, int j, double u, double v, double footprint) {
-    double light = 0;
-    for (const DetailOctave& octave : detail.octave) {
-        const double weight = std::clamp(
-            octave.cell / (kDetailPixels * std::max(footprint * detail.perMetre, 1e-9)) - 1, 0.0, 1.0);
-        if (weight == 0) break;
-        const double x = octave.a * u - octave.b * v, y = octave.b * u + octave.a * v;
-        const double wholeX = std::floor(x), wholeY = std::floor(y), p = x - wholeX, q = y - wholeY;
-        const int column = octave.a * i - octave.b * j + static_cast<int>(wholeX);
-        const int row = octave.b * i + octave.a * j + static_cast<int>(wholeY);
-        const auto value = [&](int dx, int dy) {
-            return double(detail.values[((row + dy) & (kDetailSide - 1)) * kDetailPitch +
-                                        ((column + dx) & (kDetailSide - 1))]);
-        };
-        const double a = value(0, 0), b = value(1, 0), c = value(0, 1), d = value(1, 1);
-        const double alongX = riseOfFade(p) * ((b - a) + fadeOf(q) * ((d - c) - (b - a)));
-        const double alongY = riseOfFade(q) * ((c - a) + fadeOf(p) * ((d - b) - (c - a)));
-        light += weight * (octave.lightX * alongX + octave.lightY * alongY);
-    }
-    const float* const south = detail.rough + static_cast<std::size_t>(j) * detail.roughPitch + i;
-    const float* const north = south + detail.roughPitch;
-    const double rough = std::lerp(std::lerp(double(south[0]), double(south[1]), u),
-                                   std::lerp(double(north[0]), double(north[1]), u), v);
-    return std::clamp(rough * light, double(kDarkestDetail), double(kBrightestDetail));
 }
 
 }  // namespace stereonav

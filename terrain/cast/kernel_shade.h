@@ -125,7 +125,7 @@ STEREONAV_INLINE F longerSide(const CasterView& view, F length, F t, F approach)
     return t * max(along, F(view.pixelWidth));
 }
 
-// detailAt() of ground_detail.h, for the lanes m.
+// detailAt() of tests/oracle/plain_detail.h, for the lanes m.
 STEREONAV_INLINE F detailOf(const DetailData& detail, const Hits& hits, F footprint, M m) {
     const F inverse = approxReciprocal(max(footprint * F(detail.perMetre), F(1e-9f)));
     F light(0.0f);

@@ -141,11 +141,4 @@ ColorTexture picturedPart(const Heightfield& part, const Heightfield& whole, con
                     quiet);
 }
 
-GroundColor groundFromImage(const std::filesystem::path& file, const DemGrid& dem, const Heightfield& ground,
-                            const TerrainLook& look, const TintPlace& tinted, Progress& progress) {
-    const PicturedGround pictured{std::make_shared<const LaidPicture>(file, dem), look, tinted,
-                                  look.shadeImage};
-    return picturedGround(ground, pictured, std::numeric_limits<double>::infinity(), progress);
-}
-
 }  // namespace stereonav

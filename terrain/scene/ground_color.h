@@ -47,14 +47,6 @@ GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, con
 ColorTexture tintedPart(const Heightfield& part, const Heightfield& whole, const TerrainLook& look,
                         const TintPlace& place, double density, Progress& progress);
 
-// An image with a georeference (its own, or a world file's beside it, then in the elevation model's
-// system) is laid where it belongs; one without covers the extent of the elevation file, whatever
-// its aspect. Masked and uncovered places get the tint. 8 or 16 bits, gray, colour or palette, taken
-// as sRGB; texels as fine as the image's pixels, 2^26 of them at most. dem: without its heights.
-// Throws Error named by the image, among others where it does not overlap.
-GroundColor groundFromImage(const std::filesystem::path& image, const DemGrid& dem, const Heightfield& ground,
-                            const TerrainLook& look, const TintPlace& tinted, Progress& progress);
-
 // What ground under a picture is coloured by, whole or in parts.
 struct PicturedGround {
     std::shared_ptr<const LaidPicture> picture;
@@ -63,7 +55,11 @@ struct PicturedGround {
     bool perSample = false;  // its light is that of every sample: a part has a texel a sample at least
 };
 
-// The same, of at most so many texels a sample each way.
+// An image with a georeference (its own, or a world file's beside it, then in the elevation model's system)
+// is laid where it belongs; one without covers the extent of the elevation file, whatever its aspect. Masked
+// and uncovered places get the tint. 8 or 16 bits, gray, colour or palette, taken as sRGB; texels as fine as
+// the image's pixels, 2^26 of them and so many a sample each way at most. Throws Error named by the image,
+// among others where it does not overlap.
 GroundColor picturedGround(const Heightfield& ground, const PicturedGround& pictured, double mostDensity,
                            Progress& progress);
 // Colours of a part of a ground, of any level: texels as fine as the picture's pixels, so many at most, or a

@@ -39,7 +39,6 @@ std::shared_ptr<const SurveyTiles::Tile> SurveyTiles::tile(const glm::ivec2& num
     }
     std::shared_ptr<const Tile> tile = read(number);
     const std::lock_guard lock(mMutex);
-    ++mRead;
     if (mPlaces[place] != mKept.end()) return mPlaces[place]->tile;  // of another thread, meanwhile
     mKept.push_front({place, tile});
     mPlaces[place] = mKept.begin();

@@ -30,7 +30,6 @@ public:
     int level() const { return mLevel; }
     // Throws Error where it can not be read.
     std::shared_ptr<const Tile> tile(const glm::ivec2& number);
-    long long tilesRead() const { return mRead; }
 
 private:
     struct Kept {
@@ -43,7 +42,6 @@ private:
     const int mLevel;
     const std::size_t mMost;  // tiles
     glm::ivec2 mTiles{0};
-    long long mRead = 0;
     std::mutex mMutex;
     std::list<Kept> mKept;                           // the newest first
     std::vector<std::list<Kept>::iterator> mPlaces;  // by tile; mKept.end(): not kept

@@ -5,9 +5,10 @@
 
 #include "colon/scene/colon_scene.h"
 #include "engine/image/image_file.h"
-#include "engine/volume/plain_volume_caster.h"
 #include "tests/app/volume_input.h"
 #include "tests/light/occlusion_brute.h"
+#include "tests/oracle/plain_composite.h"
+#include "tests/oracle/regression_gradient.h"
 
 namespace stereonav::test {
 namespace {

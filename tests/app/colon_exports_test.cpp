@@ -9,10 +9,10 @@
 #include <numbers>
 
 #include "app/scene/scene_loading.h"
-#include "colon/centreline/centreline.h"
 #include "colon/instruments/unfolding.h"
 #include "colon/scene/colon_scene.h"
 #include "tests/app/program.h"
+#include "tests/support/centreline_reader.h"
 #include "tests/support/table_text.h"
 
 namespace stereonav::test {
@@ -301,7 +301,7 @@ TEST_F(ColonExports, ACentrelineIsAsLongAsItsFileSays) {
         SCOPED_TRACE(name);
         const Json json = documentOf({"centreline", file, "--out", name});
         // Millimetres: the lengths and radii of what was written, and of the tube.
-        const Centreline line = readCentreline(place() / name);
+        const Centreline line = test::readCentreline(place() / name);
         double length = 0, least = 1, most = 0;
         for (std::size_t n = 0; n < line.points.size(); ++n) {
             if (n > 0) length += glm::distance(line.points[n].position, line.points[n - 1].position);

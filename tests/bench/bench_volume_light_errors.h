@@ -9,7 +9,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/image/packed_color.h"
 #include "engine/medium/model/medium_picture.h"
-#include "engine/medium/paths/delta_tracking.h"
+#include "tests/support/track_picture.h"
 
 namespace stereonav::bench {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "engine/medium/sweep/plain_sweep.h"
 #include "tests/bench/bench_volume_light_errors.h"
 #include "tests/bench/bench_volume_light_runs.h"
 #include "tests/bench/bench_volume_light_subjects.h"
+#include "tests/oracle/plain_sweep.h"
 
 namespace stereonav::bench {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "engine/light/occlusion/occlusion_formulas.h"
 #include "engine/volume/volume.h"
+#include "tests/oracle/occlusion_formulas.h"
 
 namespace stereonav::bench {
 

@@ -165,21 +165,17 @@ TEST(KeyframeFlight, OfTinyAndOfHugeTimes) {
     EXPECT_EQ(early.startTime(), -1e9);
 }
 
-TEST(KeyframeList, InsertsMovesAndRemoves) {
+TEST(KeyframeList, InsertsAndRemoves) {
     const Pose a = poseFromAngles({0, 0, 0}, 0, 0, 0), b = poseFromAngles({1, 0, 0}, 0, 0, 0);
     Keyframes keys;
     EXPECT_EQ(insertKeyframe(keys, {2, a}), 0u);
     EXPECT_EQ(insertKeyframe(keys, {5, a}), 1u);
     EXPECT_EQ(insertKeyframe(keys, {3, b}), 1u);
     EXPECT_EQ(insertKeyframe(keys, {-1, a}), 0u);
-    EXPECT_EQ(moveKeyframe(keys, 2, 9), 3u);
-    EXPECT_EQ(keys[3].pose.position, b.position);
-    EXPECT_EQ(moveKeyframe(keys, 3, 9), 3u) << "to where it is";
+    EXPECT_EQ(keys[2].pose.position, b.position);
     const Keyframes before = keys;
-    EXPECT_THROW(moveKeyframe(keys, 0, 5), Error);
-    EXPECT_THROW(moveKeyframe(keys, 0, std::nan("")), Error);
-    EXPECT_THROW(moveKeyframe(keys, 4, 1), Error);
-    EXPECT_THROW(insertKeyframe(keys, {9, a}), Error);
+    EXPECT_THROW(insertKeyframe(keys, {std::nan(""), a}), Error);
+    EXPECT_THROW(insertKeyframe(keys, {5, a}), Error);
     EXPECT_THROW(removeKeyframe(keys, 4), Error);
     ASSERT_EQ(keys.size(), before.size());
     for (std::size_t k = 0; k < keys.size(); ++k) EXPECT_EQ(keys[k].time, before[k].time);

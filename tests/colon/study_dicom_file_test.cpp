@@ -268,7 +268,7 @@ TEST(StudyDicomAside, LocalizersAndCapturesAreLeftOutWithAWord) {
     expectStudy(study);
     ASSERT_EQ(study.notes.size(), 1u);
     EXPECT_EQ(study.notes[0], "left aside: 2 localizers, 1 picture in colour, 1 secondary capture");
-    EXPECT_EQ(listSeries(folder / "s").size(), 1u);
+    EXPECT_EQ(lookAtSeries(folder / "s").size(), 1u);
     // Alone, they are what there is.
     fs::create_directories(folder / "t");
     fs::copy(folder / "s/scout.dcm", folder / "t/scout.dcm");

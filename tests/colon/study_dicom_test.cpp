@@ -195,11 +195,11 @@ TEST(StudyDicom, SeveralSeriesAreListedAndOneIsChosen) {
         other.position.z = k;
         writeSlice(folder / ("s/other" + std::to_string(k)), other);
     }
-    const auto list = listSeries(folder / "s");
+    const auto list = lookAtSeries(folder / "s");
     ASSERT_EQ(list.size(), 2u);
-    EXPECT_EQ(list[0].uid, "1.2.3.1");
-    EXPECT_EQ(list[1].slices, 2);
-    EXPECT_EQ(list[1].description, "the other");
+    EXPECT_EQ(list[0].info.uid, "1.2.3.1");
+    EXPECT_EQ(list[1].info.slices, 2);
+    EXPECT_EQ(list[1].info.description, "the other");
     expectError(folder / "s",
                 {"2 series", "1: 3 slices \"made for a test\"", "2: 2 slices \"the other\"", "--series N"});
     StudyOptions options;

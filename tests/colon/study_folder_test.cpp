@@ -55,7 +55,7 @@ TEST(StudyOfADisc, IsOpenedByItsRootAndByItsDirectory) {
             const Study study = read(place);
             expectStudy(study);
             EXPECT_EQ(study.key, studyKey(root, {}));
-            ASSERT_EQ(listSeries(place).size(), 1u);
+            ASSERT_EQ(lookAtSeries(place).size(), 1u);
             Progress progress;
             const StudyGlance glance = glanceAtStudy(place, progress);
             EXPECT_EQ(glance.series, 1u);

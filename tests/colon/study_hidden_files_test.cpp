@@ -35,7 +35,7 @@ TEST(StudyHiddenFiles, AreNoSlices) {
     EXPECT_TRUE(looksLikeStudy(slices));
     expectStudy(read(slices));
     EXPECT_EQ(studyKey(slices, {}), key);
-    EXPECT_EQ(listSeries(slices).size(), 1u);
+    EXPECT_EQ(lookAtSeries(slices).size(), 1u);
     Progress progress;
     EXPECT_EQ(glanceAtStudy(slices, progress).files, std::size_t(kSlices));
 }

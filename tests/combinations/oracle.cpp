@@ -10,9 +10,9 @@
 #include "colon/scene/colon_scene.h"
 #include "engine/base/parallel.h"
 #include "engine/medium/sweep/medium_scene.h"
-#include "engine/medium/sweep/plain_sweep.h"
 #include "engine/scene/capabilities.h"
-#include "engine/volume/plain_volume_caster.h"
+#include "tests/oracle/plain_composite.h"
+#include "tests/oracle/plain_sweep.h"
 
 namespace stereonav::test {
 namespace {

@@ -11,8 +11,8 @@
 #include "engine/camera/stereo_rig.h"
 #include "engine/display/stereo_presenter.h"
 #include "engine/late/late_guard.h"
-#include "engine/late/late_oracle.h"
 #include "tests/display/egl_context.h"
+#include "tests/oracle/late_oracle.h"
 
 namespace stereonav {
 namespace {

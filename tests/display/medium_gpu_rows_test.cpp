@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "engine/display/medium_gpu.h"
-#include "engine/medium/sweep/plain_sweep.h"
 #include "tests/display/egl_context.h"
 #include "tests/medium/sweep_scenes.h"
+#include "tests/oracle/plain_sweep.h"
 #include "tests/support/stability_row.h"
 
 namespace stereonav {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "engine/display/medium_gpu.h"
-#include "engine/medium/sweep/plain_sweep.h"
 #include "tests/display/egl_context.h"
+#include "tests/oracle/plain_sweep.h"
 
 namespace stereonav::gpu_test {
 

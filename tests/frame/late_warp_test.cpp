@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/late/late_oracle.h"
+#include "tests/oracle/late_oracle.h"
 
 namespace stereonav {
 namespace {

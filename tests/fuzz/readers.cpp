@@ -10,7 +10,6 @@
 
 #include "app/report/json.h"
 #include "app/scene/findings_words.h"
-#include "colon/centreline/centreline.h"
 #include "colon/scene/colon_cache.h"
 #include "colon/study/picture_decoder.h"
 #include "colon/study/study.h"
@@ -134,9 +133,6 @@ constexpr Reader kReaders[] = {
     {"medium", "medium.txt", [](const fs::path& file) { readMediumTransfer(file); }},
     {"phase", "phase.txt", [](const fs::path& file) { findPhaseFunction(file.string()); }},
     {"noise", "noise.txt", [](const fs::path& file) { parseNoise(readTextFile(file), file.string()); }},
-    {"line-text", "line.txt", [](const fs::path& file) { readCentreline(file); }},
-    {"line-vtp", "line.vtp", [](const fs::path& file) { readCentreline(file); }},
-    {"line-vtk", "line.vtk", [](const fs::path& file) { readCentreline(file); }},
     {"nrrd", "study.nrrd", study},
     {"nifti", "study.nii", study},
     {"nifti-gz", "study.nii.gz", study},

@@ -233,8 +233,6 @@ void writeSeeds(const fs::path& folder) {
     writeTextFile(folder / "probe/seed",
                   std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n") + std::string(32, '\x80'));
     writePictures(folder);
-    for (const char* end : {"text/seed.txt", "vtp/seed.vtp", "vtk/seed.vtk"})
-        writeCentreline(folder / (std::string("line-") + end), smallLine());
     writeMask(folder / "nrrd/seed.nrrd", smallMask(), "");
     writeTextFile(folder / "nrrd/raw",
                   "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nendian: little\n"

@@ -9,7 +9,7 @@
 #include <glm/common.hpp>
 
 #include "engine/light/occlusion/occlusion.h"
-#include "engine/light/occlusion/occlusion_formulas.h"
+#include "tests/oracle/occlusion_formulas.h"
 
 namespace stereonav::test {
 

@@ -1,6 +1,6 @@
 // Openness from the numbers of a box: against the library's erf, against what the distributions must have as
 // their means and bounds, and the answers for boxes without a distribution.
-#include "engine/light/occlusion/occlusion_formulas.h"
+#include "tests/oracle/occlusion_formulas.h"
 
 #include <gtest/gtest.h>
 

@@ -10,6 +10,7 @@
 
 #include "engine/base/error.h"
 #include "occlusion_brute.h"
+#include "tests/oracle/regression_gradient.h"
 
 namespace stereonav {
 namespace {

@@ -11,10 +11,10 @@
 #include "engine/light/bake/bake_job.h"
 #include "engine/light/paths/isovalue_surface.h"
 #include "engine/light/paths/path_numbers.h"
-#include "engine/light/paths/path_plain.h"
 #include "engine/math/constants.h"
 #include "engine/volume/volume_renderer.h"
 #include "tests/light/light_scenes.h"
+#include "tests/oracle/plain_paths.h"
 
 namespace stereonav {
 namespace {

@@ -5,12 +5,12 @@
 #include "engine/base/parallel.h"
 #include "engine/light/paths/isovalue_surface.h"
 #include "engine/light/paths/path_numbers.h"
-#include "engine/light/paths/path_plain.h"
 #include "engine/volume/plain_volume_caster.h"
 #include "engine/volume/surface_cells.h"
 #include "tests/light/light_scenes.h"
 #include "tests/light/path_kernels.h"
 #include "tests/light/probe_pictures.h"
+#include "tests/oracle/plain_paths.h"
 
 namespace stereonav {
 namespace {

@@ -4,11 +4,11 @@
 
 #include "engine/light/paths/isovalue_surface.h"
 #include "engine/light/paths/path_numbers.h"
-#include "engine/light/paths/path_plain.h"
 #include "engine/light/skies/spherical_harmonics.h"
 #include "tests/light/light_scenes.h"
 #include "tests/light/path_kernels.h"
 #include "tests/light/probe_pictures.h"
+#include "tests/oracle/plain_paths.h"
 
 namespace stereonav {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/math/constants.h"
-#include "engine/medium/paths/delta_tracking.h"
+#include "tests/support/track_picture.h"
 
 namespace stereonav {
 

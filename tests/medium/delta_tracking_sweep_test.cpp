@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "engine/medium/sweep/plain_sweep.h"
 #include "tests/medium/delta_tracking_scenes.h"
+#include "tests/oracle/plain_sweep.h"
 
 namespace stereonav {
 namespace {

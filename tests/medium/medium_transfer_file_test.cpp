@@ -84,34 +84,6 @@ TEST(MediumFile, ReadsRegionsAndTheSurfaceRamp) {
     EXPECT_NEAR(t.at(10, 3000).surface, 0.5, 1e-6);
 }
 
-TEST(MediumFile, ReadsWhatItWrote) {
-    const Folder folder;
-    for (const char* text : {"reference_mm 3\nsurface gradient 0.1 0.5\n0 1 1 1 0\n7.25 0.1 0.2 0.3 0.4 "
-                             "transport 0.9 0.5 0 glow 1 2 3",
-                             "reference_mm 0.1\nregion value -1 2 3 4.5 gradient 0 0 1 inf color 0.2 1 0 "
-                             "opacity 1 surface 0.25\n"
-                             "region value 0 1 1 2 color 1 1 1 opacity 0.125"}) {
-        const MediumTransfer first = parseMediumTransfer(text, "t");
-        writeMediumTransfer(folder.file("a.txt"), first);
-        const MediumTransfer back = readMediumTransfer(folder.file("a.txt"));
-        EXPECT_DOUBLE_EQ(back.referenceLength(), first.referenceLength());
-        EXPECT_EQ(back.points().size(), first.points().size());
-        EXPECT_EQ(back.regions().size(), first.regions().size());
-        for (double value = -2; value < 9; value += 0.37)
-            for (const double gradient : {0.0, 99.0, 300.0, 1e6}) {
-                const OpticalProperties a = first.at(value, gradient), b = back.at(value, gradient);
-                EXPECT_NEAR(a.extinction, b.extinction, 1e-6 * a.extinction) << value;
-                EXPECT_NEAR(a.surface, b.surface, 1e-6) << value;
-                for (int c = 0; c < 3; ++c) {
-                    EXPECT_NEAR(a.color[c], b.color[c], 1e-6) << value;
-                    EXPECT_NEAR(a.indirectExtinction[c], b.indirectExtinction[c], 1e-5 * (1 + a.extinction))
-                        << value;
-                    EXPECT_NEAR(a.glow[c], b.glow[c], 1e-6) << value;
-                }
-            }
-    }
-}
-
 TEST(MediumFile, NamesTheLineOfWhatIsWrong) {
     EXPECT_THAT(errorOfText(""), StartsWith("wax.txt: expected at least one point or region, found none"));
     EXPECT_THAT(errorOfText("# nothing\n\n"), HasSubstr("found none"));

@@ -1,5 +1,5 @@
 // The model by the book against closed forms: what it says is docs/volume_light.md.
-#include "engine/medium/sweep/plain_sweep.h"
+#include "tests/oracle/plain_sweep.h"
 
 #include <random>
 

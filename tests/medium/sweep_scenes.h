@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "engine/medium/sweep/plain_sweep.h"
+#include "tests/oracle/plain_sweep.h"
 
 namespace stereonav::test {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "engine/medium/sweep/medium_sweep.h"
-#include "engine/medium/sweep/plain_sweep.h"
 #include "engine/simd/simd_target.h"
 #include "sweep_scenes.h"
+#include "tests/oracle/plain_sweep.h"
 
 namespace stereonav {
 namespace {

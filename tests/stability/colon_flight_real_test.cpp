@@ -68,7 +68,7 @@ struct Anatomy {
         for (int c = 0; c < 8; ++c) {
             const glm::ivec3 o(c & 1, c >> 1 & 1, c >> 2);
             const glm::dvec3 w = glm::mix(1.0 - t, t, glm::dvec3(o));
-            sum += w.x * w.y * w.z * distance.metresAt(corner + o);
+            sum += w.x * w.y * w.z * distance.at(corner + o) * distance.unit;
         }
         return std::max(0.0, sum - glm::length(s * glm::sqrt(t * (1.0 - t))) - glm::length(s));
     }

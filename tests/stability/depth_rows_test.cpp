@@ -9,7 +9,7 @@
 #include "engine/math/constants.h"
 #include "engine/stereo/right_eye.h"
 #include "engine/stereo/row_kernels.h"
-#include "engine/stereo/warp_oracle.h"
+#include "tests/oracle/warp_oracle.h"
 #include "tests/support/analytic_scene.h"
 #include "tests/support/stability_row.h"
 

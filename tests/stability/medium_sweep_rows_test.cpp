@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "engine/medium/sweep/medium_sweep.h"
-#include "engine/medium/sweep/plain_sweep.h"
 #include "tests/medium/sweep_scenes.h"
+#include "tests/oracle/plain_sweep.h"
 #include "tests/stability/slab_formulas.h"
 #include "tests/stability/stability_scenes.h"
 #include "tests/support/stability_row.h"

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "engine/volume/plain_volume_caster.h"
 #include "tests/medium/sweep_scenes.h"
+#include "tests/oracle/plain_composite.h"
 #include "tests/stability/slab_formulas.h"
 #include "tests/stability/stability_scenes.h"
 #include "tests/support/stability_row.h"

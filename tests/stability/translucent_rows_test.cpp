@@ -10,6 +10,7 @@
 #include "engine/stereo/quality_plan.h"
 #include "engine/stereo/right_eye.h"
 #include "tests/stability/stability_scenes.h"
+#include "tests/support/calibrate_error.h"
 #include "tests/support/stability_row.h"
 
 namespace stereonav {

@@ -14,6 +14,7 @@
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/read/scene_file.h"
 #include "terrain/scene/terrain_loader.h"
+#include "tests/support/calibrate_error.h"
 #include "tests/support/own_cache.h"
 
 namespace stereonav {

@@ -11,7 +11,7 @@
 #include "engine/stereo/packed_resample.h"
 #include "engine/stereo/paint_row.h"
 #include "engine/stereo/row_kernels.h"
-#include "engine/stereo/warp_oracle.h"
+#include "tests/oracle/warp_oracle.h"
 #include "tests/stereo/row_buffers.h"
 
 namespace stereonav {

@@ -17,12 +17,12 @@
 #include "engine/camera/stereo_rig.h"
 #include "engine/simd/simd_target.h"
 #include "terrain/cast/plain_caster.h"
-#include "terrain/cast/plain_rings.h"
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/paint/contour_painter.h"
 #include "terrain/paint/ground_view.h"
 #include "terrain/paint/track_painter.h"
 #include "terrain/survey/viewshed.h"
+#include "tests/oracle/plain_rings.h"
 #include "tests/support/analytic_scene.h"
 #include "tests/support/test_grounds.h"
 

@@ -46,7 +46,9 @@ RasterSpec pictureSpec(int width, int height) {
 
 GroundColor lay(const std::filesystem::path& image, const Place& place, const TerrainLook& look = {}) {
     Progress progress;
-    return groundFromImage(image, place.dem, place.ground, look, {}, progress);
+    return picturedGround(place.ground,
+                          {std::make_shared<const LaidPicture>(image, place.dem), look, {}, look.shadeImage},
+                          std::numeric_limits<double>::infinity(), progress);
 }
 
 glm::vec3 srgbOf(PackedColor c) {

@@ -11,6 +11,7 @@
 #include "terrain/cast/plain_caster.h"
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/light/sky_source.h"
+#include "tests/oracle/plain_detail.h"
 
 namespace stereonav {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "engine/camera/stereo_rig.h"
 #include "engine/simd/simd_target.h"
-#include "terrain/cast/plain_rings.h"
 #include "terrain/cast/terrain_renderer.h"
+#include "tests/oracle/plain_rings.h"
 #include "tests/support/test_grounds.h"
 
 namespace stereonav {

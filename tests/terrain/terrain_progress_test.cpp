@@ -144,9 +144,9 @@ TEST_F(TerrainProgress, IsWholeOfAPicturedGround) {
     Progress quiet;
     const DemGrid dem = readDem(file.dem, 1, quiet);
     const Heightfield heights(dem.width, dem.height, dem.spacing, dem.heights, "ground");
-    expectWholeProgress("a picture", 1, [&](Progress& progress) {
-        groundFromImage(picture, dem, heights, file.look, {}, progress);
-    });
+    const PicturedGround pictured{std::make_shared<const LaidPicture>(picture, dem), file.look, {}, true};
+    expectWholeProgress("a picture", 1,
+                        [&](Progress& progress) { picturedGround(heights, pictured, 4, progress); });
 }
 
 TEST_F(TerrainProgress, IsWholeOfTheBuiltInTerrain) {

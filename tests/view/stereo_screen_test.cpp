@@ -28,15 +28,6 @@ TEST(StereoScreen, MillimetresAndDegrees) {
     EXPECT_FALSE(onScreen(-0.5, 3, 4).diverges) << "before the screen eyes turn inwards";
 }
 
-TEST(StereoScreen, TheLargestShareIsTheEyesDistance) {
-    for (const double width : {0.1, 0.5, 3.0, 20.0}) {
-        EXPECT_FALSE(onScreen(largestShare(width) * (1 - 1e-9), width, 1).diverges) << width;
-        EXPECT_TRUE(onScreen(largestShare(width) * (1 + 1e-9), width, 1).diverges) << width;
-    }
-    for (const double none : {0.0, -1.0, kNan}) EXPECT_EQ(largestShare(none), 0) << none;
-    EXPECT_EQ(largestShare(kInfinity), 0);
-}
-
 TEST(StereoScreen, NoSizeIsNoParallax) {
     for (const double bad : {0.0, -0.5, kNan, kInfinity}) {
         EXPECT_EQ(onScreen(0.02, bad, 0.6).millimetres, 0) << bad;

@@ -11,8 +11,8 @@
 #include "engine/camera/stereo_rig.h"
 #include "engine/simd/simd_target.h"
 #include "engine/volume/baked_data.h"
-#include "engine/volume/plain_volume_caster.h"
 #include "engine/volume/volume_renderer.h"
+#include "tests/oracle/plain_composite.h"
 #include "tests/volume/test_volumes.h"
 
 namespace stereonav {

@@ -1,6 +1,4 @@
 // The oracle of ray casting against closed forms and a march in tiny steps.
-#include "engine/volume/plain_volume_caster.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "test_volumes.h"
+#include "tests/oracle/plain_composite.h"
 
 namespace stereonav {
 namespace {

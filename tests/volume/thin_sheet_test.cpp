@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "engine/volume/plain_volume_caster.h"
 #include "engine/volume/volume_renderer.h"
+#include "tests/oracle/plain_composite.h"
 #include "tests/volume/test_volumes.h"
 
 namespace stereonav {

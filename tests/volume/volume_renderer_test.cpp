@@ -13,7 +13,7 @@
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"
-#include "engine/volume/plain_volume_caster.h"
+#include "tests/oracle/plain_composite.h"
 #include "tests/volume/test_volumes.h"
 
 namespace stereonav {

@@ -14,7 +14,6 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
-#include "engine/light/paths/path_plain.h"
 #include "engine/light/skies/light_probe.h"
 #include "engine/light/skies/spherical_harmonics.h"
 

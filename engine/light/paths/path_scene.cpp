@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 #include <numbers>
 
-#include "engine/light/paths/path_plain.h"
 #include "engine/math/constants.h"
 
 namespace stereonav {

@@ -15,6 +15,10 @@ const PathKernels& pathKernels(SimdTarget target);
 
 PathVolume pathVolume(const GreyVolume& volume);
 
+// Roulette: paths whose throughput (its largest channel) has fallen below this go on with a probability that
+// is their share of it.
+constexpr float kDim = 0.25f;
+
 // The unit of lengths in the kernels: metres.
 double pathUnit(const VolumeFrame& frame);
 

@@ -76,6 +76,13 @@ int pieceOf(int samples) {
 
 }  // namespace
 
+bool choosesLights(const LightSetup& setup, const TexelSampling& sampling) {
+    constexpr int kFew = 4;
+    return !sampling.naive &&
+           std::count_if(setup.lights.begin(), setup.lights.end(),
+                         [](const PointLight& light) { return lightWeight(light) > 0; }) > kFew;
+}
+
 struct TexelLighter::State {
     const GreyVolume& volume;
     VolumeFrame texels;

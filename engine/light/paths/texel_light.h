@@ -33,6 +33,10 @@ struct TexelSampling {
     SimdTarget simd = SimdTarget::Auto;
 };
 
+// More point lights than a few are sampled one at a time, by what each would bring unshadowed; the naive way
+// takes all.
+bool choosesLights(const LightSetup& setup, const TexelSampling& sampling);
+
 // Running mean of a texel's samples.
 struct TexelSum {
     // Irradiance / pi: what a white diffuse surface would send out. 0 where the texel lies on no surface (the

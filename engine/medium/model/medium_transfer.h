@@ -84,7 +84,6 @@ glm::vec3 diffuseTransport(const glm::vec3& color, double opacity);
 // The text format is in docs/formats.md. Throws Error with file and line.
 MediumTransfer parseMediumTransfer(std::string_view text, const std::string& source);
 MediumTransfer readMediumTransfer(const std::filesystem::path& file);
-void writeMediumTransfer(const std::filesystem::path& file, const MediumTransfer& transfer);
 
 // The files of data/medium, which are part of the program.
 struct MediumPreset {

@@ -259,26 +259,6 @@ private:
     std::vector<Reading> mReadings;  // of the points, or of the regions
 };
 
-std::string encoded(const glm::vec3& linear) {
-    const auto srgb = [](float v) { return std::min(srgbFromLinear(v), 1.0f); };
-    return fmt::format("{} {} {}", srgb(linear.x), srgb(linear.y), srgb(linear.z));
-}
-
-std::string textOf(const MediumMaterial& m) {
-    std::string text = " transport " + encoded(m.transport) + fmt::format(" surface {}", m.surface);
-    if (m.glow != glm::vec3(0.0f)) text += fmt::format(" glow {} {} {}", m.glow.x, m.glow.y, m.glow.z);
-    return text + "\n";
-}
-
-std::string textOf(const MediumRegion& r) {
-    std::string text = "region value";
-    for (const double v : r.value) text += fmt::format(" {}", v);
-    text += " gradient";
-    for (const double g : r.gradient) text += fmt::format(" {}", g / kPerMillimetre);
-    return text + " color " + encoded(r.material.color) + fmt::format(" opacity {}", r.material.opacity) +
-           textOf(r.material);
-}
-
 }  // namespace
 
 glm::vec3 diffuseTransport(const glm::vec3& color, double opacity) {
@@ -299,20 +279,6 @@ MediumTransfer parseMediumTransfer(std::string_view text, const std::string& sou
 
 MediumTransfer readMediumTransfer(const std::filesystem::path& file) {
     return parseMediumTransfer(readTextFile(file), file.string());
-}
-
-void writeMediumTransfer(const std::filesystem::path& file, const MediumTransfer& transfer) {
-    std::string text =
-        "# Colours are sRGB in 0 to 1, opacity and transport those of a layer of reference_mm.\n";
-    text += fmt::format("reference_mm {}\n", transfer.referenceLength() * 1e3);
-    if (transfer.hasSurfaceRamp())
-        text += fmt::format("surface gradient {} {}\n", transfer.surfaceLow() / kPerMillimetre,
-                            transfer.surfaceHigh() / kPerMillimetre);
-    for (const MediumPoint& p : transfer.points())
-        text += fmt::format("{} {} {}", p.value, encoded(p.material.color), p.material.opacity) +
-                textOf(p.material);
-    for (const MediumRegion& r : transfer.regions()) text += textOf(r);
-    writeTextFile(file, text);
 }
 
 std::string mediumPresetNames() {

@@ -176,14 +176,6 @@ void checkSetting(const Medium& medium, const MediumLook& look, const TrackingSe
 
 }  // namespace
 
-TrackedPicture trackPicture(const Medium& medium, const MediumLook& look, const EyeView& view,
-                            const TrackingSetting& setting, double time) {
-    checkSetting(medium, look, setting);
-    ExtinctionBounds bounds = makeExtinctionBounds(medium, time);
-    if (setting.majorantFactor > 0) bounds = coarseBounds(bounds, setting.majorantFactor);
-    return trackRows(medium, bounds, look, view, setting, time, {0, view.height});
-}
-
 TrackedPicture trackRows(const Medium& medium, const ExtinctionBounds& bounds, const MediumLook& look,
                          const EyeView& view, const TrackingSetting& setting, double time,
                          const PictureRows& rows) {

@@ -18,9 +18,6 @@ struct TrackingSetting {
     int samples = 64;       // paths a pixel
     int mostScatters = 64;  // 1: single scattering, what the model calls direct light; paths end there
     std::uint32_t seed = 1;
-    // 0: bounds of extinction cell by cell. Above, at least 1: one bound for the whole medium, this times the
-    // greatest; the mean is the same, the time is not. For tests.
-    float majorantFactor = 0;
     // Only light that between its scatters never travels against the light's own way: all that half-angle
     // slicing could carry. What is missing is what it misses in principle.
     bool onlyForward = false;
@@ -36,11 +33,9 @@ struct TrackedPicture {
 // is 0, for that model, and unless samples and mostScatters are at least 1. With model Direct paths end at
 // the first scatter. Light that was scattered more than once counts times indirectShare, so 1 is the truth.
 // Light enters as radiance * 4 pi across its way (see MediumLight::radiance).
-TrackedPicture trackPicture(const Medium& medium, const MediumLook& look, const EyeView& view,
-                            const TrackingSetting& setting, double time = 0);
-
-// The picture's rows from `first` to before `end` alone, as trackPicture gives them; the others stay 0.
-// bounds: of the medium at that time (delta_tracking_bounds.h), made once for who traces it in parts.
+//
+// Rows from `first` to before `end` alone; the others stay 0. bounds: of the medium at that time
+// (delta_tracking_bounds.h), made once for who traces it in parts.
 struct PictureRows {
     int first = 0, end = 0;
 };

@@ -229,12 +229,4 @@ ExtinctionBounds makeExtinctionBounds(const Medium& medium, double time) {
     return medium.field() ? boundsOfField(medium, time) : boundsOfLayers(medium, time);
 }
 
-ExtinctionBounds coarseBounds(const ExtinctionBounds& bounds, float factor) {
-    ExtinctionBounds coarse = bounds;
-    float most = 0;
-    for (const ExtinctionRange& cell : bounds.cells) most = std::max(most, cell.most);
-    std::fill(coarse.cells.begin(), coarse.cells.end(), ExtinctionRange{0, most * factor});
-    return coarse;
-}
-
 }  // namespace stereonav

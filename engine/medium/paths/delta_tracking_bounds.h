@@ -36,10 +36,6 @@ struct ExtinctionBounds {
 // for layers.
 ExtinctionBounds makeExtinctionBounds(const Medium& medium, double time);
 
-// The same, each `least` 0 and each `most` the greatest of all times `factor`: what is tracked through it has
-// the same mean. For tests, and to see what the cells save.
-ExtinctionBounds coarseBounds(const ExtinctionBounds& bounds, float factor);
-
 struct WorldRay {
     glm::dvec3 origin{0.0}, direction{0, 0, -1};  // unit
     glm::dvec3 at(double distance) const { return origin + distance * direction; }

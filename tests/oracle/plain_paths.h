@@ -13,14 +13,6 @@
 
 namespace stereonav {
 
-// Roulette: paths whose throughput (its largest channel) has fallen below this go on with a probability that
-// is their share of it.
-constexpr float kDim = 0.25f;
-
-// More point lights than a few are sampled one at a time, by what each would bring unshadowed; the naive way
-// takes all.
-bool choosesLights(const LightSetup& setup, const TexelSampling& sampling);
-
 class PlainPaths {
 public:
     PlainPaths(const GreyVolume& volume, const LightSetup& setup, const TexelSampling& sampling);

@@ -1,4 +1,4 @@
-#include "engine/late/late_oracle.h"
+#include "tests/oracle/late_oracle.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // See the header.
-#include "engine/light/occlusion/occlusion_formulas.h"
+#include "tests/oracle/occlusion_formulas.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // See the header.
-#include "engine/light/paths/path_plain.h"
+#include "tests/oracle/plain_paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 
 #include "engine/light/paths/isovalue_surface.h"
 #include "engine/light/paths/path_numbers.h"
+#include "engine/light/paths/path_scene.h"
 #include "engine/math/constants.h"
 #include "engine/volume/plain_volume_caster.h"
 
@@ -37,13 +38,6 @@ double largest(const glm::dvec3& v) {
 }
 
 }  // namespace
-
-bool choosesLights(const LightSetup& setup, const TexelSampling& sampling) {
-    constexpr int kFew = 4;
-    return !sampling.naive &&
-           std::count_if(setup.lights.begin(), setup.lights.end(),
-                         [](const PointLight& light) { return lightWeight(light) > 0; }) > kFew;
-}
 
 PlainPaths::PlainPaths(const GreyVolume& volume, const LightSetup& setup, const TexelSampling& sampling)
     : mVolume(volume), mSetup(setup), mSampling(sampling) {

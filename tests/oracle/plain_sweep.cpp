@@ -1,6 +1,6 @@
 // See the header; equations by their numbers in docs/volume_light.md. Shares nothing with the fast code but
 // the geometry and the medium.
-#include "engine/medium/sweep/plain_sweep.h"
+#include "tests/oracle/plain_sweep.h"
 
 #include <algorithm>
 #include <cmath>

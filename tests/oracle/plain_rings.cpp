@@ -1,4 +1,4 @@
-#include "terrain/cast/plain_rings.h"
+#include "tests/oracle/plain_rings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // The inverse warp, one pixel at a time. Order: columns, survivors from the right, links, the link
 // that holds each right pixel's centre, colours.
-#include "engine/stereo/warp_oracle.h"
+#include "tests/oracle/warp_oracle.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,109 @@
+// See the header.
+#include "tests/oracle/plain_composite.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/math/constants.h"
+#include "engine/volume/baked_data.h"
+
+namespace stereonav {
+namespace {
+
+constexpr double kLeastLeftOfRay = 1.0 / 1024;
+
+// 0..1 for bytes 0..255.
+double plainShare(const Volume<std::uint8_t>& bytes, const glm::dvec3& voxel) {
+    const glm::dvec3 last(glm::max(bytes.frame.size - 2, 0));
+    const glm::ivec3 cell(glm::clamp(glm::floor(voxel), glm::dvec3(0.0), last));
+    const glm::dvec3 p = voxel - glm::dvec3(cell);
+    double sum = 0;
+    for (int n = 0; n < 8; ++n) {
+        const glm::ivec3 o(n & 1, n >> 1 & 1, n >> 2);
+        const double weight = (o.x ? p.x : 1 - p.x) * (o.y ? p.y : 1 - p.y) * (o.z ? p.z : 1 - p.z);
+        sum += weight * bytes.at(cell + o);
+    }
+    return sum / 255;
+}
+
+// The first and the last t of a ray within [0, size - 1]; the first is the larger where it misses the volume.
+glm::dvec2 rangeWithin(const glm::ivec3& size, const glm::dvec3& origin, const glm::dvec3& direction,
+                       double near) {
+    glm::dvec2 range(near, glm::dot(direction, direction) == 0 ? -kInfinity : kInfinity);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double last = size[axis] - 1;
+        if (direction[axis] == 0) {
+            if (!(origin[axis] >= 0 && origin[axis] <= last)) range.y = -kInfinity;
+            continue;
+        }
+        const double a = -origin[axis] / direction[axis], b = (last - origin[axis]) / direction[axis];
+        range = {std::max(range.x, std::min(a, b)), std::min(range.y, std::max(a, b))};
+    }
+    return range;
+}
+
+}  // namespace
+
+glm::dvec3 shadeBakedPlain(const VolumeLook& look, const glm::dvec3& position, const glm::dvec3& normal,
+                           const glm::dvec3& head, const glm::dvec3& eye, const glm::dvec3& albedo) {
+    const IlluminationVolume::Light known = bakedLightAt(look.baked, position);
+    const glm::dvec3 lamp = shadePlain(look, position, normal, head, eye, albedo);
+    if (!(known.weight > 0)) return lamp;
+    if (look.baked.use == BakedLook::Use::Openness) return lamp * static_cast<double>(known.value.x);
+    const auto exposure = static_cast<double>(shownExposure(look.baked));
+    return albedo * glm::dvec3(known.value) * exposure + static_cast<double>(look.baked.lampShare) * lamp;
+}
+
+glm::dvec3 lightPlain(const VolumeLook& look, const VolumeFrame& frame, const glm::dvec3& voxel,
+                      const glm::dvec3& normal, const glm::dvec3& head, const glm::dvec3& eye,
+                      const glm::dvec3& albedo) {
+    const glm::dvec3 position = frame.worldFromVoxel(voxel);
+    if (!look.occlusion.openness || look.baked.light)
+        return shadeBakedPlain(look, position, normal, head, eye, albedo);
+    VolumeLook unlit = look;
+    unlit.ambient = 0;
+    const double open = plainShare(*look.occlusion.openness, voxel);
+    return look.occlusion.strength * open * albedo +
+           static_cast<double>(look.occlusion.lampShare) *
+               shadePlain(unlit, position, normal, head, eye, albedo);
+}
+
+PlainComposite compositePlain(const GreyVolume& volume, const VolumeLook& look, const PlainRay& worldRay,
+                              const glm::dvec3& head, double stepVoxels) {
+    PlainComposite result;
+    const VolumeFrame& frame = volume.frame;
+    if (frame.size.x < 2 || frame.size.y < 2 || frame.size.z < 2 || look.transfer.empty()) return result;
+    const glm::dvec3 origin = frame.voxelFromWorld(worldRay.eye),
+                     way = frame.voxelDirection(worldRay.direction);
+    const glm::dvec2 range = rangeWithin(frame.size, origin, way, worldRay.nearDepth);
+    if (!(range.x <= range.y)) return result;
+    const double step = stepVoxels * std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z});
+    const double dt = step / glm::length(worldRay.direction);
+    const auto tAt = [&](double k) { return worldRay.nearDepth + k * dt; };
+    double square = 0;
+    double k = std::ceil((range.x - worldRay.nearDepth) / dt);
+    for (; result.left >= kLeastLeftOfRay && tAt(k) <= range.y; ++k) {
+        const glm::dvec3 voxel =
+            glm::clamp(origin + tAt(k) * way, glm::dvec3(0.0), glm::dvec3(frame.size - 1));
+        const double value = plainValue(volume, voxel) * volume.scale + volume.offset;
+        ++result.samples;
+        double extinction = look.transfer.extinction(value);
+        if (look.modulation) extinction *= plainShare(*look.modulation, voxel);
+        const double opacity = -std::expm1(-extinction * step);
+        if (!(opacity > 0)) continue;
+        if (result.firstDepth == kInfinity) result.firstDepth = tAt(k);
+        const glm::dvec3 albedo(look.transfer.at(value).color);
+        result.color +=
+            result.left * opacity *
+            lightPlain(look, frame, voxel, plainNormal(volume, voxel), head, worldRay.eye, albedo);
+        const double behind = tAt(k) - result.firstDepth;
+        square += result.left * opacity * behind * behind;
+        result.left *= 1 - opacity;
+    }
+    if (result.left < 1) result.spread = std::sqrt(square / (1 - result.left));
+    return result;
+}
+
+}  // namespace stereonav
