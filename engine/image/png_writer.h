@@ -1,4 +1,4 @@
-// PNG pictures without a picture library: OpenCV's brings 140 others with it, GDAL and GDCM among them.
+// PNG pictures by libpng alone: OpenCV brings 140 other libraries with it, GDAL and GDCM among them.
 #pragma once
 
 #include <vector>
