@@ -6,20 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/nice_step.h"
 #include "engine/metrics/svg_chart.h"
 
 namespace stereonav {
 namespace {
 
 constexpr double kWidth = 1000, kHeight = 320, kLeft = 70, kRight = 20, kTop = 34, kBottom = 44;  // pixels
-
-// 1, 2 or 5 times a power of ten: about `count` of them in the range.
-double roundStep(double range, int count) {
-    const double rough = range / count, power = std::pow(10, std::floor(std::log10(rough)));
-    for (const double factor : {1.0, 2.0, 5.0})
-        if (factor * power >= rough) return factor * power;
-    return 10 * power;
-}
 
 struct ProfileFrame {
     double length, low, high, unit;
@@ -43,13 +36,13 @@ ProfileFrame frameOf(const std::vector<LinePoint>& points) {
 
 std::string gridLines(const ProfileFrame& frame) {
     std::string text;
-    const double stepY = roundStep(frame.high - frame.low, 6);
+    const double stepY = niceStep(frame.high - frame.low);
     for (double h = std::ceil(frame.low / stepY) * stepY; h <= frame.high; h += stepY)
         text += fmt::format(
             "<path d='M{:.1f} {:.1f}H{:.1f}' class='grid'/><text x='{:.1f}' y='{:.1f}' "
             "text-anchor='end'>{:.6g}</text>\n",
             kLeft, frame.y(h), kWidth - kRight, kLeft - 6, frame.y(h) + 4, h);
-    const double stepX = roundStep(frame.length, 10);
+    const double stepX = niceStep(0.6 * frame.length);
     for (int k = 0; k * stepX <= frame.length; ++k)
         text += fmt::format(
             "<path d='M{:.1f} {:.1f}V{:.1f}' class='grid'/><text x='{:.1f}' y='{:.1f}' "

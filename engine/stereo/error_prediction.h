@@ -5,12 +5,9 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "engine/camera/stereo_rig.h"
 #include "engine/image/eye_image.h"
-#include "engine/render/eye_renderer.h"
 #include "engine/stereo/contrast_row.h"
 #include "engine/stereo/right_eye.h"
 

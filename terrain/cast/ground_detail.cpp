@@ -1,6 +1,5 @@
 #include "terrain/cast/ground_detail.h"
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <glm/geometric.hpp>

@@ -2,7 +2,6 @@
 // of the sun does not depend on the eye, so it is baked in here and filtered with the colour.
 #pragma once
 
-#include <filesystem>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
@@ -10,7 +9,6 @@
 #include "engine/base/progress.h"
 #include "engine/image/color_texture.h"
 #include "terrain/ground/heightfield.h"
-#include "terrain/read/dem_reader.h"
 #include "terrain/read/scene_file.h"
 #include "terrain/scene/ground_tint.h"
 #include "terrain/scene/laid_picture.h"
