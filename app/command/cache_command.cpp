@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 struct CacheOptions {
     Telling telling;
     bool clear = false;
-    std::string older;  // "30d": what was last used before that is removed; "": whatever its age
+    std::optional<double> olderThan_h;  // what was last used so long ago is removed; none: whatever its age
     std::string of;  // a study or file, or a folder of some: what was made of it is removed; "": of anything
 };
 
@@ -103,8 +103,8 @@ std::vector<Kept> chosen(std::vector<Kept> all, const CacheOptions& options) {
         const fs::path source = sourceNamed(options.of);
         std::erase_if(all, [&](const Kept& kept) { return !isOf(kept, source); });
     }
-    if (const auto hours = hoursOfAge(options.older))
-        std::erase_if(all, [&](const Kept& kept) { return hoursSince(kept.used) <= *hours; });
+    if (options.olderThan_h)
+        std::erase_if(all, [&](const Kept& kept) { return hoursSince(kept.used) <= *options.olderThan_h; });
     return all;
 }
 
@@ -144,7 +144,7 @@ int runCache(const CacheOptions& options) {
     const fs::path folder = cacheFolder();
     const int leftovers = removeLeftovers(folder);
     const std::vector<Kept> all = allKept(folder);
-    const bool removes = options.clear || !options.older.empty() || !options.of.empty();
+    const bool removes = options.clear || options.olderThan_h || !options.of.empty();
     result.add("folder", folder.string());
     const std::vector<Kept> picked = removes ? chosen(all, options) : all;
     if (removes) {
@@ -192,7 +192,10 @@ std::vector<Option> cacheOptions() {
          .value = textValue().checked(problemOfAge),
          .help = "removes what was last used so long ago: 12h, 30d, 4w",
          .advice = "write 12h, 30d or 4w",
-         .take = into<&CacheOptions::older>},
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<CacheOptions>().olderThan_h = hoursOfAge(value.text);
+             }},
         {.key = "of",
          .value = fileValue(),
          .help = "removes what was made of a study, a file, or all in a folder; with --older both must hold",

@@ -164,7 +164,10 @@ std::vector<Option> compareOptions() {
          .value = fractionValue(within(0, 10)),
          .help = "separation as a share of the zero-parallax distance, as in 1/30",
          .advice = "try 1/30",
-         .take = into<&CompareOptions::relativeSeparation>},
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 if (value.number() > 0) to.of<CompareOptions>().relativeSeparation = value.number();
+             }},
         {.key = "json",
          .value = fileValue(),
          .help = "figures as JSON; -: to standard output",
@@ -218,13 +221,13 @@ int runCompare(const CompareOptions& options) {
         loadScene(options.scene, options.size, bar.progress(), kCompareBytes);
     Scene& scene = *loaded;
     checkNotRead({{"--json", options.json}, {"--csv", options.csv}, {"--plot", options.plot}});
-    if (options.relativeSeparation > 0.0)
-        scene.stereo.separation = scene.stereo.zeroParallax * options.relativeSeparation;
+    if (options.relativeSeparation)
+        scene.stereo.separation = scene.stereo.zeroParallax * *options.relativeSeparation;
     constexpr double kNextFrame = 1.0 / 30;  // seconds
     const RecordedPath& flight = flightOf(scene, path, options.path);
     const std::vector<TimedPose> poses = timedFrames(flight, options.frames);
     // What is asked for is what is measured.
-    const std::vector<StereoSetting> eyes = options.relativeSeparation > 0.0
+    const std::vector<StereoSetting> eyes = options.relativeSeparation
                                                 ? std::vector<StereoSetting>(poses.size(), scene.stereo)
                                                 : eyesAt(scene, poses);
     ComparisonReport report = describe(options, scene, options.frames);

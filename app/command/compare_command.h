@@ -1,6 +1,7 @@
 // `stereonav compare`, which the program without a command runs too.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,11 @@ struct CompareOptions {
     SizeOption size{500, 400};
     std::string path;
     int frames = 24;
-    std::vector<std::string> methods;  // empty: all
-    double relativeSeparation = 0;     // separation as a share of the zero-parallax distance; 0: the scene's
-    std::string json, csv, images, plot;  // "": not written
-    int repeats = 3;                      // timed runs of a frame, the fastest counts
-    int truthRays = 64;                   // a pixel of the finer truths: a square number, 1 to 256
+    std::vector<std::string> methods;          // empty: all
+    std::optional<double> relativeSeparation;  // share of the zero-parallax distance; none: the scene's
+    std::string json, csv, images, plot;       // "": not written
+    int repeats = 3;                           // timed runs of a frame, the fastest counts
+    int truthRays = 64;                        // a pixel of the finer truths: a square number, 1 to 256
     bool butteraugli = false;
 };
 

@@ -23,7 +23,7 @@ int playAndCompare() {
     runPlay(pictures);
     PlayOptions video = pictures;
     video.out.clear();
-    video.frames = 0;
+    video.frames.reset();
     video.fps = 15;
     video.video = "out/flight.mp4";
     runPlay(video);

@@ -28,7 +28,7 @@ struct FindingsOptions {
     std::vector<glm::dvec3> at;                              // LPS, metres
     std::vector<std::pair<glm::dvec3, glm::dvec3>> between;  // LPS, metres: places whose distance is asked
     bool candidates = false;                                 // places that look like polyps, too
-    std::string comment;                                     // of the one place in `at`
+    std::optional<std::string> comment;                      // on the one place in `at`
     std::string file;                                        // .json that findings are kept in; "": none
     std::string csv, page, sr;                               // .csv, .html, .dcm, or -; "": not written
 };
@@ -60,7 +60,7 @@ void checkFindingsOptions(const FindingsOptions& options) {
     if (!options.candidates && !options.atTruth && options.at.empty() && options.between.empty() &&
         options.file.empty())
         throw Error("findings", "", "expected a place, found none", "add --at x,y,z, or --file");
-    if (!options.comment.empty() && options.at.size() != 1)
+    if (options.comment && options.at.size() != 1)
         throw Error("--comment", "", "expected with one --at, whose it is", "give one place at a time");
 }
 
@@ -85,7 +85,7 @@ std::vector<Finding> collect(const FindingsOptions& options, const std::vector<K
     addKept(kept, tool, progress, findings);
     for (const glm::dvec3& place : options.at) {
         Finding finding = tool.at(place);
-        finding.comment = options.comment;
+        finding.comment = options.comment.value_or("");
         addFinding(findings, std::move(finding));
     }
     if (options.atTruth)

@@ -22,8 +22,8 @@ namespace {
 struct MeshOptions {
     SceneOptions scene;
     Telling telling;
-    std::string out;      // .glb or .gltf
-    double error_m = -1;  // largest vertical error; < 0: half a sample spacing
+    std::string out;                // .glb or .gltf
+    std::optional<double> error_m;  // largest vertical error; none: half a sample spacing
 };
 
 void checkMeshOptions(const MeshOptions& options) {
@@ -63,7 +63,7 @@ int runMesh(const MeshOptions& options) {
     const TerrainScene& terrain = *scene->offered<const TerrainScene>();
     const Heightfield& ground = terrain.ground;
     const double halfSpacing = 0.5 * std::min(ground.spacing().x, ground.spacing().y);
-    const double error = options.error_m < 0 ? halfSpacing : options.error_m;
+    const double error = options.error_m.value_or(halfSpacing);
     const TerrainMesh mesh = simplifyTerrain(ground, error, bar.progress());
     bar.progress().report(1.0, "writing");
     writeTerrainMesh(options.out, ground, terrain.color, mesh, meshPlaceOf(terrain));

@@ -73,7 +73,7 @@ void checkOptions(const PlayOptions& options) {
 }
 
 std::vector<TimedPose> posesOf(const PlayOptions& options, const RecordedPath& path) {
-    if (options.frames > 0) return timedFrames(path, options.frames);
+    if (options.frames) return timedFrames(path, *options.frames);
     const double fps = fpsOf(options);
     if (path.duration() * fps > kMostFrames)
         throw Error(

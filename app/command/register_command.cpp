@@ -62,7 +62,7 @@ ColonScene colonFrom(const ColonOptions& options, const std::string& name, Progr
 ColonOptions secondOptions(const RegisterOptions& options) {
     SceneOptions second = options.scene;
     second.scene = options.with;
-    second.volume.series.clear();
+    second.volume.series.reset();
     second.volume.label.reset();
     second.volume.seeds.clear();
     second.volume.choices = {};

@@ -35,7 +35,7 @@ struct ViewshedOptions {
     SurveyPlace from;
     std::optional<SurveyPlace> to;  // a line of sight
     double targetHeight_m = 0;      // of what is looked at, over the samples
-    double reach_m = 0;             // 0: all of the ground
+    std::optional<double> reach_m;  // none: all of the ground
     bool curvature = false;
     std::optional<double> refraction;  // share of the curvature; none: the usual one
     std::string out;                   // GeoTIFF; "": not written
@@ -91,12 +91,13 @@ void writeShed(const ViewshedOptions& options, const SurveyGround& survey, const
                double height, Progress& progress, CommandResult& result) {
     const glm::dvec2 world = survey.samples().worldFromGrid(eye);
     progress.report(0, "reading ground");
-    const SurveyPart part(survey, world, options.reach_m);
+    const double reach = options.reach_m.value_or(0);
+    const SurveyPart part(survey, world, reach);
     ViewshedSetting setting;
     setting.eye = part.ground().gridFromWorld(world);
     setting.eyeHeight = height;
     setting.targetHeight = options.targetHeight_m;
-    setting.reach = options.reach_m;
+    setting.reach = reach;
     setting.fall = fallOf(options, survey);
     const Stopwatch watch;
     const Viewshed shed = viewshedOf(part.ground(), setting, progress);

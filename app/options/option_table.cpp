@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <utility>
 
 #include "app/options/command.h"
@@ -82,11 +83,12 @@ void setCommands(std::vector<Command> commands) {
 }
 
 std::span<const Command> commands() {
+    if (allCommands().empty()) throw std::logic_error("the table of options has no commands: setCommands()");
     return allCommands();
 }
 
 const Command& commandOf(CommandSet command) {
-    return *std::ranges::find(allCommands(), command, &Command::command);
+    return *std::ranges::find(commands(), command, &Command::command);
 }
 
 const std::vector<Option>& optionTable() {

@@ -51,7 +51,7 @@ struct PlayOptions {
     std::string out;                          // folder for frame_00000.png ...; "" with --video or --hash
     std::string video;                        // .mp4, .avi or .mkv
     std::optional<double> fps;                // none: 25
-    int frames = 0;                           // 0: the whole path at fps; else this many, evenly
+    std::optional<int> frames;                // this many, evenly; none: the whole path at fps
     std::optional<std::pair<int, int>> part;  // first and last of the whole path's frames at fps, from 0
     bool hash = false;                        // print one content hash of all frames
 };

@@ -1,4 +1,4 @@
-// Which scene a command shows or measures, and how: what SceneType and its kin (app/scene) make a scene from.
+// Which scene a command shows or measures, and how: what app/scene makes a scene from.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -34,7 +34,7 @@ struct TracedOptions {
 
 // What is painted on a terrain's ground in pictures that are shown.
 struct GroundPaintOptions {
-    std::optional<double> contours_m;  // between them; 0: none; none: contoursAuto
+    std::optional<double> contours_m;  // between them; 0 or none: no contours, unless contoursAuto
     bool contoursAuto = false;         // by the relief
     std::string tracks;                // a GPX or GeoJSON file that is drawn; "": none
     std::string follow;                // ... and one that the scene's own flight goes along
@@ -44,20 +44,20 @@ struct GroundPaintOptions {
 struct SceneOptions {
     // "" or "terrain": built in; a .toml; a DEM file; "colon", "cloud", "wax": built in; a CT study
     std::string scene;
-    double verticalScale = 0;  // 0: as the scene says
+    std::optional<double> verticalScale;  // none: as the scene says
     bool openHoles = false;
     TilesChoice tiles = TilesChoice::Auto;
-    double memory_bytes = 0;            // that the program may take; 0: what the system says
-    std::string image, sky;             // pictures; "": as the scene says
-    bool physicalSky = false;           // by scattering in the air
-    double visibility_m = 0;            // through that air; 0: as usual
-    std::optional<glm::vec3> skyColor;  // of traced light, in the place of a picture
-    bool shadeImage = false;            // the picture is lit by the sun too
+    std::optional<double> memory_bytes;  // that the program may take; none: what the system says
+    std::string image, sky;              // pictures; "": as the scene says
+    bool physicalSky = false;            // by scattering in the air
+    std::optional<double> visibility_m;  // through that air; none: as usual
+    std::optional<glm::vec3> skyColor;   // of traced light, in the place of a picture
+    bool shadeImage = false;             // the picture is lit by the sun too
     LightChoice light;
     std::optional<LightPlace> sun;  // over a terrain; none: as the scene says
     std::optional<double> separation_m, zeroParallax_m;
-    double fov_deg = 0;  // vertical; 0: as the scene says
-    int threads = 0;     // 0: all
+    std::optional<double> fov_deg;  // vertical; none: as the scene says
+    int threads = 0;                // 0: all
     SimdTarget simd = SimdTarget::Auto;
     VolumeOptions volume;
     GroundPaintOptions ground;

@@ -14,10 +14,10 @@
 namespace stereonav {
 
 struct VolumeOptions {
-    std::string series;                // of a folder with several: its number or UID
-    std::optional<std::string> label;  // of a mask with several: its number or name
-    std::vector<glm::dvec3> seeds;     // LPS, metres
-    PieceChoices choices;              // pieces that are added to the colon or taken from it, LPS
+    std::optional<std::string> series;  // of a folder with several: its number or UID
+    std::optional<std::string> label;   // of a mask with several: its number or name
+    std::vector<glm::dvec3> seeds;      // LPS, metres
+    PieceChoices choices;               // pieces that are added to the colon or taken from it, LPS
     FluidChoice fluid = FluidChoice::Out;
     bool resample = false;    // mend uneven or tilted slices
     bool isosurface = false;  // seen from outside, without looking for a colon

@@ -39,7 +39,7 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
     const VolumeOptions& volume = options.volume;
     ColonOptions colon;
     if (options.scene != "colon") colon.study = options.scene;
-    colon.reading.series = volume.series;
+    colon.reading.series = volume.series.value_or("");
     colon.reading.label = volume.label;
     colon.reading.resample = volume.resample;
     colon.segmentation.seeds = volume.seeds;

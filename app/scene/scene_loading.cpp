@@ -56,7 +56,7 @@ void checkSize(const SizeOption& size, const SceneOptions& options, const PixelB
     const ShownAs& shown = shownAs(options);
     const double picture = each.*shown.bytesAPixel * size.width * size.height;
     const double beside = each.beside + (picture > 0 ? shown.lightBytes : 0);
-    limitMemory(options.memory_bytes);
+    limitMemory(options.memory_bytes.value_or(0));
     const double bytes = picture + beside, there = availableMemoryFor(bytes);
     const double share = std::sqrt(std::clamp((there - beside) / picture, 0.0, 1.0));
     if (bytes > there)
@@ -88,7 +88,7 @@ std::vector<NamedPlace> inputsOf(const SceneOptions& options) {
 void checkSceneOptions(const SceneOptions& options) {
     for (const NamedPlace& input : inputsOf(options)) checkSource(input);
     if (options.threads > 0) setThreadCount(options.threads);
-    limitMemory(options.memory_bytes);
+    limitMemory(options.memory_bytes.value_or(0));
     shownAs(options).check(options);
 }
 
@@ -130,7 +130,7 @@ std::string_view methodNamed(const std::string& name, const Scene& scene) {
 void adjustViews(const SceneOptions& options, Scene& scene) {
     if (options.separation_m) scene.stereo.separation = *options.separation_m;
     if (options.zeroParallax_m) scene.stereo.zeroParallax = *options.zeroParallax_m;
-    if (options.fov_deg > 0.0) scene.lens.verticalFov = options.fov_deg * kRadians;
+    if (options.fov_deg) scene.lens.verticalFov = *options.fov_deg * kRadians;
 }
 
 std::optional<FramePlan> planScene(const Scene& scene) {

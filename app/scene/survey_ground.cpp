@@ -116,7 +116,7 @@ SurveyGround loadSurveyGround(const SceneOptions& options, Progress& progress) {
         throw Error(options.scene, "", fmt::format("expected a terrain, found a {}", type.noun),
                     "name an elevation model");
     SceneFile file = sceneFileFromName(options.scene);
-    if (options.verticalScale > 0) file.verticalScale = options.verticalScale;
+    if (options.verticalScale) file.verticalScale = *options.verticalScale;
     if (options.openHoles) file.openHoles = true;
     file.tiles = tilesOf(options.tiles);
     SurveyGround survey = file.builtIn ? generated(file, progress) : read(file, progress);

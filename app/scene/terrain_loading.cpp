@@ -44,7 +44,7 @@ void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
 // The scene's file with what the options change.
 SceneFile describeTerrain(const SceneOptions& options) {
     SceneFile scene = sceneFileFromName(options.scene);
-    if (options.verticalScale > 0.0) scene.verticalScale = options.verticalScale;
+    if (options.verticalScale) scene.verticalScale = *options.verticalScale;
     if (options.openHoles) scene.openHoles = true;
     scene.tiles = tilesOf(options.tiles);
     if (options.standInFirst) scene.standInSide = kStandInSide;
@@ -53,14 +53,14 @@ SceneFile describeTerrain(const SceneOptions& options) {
     if (options.shadeImage) scene.look.shadeImage = true;
     if (!options.sky.empty()) scene.sky = options.sky;
     if (options.physicalSky) scene.look.physicalSky = true;
-    if (options.visibility_m > 0) scene.look.visibility = options.visibility_m;
+    if (options.visibility_m) scene.look.visibility = *options.visibility_m;
     if (options.light.kind == LightChoice::Kind::Auto) scene.light = "auto";
     if (options.light.kind == LightChoice::Kind::File) scene.light = options.light.file;
     if (options.sun) scene.look.sunAzimuth = options.sun->azimuth;
     if (options.sun) scene.look.sunElevation = options.sun->elevation;
     if (options.separation_m) scene.separation = options.separation_m;
     if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;
-    if (options.fov_deg > 0.0) scene.verticalFov = options.fov_deg * kRadians;
+    if (options.fov_deg) scene.verticalFov = *options.fov_deg * kRadians;
     scene.colorsAlone = shownAs(options).swept;
     refuseWithoutEffect(options, scene);
     return scene;

@@ -6,6 +6,7 @@
 
 #include "app/command/arguments.h"
 #include "app/options/command.h"
+#include "app/options/option_take.h"
 #include "engine/base/error.h"
 #include "tests/app/volume_input.h"
 
@@ -95,6 +96,47 @@ TEST_F(OptionTable, DeclaresEachOptionOnceForACommand) {
                 })) << other.key;
         }
     }
+}
+
+TEST_F(OptionTable, GivesEachCommandABitOfItsOwn) {
+    CommandSet all = 0;
+    for (const Command& command : commands()) {
+        EXPECT_EQ(command.command & (command.command - 1), 0u) << command.name;
+        EXPECT_EQ(command.command & all, 0u) << command.name;
+        EXPECT_EQ(&commandOf(command.command), &command);
+        all |= command.command;
+    }
+    for (const Option& option : optionTable()) {
+        EXPECT_NE(option.commands, 0u) << option.name();
+        EXPECT_EQ(option.commands & ~all, 0u) << option.name() << ": traits stand for commands";
+    }
+}
+
+TEST_F(OptionTable, LetsValuesGoToTheStructureOfTheirCommandAlone) {
+    struct Own {
+        SceneOptions scene;
+        Telling telling;
+        std::optional<double> error;
+        bool full = false;
+    } own;
+    struct Other {
+        bool full = false;
+    };
+    OptionTargets to;
+    to.bind(own);
+    EXPECT_EQ(to.scene, &own.scene);
+    EXPECT_EQ(to.telling, &own.telling);
+    EXPECT_EQ(to.rays, nullptr);
+    OptionValue value;
+    value.numbers = {0.25};
+    into<&Own::error>(to, value);
+    into<&Own::full>(to, value);
+    into<&SceneOptions::volume, &VolumeOptions::opacity>(to, value);
+    EXPECT_EQ(own.error, 0.25);
+    EXPECT_TRUE(own.full);
+    EXPECT_EQ(own.scene.volume.opacity, 0.25);
+    EXPECT_EQ(to.find<Other>(), nullptr);
+    EXPECT_THROW(into<&Other::full>(to, value), std::logic_error);
 }
 
 TEST_F(OptionTable, RefusesWhatAnotherTypeOfSceneHasInOneLine) {

@@ -149,7 +149,7 @@ TEST_F(OptionUnits, LightReachesMillimetres) {
 TEST_F(OptionUnits, VisibilityIsInKilometres) {
     const ViewOptions options =
         viewOptionsOf({{"SCENE", {"terrain"}}, {"sky", {"physical"}}, {"visibility", {"12.5"}}});
-    EXPECT_NEAR(options.scene.visibility_m, 12500, 1e-9);
+    EXPECT_NEAR(*options.scene.visibility_m, 12500, 1e-9);
 }
 
 TEST_F(OptionUnits, SeedsAreInMillimetres) {
