@@ -37,7 +37,7 @@ bool isStudyOpenness(const Asked& asked) {
     return isOpenness(asked) && asked.shows(kVolumes);
 }
 
-// Of terrains the light is chosen when it is shown.
+// Terrains have their light chosen when it is shown.
 OptionRule chosenWhenShown() {
     return {nullptr, "expected with a CT study, the scene is a terrain",
             "a terrain's sun and sky are chosen when it is shown: --sun, --sky"};
@@ -58,7 +58,7 @@ OptionRule unlessOpenGround() {
             "leave it out, or bake --what transfer"};
 }
 
-// Of terrains fewer numbers do.
+// Terrains take fewer numbers.
 OptionRule unlessFewOnGround(bool (*broken)(const Asked&), const char* range, const char* key) {
     return {broken, fmt::format("expected {} for a terrain, got {{{}}}", range, key),
             "leave it out for the default"};

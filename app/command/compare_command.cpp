@@ -85,7 +85,7 @@ void writePictures(const ComparedFrame& frame, int truthRays, const fs::path& fo
     }
 }
 
-// As render and play have them: together where the room is narrow.
+// Eyes as render and play have them: together where the room is narrow.
 std::vector<StereoSetting> eyesAt(const Scene& scene, const std::vector<TimedPose>& poses) {
     NarrowedEyes eyes(scene);
     std::vector<StereoSetting> all;

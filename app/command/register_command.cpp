@@ -87,7 +87,7 @@ void tellPlaces(CommandResult& result, const RegisterOptions& options, const Col
     result.add("places", std::move(list));
 }
 
-// Of two generated colons: how far along the second line each polyp's place is from the polyp.
+// Tells of two generated colons how far along the second line each polyp's place is from the polyp.
 void tellErrors(CommandResult& result, const ColonScene& first, const ColonScene& second,
                 const LineRegistration& registration) {
     if (first.polyps.empty() || first.polyps.size() != second.polyps.size()) return;

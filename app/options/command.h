@@ -16,10 +16,10 @@ enum class Chapter { Shapes, Ground, Measuring, Light, Colon, Kept };
 struct Command {
     const char* name;
     const char* help;
-    SceneSet scenes = 0;                         // that it takes; 0: its own
+    SceneSet scenes = 0;                         // types that it takes; 0: its own
     CommandSet command = 0;                      // its bit; 0: setCommands() gives it one
     CommandSet traits = 0;                       // by which rows of the table are for it
-    Chapter chapter{};                           // of its own options
+    Chapter chapter{};                           // where its own options stand
     std::vector<Option> (*options)() = nullptr;  // its own; null: none
     // Makes its structure, lets values go there, and returns what runs the command with it.
     std::function<int()> (*start)(OptionTargets& to) = nullptr;

@@ -15,15 +15,15 @@ using CommandSet = std::uint64_t;  // bits of command::k... (option_table.h)
 class GivenOptions {
 public:
     struct Given {
-        std::vector<OptionValue> values;  // of one that may be given several times, in their order
+        std::vector<OptionValue> values;  // several, in their order, of an option that is repeated
         std::string place;                // what messages call it: "--fov", or "scene.toml:7: fov"
     };
 
-    CommandSet command = 0;  // that they were given to
+    CommandSet command = 0;  // the one that they were given to
 
     bool empty() const { return mGiven.empty(); }
     bool has(const std::string& key) const { return mGiven.contains(key); }
-    // As written; "" where it is not given.
+    // The text as it was written; "" where the option is not given.
     std::string text(const std::string& key) const;
     // Whether it is given, and this word.
     bool is(const std::string& key, const std::string& word) const { return text(key) == word; }

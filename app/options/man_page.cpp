@@ -101,7 +101,7 @@ constexpr std::array kExamples{
           "What each way of making the right eye costs, and its error."},
 };
 
-// As it stands in a line that begins with something else: what roff takes for its own is none of it. Every
+// Text for a line that begins with something else: what roff takes for its own is none of it. Every
 // dash can be copied into a shell.
 std::string escaped(std::string_view text) {
     std::string page;

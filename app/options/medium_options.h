@@ -20,7 +20,7 @@ struct MediumOptions {
     std::string noise;                    // a file, cloud, fur or none; "": as the scene has it
     std::optional<Mist> mist;             // over a terrain
     std::optional<int> slices, lightSize;
-    std::optional<double> cone_deg;      // that scattered light spreads in
+    std::optional<double> cone_deg;      // angle in which scattered light spreads
     std::optional<double> shadingWidth;  // voxels between the places where surfaces are shaded
 
     // Whether the medium is a terrain's ground in its own colours.

@@ -113,7 +113,7 @@ GivenNumbers numbersIn(const std::string& option, const NumberList& list, const 
 }
 
 std::string listText(const NumberList& list) {
-    // that of the longest says it
+    // the longest says all
     const NumberForm* longest = &list.forms.front();
     for (const NumberForm& form : list.forms)
         if (form.numbers.size() > longest->numbers.size()) longest = &form;

@@ -29,7 +29,7 @@ std::int64_t wholeIn(const std::string& option, const NumberRange& range, const 
 
 // What a list of numbers may be: "x,y,z", or after a word, as in "centreline,0.05".
 struct NumberForm {
-    std::string word;  // that it begins with; "": none
+    std::string word;  // its first; "": none
     std::vector<NumberRange> numbers;
     std::size_t least = numbers.size();  // how many of them there are at least
 };

@@ -13,7 +13,7 @@ namespace stereonav {
 std::optional<OcclusionEstimate> occlusionEstimateFromText(const std::string& text);
 // What is wrong with such a text, where anything is.
 std::optional<ValueProblem> problemOfOcclusionText(const std::string& text);
-// As it is given: without numbers that are usual.
+// The text that gives such an estimate: without numbers that are usual.
 std::string textOf(const OcclusionEstimate& estimate);
 // For help: with what may follow them.
 std::string occlusionMethodNames();

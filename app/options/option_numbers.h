@@ -23,7 +23,7 @@ const NumberList& contourNumbers();      // --contours: "auto", or metres
 constexpr const char* kHeadLamp = "head";
 constexpr const char* kAutoContours = "auto";
 constexpr const char* kCentrelineLights = "centreline";
-constexpr NumberRange kValueRange = within(-1e30, 1e30);  // of a volume
+constexpr NumberRange kValueRange = within(-1e30, 1e30);  // values of a volume
 constexpr double kBrightestLight = 1e30;                  // well within floats
 
 }  // namespace stereonav

@@ -5,7 +5,7 @@
 
 namespace stereonav {
 
-// As Markdown, lines of at most 120 characters.
+// The page as Markdown, with lines of at most 120 characters.
 std::string optionPage();
 
 }  // namespace stereonav

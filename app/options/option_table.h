@@ -19,9 +19,9 @@ namespace command {
 constexpr CommandSet kInfo = 1 << 0, kRender = 1 << 1, kPlay = 1 << 2, kCompare = 1 << 3, kReport = 1 << 4,
                      kMesh = 1 << 5, kBake = 1 << 6, kView = 1 << 7, kMeasure = 1 << 8, kProfile = 1 << 9;
 // Traits of commands: rows are for all that have one.
-constexpr CommandSet kShowing = 1 << 16,  // any scene, as it looks
-    kOfGround = 1 << 17, kOfColon = 1 << 18,
-                     kTelling = 1 << 19;  // what was done, as a document on standard output
+constexpr CommandSet kShowing = 1 << 16;                       // shows any scene as it looks
+constexpr CommandSet kOfGround = 1 << 17, kOfColon = 1 << 18;  // takes ground alone, a colon alone
+constexpr CommandSet kTelling = 1 << 19;                       // tells what was done as a document, if asked
 constexpr CommandSet kWithScene = kShowing | kOfGround | kOfColon | kBake;
 constexpr CommandSet kAll = ~CommandSet{0};
 }  // namespace command
@@ -44,7 +44,7 @@ struct OptionRule {
 };
 
 struct Exclusion {
-    const char* key;  // of the other one
+    const char* key;  // the other one's
     std::string advice = "leave one of them out";
 };
 
@@ -58,7 +58,7 @@ struct Option {
     const char* advice = "";    // what to write instead of what is refused
     const char* group = "";     // under which help lists it
     const char* fallback = "";  // what holds where it is left out
-    CommandSet commands = 0;    // that have it; a command's own options leave it out
+    CommandSet commands = 0;    // which have it; left out by a command's own options
     SceneSet scenes = scene_type::kAll;
     OptionRule elsewhere{};  // what is said with another scene, where it is not said by the types
     std::vector<Exclusion> excludes{};

@@ -48,7 +48,7 @@ public:
         return mType && *mType == typeid(Options) ? static_cast<Options*>(mOptions) : nullptr;
     }
 
-    // The same; throws where a row of the table is for a command that has another structure.
+    // Returns that structure; throws where a row of the table is for a command with another one.
     template <typename Options>
     Options& of() const {
         Options* const options = find<Options>();

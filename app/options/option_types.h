@@ -14,15 +14,15 @@ namespace stereonav {
 struct LightChoice {
     enum class Kind : std::uint8_t {
         Own,           // nothing was said
-        Plain,         // of a terrain: none is worked out behind the window
+        Plain,         // none is worked out behind the window of a terrain
         File,          // a bake
-        Auto,          // of a terrain: the bake in the cache
-        Lazy,          // of a volume: worked out while one looks
+        Auto,          // the bake of a terrain in the cache
+        Lazy,          // light of a volume that is worked out while one looks
         LazyTransfer,  // ... for a sky that turns
         Traced         // paths from every pixel of a picture
     };
     Kind kind = Kind::Own;
-    std::string file;  // of File
+    std::string file;  // named by File
 
     bool given() const { return kind != Kind::Own; }
     bool lazy() const { return kind == Kind::Lazy || kind == Kind::LazyTransfer; }
@@ -76,7 +76,7 @@ struct LampsAsked {
 
 // --isovalues
 struct ValueRange {
-    double low = 0, high = 0;  // of the volume's values, low <= high
+    double low = 0, high = 0;  // among the volume's values, low <= high
 };
 
 // --tiles: whether an elevation model goes into tiles on disk; as GroundTiles of a terrain.

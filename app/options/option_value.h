@@ -38,10 +38,10 @@ struct ValueType {
     // What is wrong with a value that is of its kind; null: nothing.
     std::optional<ValueProblem> (*check)(const std::string& text) = nullptr;
 
-    // The same with this check.
+    // Returns this type with a check.
     ValueType checked(std::optional<ValueProblem> (*by)(const std::string& text)) const;
     bool takesNumbers() const;
-    bool takesText() const;  // of any kind: a name, a file, words that a scene knows
+    bool takesText() const;  // a name, a file, words that a scene knows
     bool isFile() const { return kind == ValueKind::File || kind == ValueKind::FileOrWord; }
     // "1 to 170 degrees"; "" where anything may be written.
     std::string expected() const;
@@ -61,11 +61,11 @@ ValueType fileValue();
 ValueType fileOrWordValue(std::vector<std::string> words);
 
 struct OptionValue {
-    std::string text;             // as it is written
-    std::vector<double> numbers;  // of all kinds that take numbers; of a size both sides, of a part both ends
-    std::int64_t whole = 0;       // of Whole
-    std::string word;             // that a NumberList's form begins with
-    std::size_t choice = 0;       // of Word: which of the list
+    std::string text;             // the value as it is written
+    std::vector<double> numbers;  // both sides of a size, both ends of a part
+    std::int64_t whole = 0;       // read by Whole
+    std::string word;             // which a NumberList's form begins with
+    std::size_t choice = 0;       // read by Word: which of the list
     std::vector<std::string> words;
 
     double number() const { return numbers.front(); }

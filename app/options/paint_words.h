@@ -12,7 +12,7 @@ namespace stereonav {
 struct PaintWord {
     const char* word;   // "viewshed"
     const char* takes;  // what follows the colon, as help shows it: "X,Y,HEIGHT"; "": nothing
-    SceneSet scenes;    // that it is for
+    SceneSet scenes;    // the types that it is for
 
     // What is wrong with what follows; null: nothing may follow.
     std::optional<ValueProblem> (*problem)(const std::string& rest) = nullptr;
@@ -21,11 +21,11 @@ struct PaintWord {
 // All, each type's from a file of its own.
 std::vector<PaintWord> paintWords();
 std::vector<PaintWord> groundPaintWords();   // paint_words_ground.cpp
-std::vector<OptionRule> groundPaintRules();  // of --paint
+std::vector<OptionRule> groundPaintRules();  // rules of --paint
 std::vector<PaintWord> colonPaintWords();    // paint_words_colon.cpp
-std::vector<OptionRule> colonPaintRules();   // of --paint
+std::vector<OptionRule> colonPaintRules();   // rules of --paint
 
-// Of colons.
+// Words of colons.
 constexpr const char *kPaintCoverage = "coverage", *kPaintBothWays = "both";
 
 // A value of --paint, cut at its first colon.

@@ -58,7 +58,7 @@ void takeSceneFile(ParsedOptions& parsed) {
     const GivenOptions onCommandLine = parsed.given;
     for (const SceneFileOption& said : read.options) {
         const Option* option = findOption(parsed.given.command, said.key);
-        // of other commands, or another thing with this one
+        // an option of other commands, or another thing with this one
         if (!option || !option->inFile || isRuledOut(*option, onCommandLine)) continue;
         const std::string place = fmt::format("{}:{}: {}", toml.string(), said.line, said.key);
         if (said.texts.size() > 1 && !option->repeated)

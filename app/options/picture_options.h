@@ -45,7 +45,7 @@ struct PlayOptions {
     Telling telling;
     SizeOption size;
     std::string path;             // "": the scene's own
-    std::string method = "auto";  // as in RenderOptions: files do not depend on measured times
+    std::string method = "auto";  // auto: as in RenderOptions, whatever was measured
     RayOptions rays;
     OutputMode mode = OutputMode::SideBySide;
     std::string out;                          // folder for frame_00000.png ...; "" with --video or --hash
@@ -70,7 +70,7 @@ struct ViewOptions {
     std::optional<double> screenWidth_mm, viewingDistance_mm;  // none: as the monitor tells, and usual
     bool refine = true;                                        // a picture that rests
     bool lateWarp = true;             // the newest picture is shown from where the eyes are now
-    std::optional<double> target_ms;  // that a frame may take while something moves; none: by the monitor
+    std::optional<double> target_ms;  // time for a frame while something moves; none: by the monitor
     bool bench = false;               // flies the flight, rests, measures what was shown, and closes
     std::string json;                 // where the result is written when the window is closed; "": nowhere
 };

@@ -33,7 +33,7 @@ std::string filledIn(std::string text, const GivenOptions& given, const std::str
     return text;
 }
 
-// Of an option that another type of scene has.
+// Returns why an option that another type of scene has is refused.
 Reason reasonOfType(const Option& option, SceneSet type, const std::string& scene) {
     using namespace scene_type;
     const bool medium = type & kMedia;

@@ -13,8 +13,8 @@ namespace stereonav {
 // that does not go with the scene, with another option that was given, or with what another one chooses.
 void refuseWhatDoesNotApply(const GivenOptions& given, SceneSet type, const std::string& scene);
 
-// The same for what SceneOptions hold. Nothing without a type, where the scene's name stands for none: that
-// is told when it is loaded.
+// Checks what SceneOptions hold in the same way. Does nothing without a type, where the scene's name stands
+// for none: that is told when it is loaded.
 void refuseWhatDoesNotApply(const SceneOptions& options, std::optional<SceneSet> type);
 
 }  // namespace stereonav

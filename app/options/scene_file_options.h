@@ -11,7 +11,7 @@ namespace stereonav {
 
 struct SceneFileOption {
     std::string key;
-    std::vector<std::string> texts;  // as the command line has them; more where it is given several times
+    std::vector<std::string> texts;  // as the command line has them: several where it is repeated
     bool isFlag = false;             // true or false in the file
     int line = 0;
 };

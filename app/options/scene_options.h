@@ -19,13 +19,13 @@ namespace stereonav {
 struct QualityOptions {
     std::optional<double> quality;        // 0..1: share of the expected squared error that is to go
     std::optional<double> targetPsnr_db;  // against a full cast, for 95 of 100 frames
-    std::optional<double> target_ms;      // of a frame, both eyes: what fits is cast
+    std::optional<double> target_ms;      // time for both eyes of a frame: what fits is cast
     std::optional<int> edges;  // rays added to pixels at edges; none: kDefaultEdgeRays where rays are cast
 };
 
 // The light of a picture whose every pixel is path traced; each value means what it means to a bake.
 struct TracedOptions {
-    std::optional<int> samples;  // of each pixel
+    std::optional<int> samples;  // paths from each pixel
     std::optional<int> bounces;
     std::optional<glm::dvec3> albedo;
     std::vector<LampsAsked> lights;
@@ -47,11 +47,11 @@ struct SceneOptions {
     std::optional<double> verticalScale;  // none: as the scene says
     bool openHoles = false;
     TilesChoice tiles = TilesChoice::Auto;
-    std::optional<double> memory_bytes;  // that the program may take; none: what the system says
+    std::optional<double> memory_bytes;  // limit for the program; none: what the system says
     std::string image, sky;              // pictures; "": as the scene says
     bool physicalSky = false;            // by scattering in the air
     std::optional<double> visibility_m;  // through that air; none: as usual
-    std::optional<glm::vec3> skyColor;   // of traced light, in the place of a picture
+    std::optional<glm::vec3> skyColor;   // around traced light, in the place of a picture
     bool shadeImage = false;             // the picture is lit by the sun too
     LightChoice light;
     std::optional<LightPlace> sun;  // over a terrain; none: as the scene says

@@ -12,7 +12,7 @@ constexpr SceneSet kStudyMedium = 16, kColonMedium = 32;  // ... as a medium
 constexpr SceneSet kBuiltInMedium = 64;                   // cloud, wax
 constexpr SceneSet kMeshFile = 128;                       // a glTF mesh
 constexpr SceneSet kTerrains = kTerrain | kTerrainMedium;
-constexpr SceneSet kSurfaces = kStudy | kColon;  // of volumes, not as a medium
+constexpr SceneSet kSurfaces = kStudy | kColon;  // volumes, not as a medium
 constexpr SceneSet kStudies = kStudy | kStudyMedium;
 constexpr SceneSet kVolumes = kSurfaces | kStudyMedium | kColonMedium;
 constexpr SceneSet kMedia = kTerrainMedium | kStudyMedium | kColonMedium | kBuiltInMedium;

@@ -18,7 +18,7 @@ struct SizeOption {
 // How many rays each pixel of a whole picture gets.
 struct RayOptions {
     int rays = 1;                    // a pixel
-    std::optional<double> until_db;  // as many as this expected PSNR against very many takes; none: `rays`
+    std::optional<double> until_db;  // rays until this PSNR against very many is expected; none: `rays`
 
     bool many() const { return rays > 1 || until_db; }
 };

@@ -22,7 +22,7 @@ constexpr NumberRange kSteepestRange = above(0, kSteepestOpenness);
 bool isModulated(const Asked& asked) {
     return asked.has("modulate") && !asked.is("modulate", "none");
 }
-// Of a curve; a file is read with the scene.
+// Returns what is wrong with a curve; a file is read with the scene.
 std::optional<ValueProblem> problemOfTransfer(const std::string& text) {
     if (!isCurveText(text)) return std::nullopt;
     try {

@@ -14,7 +14,7 @@ namespace stereonav {
 std::optional<ValueProblem> problemOfMemory(const std::string& text);
 double bytesOfMemoryText(const std::string& text);
 
-// Of a Word: the enumerator in its place.
+// Returns the enumerator at the place that a Word has in its list.
 template <typename Enum>
 Enum choiceOf(const OptionValue& value) {
     return static_cast<Enum>(value.choice);

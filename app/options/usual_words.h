@@ -9,7 +9,7 @@ constexpr const char* kUpHelp =
     "the axis of a study's file that is to point up; not where a colon is looked for";
 constexpr const char* kUpAdvice = "-z stands a volume on its head";
 
-// Of traced light and of bakes.
+// Ranges and words of traced light and of bakes.
 constexpr NumberRange kSamplesRange = within(1, 1 << 24);
 constexpr const char* kSamplesAdvice = "100 is a first look";
 constexpr NumberRange kBouncesRange = within(0, 8);

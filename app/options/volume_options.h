@@ -14,8 +14,8 @@
 namespace stereonav {
 
 struct VolumeOptions {
-    std::optional<std::string> series;  // of a folder with several: its number or UID
-    std::optional<std::string> label;   // of a mask with several: its number or name
+    std::optional<std::string> series;  // the one of a folder with several: its number or UID
+    std::optional<std::string> label;   // the one of a mask with several: its number or name
     std::vector<glm::dvec3> seeds;      // LPS, metres
     PieceChoices choices;               // pieces that are added to the colon or taken from it, LPS
     FluidChoice fluid = FluidChoice::Out;
@@ -29,7 +29,7 @@ struct VolumeOptions {
     Shading shading = Shading::Lamp;
     std::optional<double> exposure;                      // factor on baked light; none: by its mean
     std::optional<double> ambient_mm;                    // radius of ambient occlusion; none: without
-    OcclusionEstimate ambientMethod;                     // that estimates it
+    OcclusionEstimate ambientMethod;                     // how that is estimated
     std::optional<double> ambientStrength, ambientLamp;  // k of it, and the lamp's share beside it
     Modulation modulate = Modulation::None;              // what opacity is modulated by
     std::optional<double> modulateRadius_mm;             // none: ambient_mm's, or ten voxels
