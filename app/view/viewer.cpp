@@ -246,7 +246,10 @@ void Viewer::step(bool forward) {
     if (!mSession) return;
     if (forward && keyframes.canRedo()) return keyframes.redo();
     if (!forward && keyframes.canUndo()) return keyframes.undo();
-    forward ? mChanges.redo() : mChanges.undo();
+    if (forward)
+        mChanges.redo();
+    else
+        mChanges.undo();
 }
 
 // The first scene starts the session, others take its place in it, or a session of their own.
@@ -319,7 +322,10 @@ void Viewer::followInstruments() {
     if (shows == Instruments::Shows::Nothing) return;
     mStage.layOutSoon();
     if (mStage.panels().leftShown()) return;
-    shows == Instruments::Shows::Findings ? mStage.panels().showFindings() : mStage.panels().toggleLeft();
+    if (shows == Instruments::Shows::Findings)
+        mStage.panels().showFindings();
+    else
+        mStage.panels().toggleLeft();
 }
 
 void Viewer::askFor() {
