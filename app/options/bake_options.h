@@ -1,4 +1,4 @@
-// What light is baked, and for which surfaces; what is not given is chosen from the scene.
+// The light that `bake` works out, and for which surfaces; what is not given is chosen from the scene.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,7 +11,7 @@
 
 namespace stereonav {
 
-// What options are called where they were given.
+// Names of the options that gave the light, for messages.
 struct LightWords {
     const char *light = "--light", *probe = "--probe";
 };
@@ -19,13 +19,13 @@ struct LightWords {
 struct BakeOptions {
     SceneOptions scene;
     Telling telling;
-    std::optional<BakeKind> what;  // none: of volumes irradiance, of terrains transfer
-    std::optional<int> samples;    // at most one of these three
+    std::optional<BakeKind> what;  // kind of light; empty: irradiance for volumes, transfer for terrains
+    std::optional<int> samples;    // of these three at most one is given
     std::optional<double> error, minutes;
     // Texels a voxel, or baked samples a height sample in memory, along each axis.
     std::optional<double> resolution;
-    std::string probe;             // a picture all around
-    std::optional<glm::vec3> sky;  // light from everywhere
+    std::string probe;             // file of a picture of the light from all directions
+    std::optional<glm::vec3> sky;  // radiance of a sky that is the same everywhere
     std::vector<LampsAsked> lights;
     std::optional<int> bounces, order;
     std::optional<glm::dvec3> albedo;
@@ -33,7 +33,7 @@ struct BakeOptions {
     std::optional<double> reach_mm;  // how far rays look for distant light; none: a colon's mean radius
     bool full = false;               // every texel, for any isovalue
     LightWords words;
-    std::string out;  // "": in the cache
+    std::string out;  // file for the result; "": in the cache
 };
 
 }  // namespace stereonav

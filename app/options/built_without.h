@@ -7,10 +7,10 @@ namespace stereonav {
 
 const char* versionNumber();  // "0.2.0"
 const char* versionDate();    // the day of that version, "2026-11-27"
-// "stereonav 0.2.0", and on a second line what it was built without, where that is anything.
+// Returns "stereonav 0.2.0" and, where this build leaves something out, a second line that names it.
 std::string versionText();
 
-// For the commands and scenes that need `part`: throws Error that says how to build it.
+// Throws Error that says how to build the program with `part`, which `option` needs.
 [[noreturn]] void throwBuiltWithout(const std::string& part, const std::string& option);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// The program's commands, as the layer above hands them over: each with its options and what runs it.
+// The program's commands: each with its options and the function that runs it.
 #pragma once
 
 #include <functional>
@@ -10,22 +10,22 @@
 
 namespace stereonav {
 
-// Where in the pages, which list options by what they are about, a command's own stand.
+// Chapters of the pages that list options by topic; a command's own options stand in one of them.
 enum class Chapter { Shapes, Ground, Measuring, Light, Colon, Kept };
 
 struct Command {
     const char* name;
     const char* help;
-    SceneSet scenes = 0;                         // types that it takes; 0: its own
-    CommandSet command = 0;                      // its bit; 0: setCommands() gives it one
-    CommandSet traits = 0;                       // by which rows of the table are for it
-    Chapter chapter{};                           // where its own options stand
-    std::vector<Option> (*options)() = nullptr;  // its own; null: none
-    // Makes its structure, lets values go there, and returns what runs the command with it.
+    SceneSet scenes = 0;                         // scenes that it takes; 0: checks its own
+    CommandSet command = 0;                      // bit of this command; 0: setCommands() assigns one
+    CommandSet traits = 0;                       // traits, by which rows of the table apply to it
+    Chapter chapter{};                           // chapter of its own options
+    std::vector<Option> (*options)() = nullptr;  // its own options; null: it has none
+    // Makes the command's structure, points `to` at it, and returns the function that runs the command.
     std::function<int()> (*start)(OptionTargets& to) = nullptr;
 };
 
-// Command::start of a command that is one function of one structure.
+// Command::start of a command that consists of one function and one structure.
 template <typename Options, int (*run)(const Options&)>
 std::function<int()> startOf(OptionTargets& to) {
     const auto options = std::make_shared<Options>();
@@ -33,7 +33,7 @@ std::function<int()> startOf(OptionTargets& to) {
     return [options] { return run(*options); };
 }
 
-// Hands over the commands in the order of help, before anything of the table is asked.
+// Hands over the commands in the order of help. Has to be called before the table of options is used.
 void setCommands(std::vector<Command> commands);
 
 std::span<const Command> commands();

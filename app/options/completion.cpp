@@ -25,13 +25,13 @@ std::string optionsOf(CommandSet command) {
     return names;
 }
 
-// The words behind an option; "" where there are none to choose from.
+// Returns the words that an option takes, separated by blanks; "" for an option that takes no words.
 std::string wordsBehind(const Option& option) {
     if (option.key == std::string_view("set")) return "";
     return fmt::format("{}", fmt::join(option.value.words, " "));
 }
 
-// A case of the script: what is offered behind this option.
+// Returns a case of the script: the completions that follow this option.
 std::string caseOf(const Command& facts, const Option& option) {
     const std::string words = wordsBehind(option);
     const std::string offered = option.value.isFile() ? fmt::format("files=1 words=\"{}\"", words)

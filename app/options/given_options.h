@@ -15,19 +15,19 @@ using CommandSet = std::uint64_t;  // bits of command::k... (option_table.h)
 class GivenOptions {
 public:
     struct Given {
-        std::vector<OptionValue> values;  // several, in their order, of an option that is repeated
-        std::string place;                // what messages call it: "--fov", or "scene.toml:7: fov"
+        std::vector<OptionValue> values;  // the values in their order; several where the option is repeated
+        std::string place;                // name in messages: "--fov", or "scene.toml:7: fov"
     };
 
-    CommandSet command = 0;  // the one that they were given to
+    CommandSet command = 0;  // the command that the options were given to
 
     bool empty() const { return mGiven.empty(); }
     bool has(const std::string& key) const { return mGiven.contains(key); }
-    // The text as it was written; "" where the option is not given.
+    // Returns the text as it was written; "" where the option is not given.
     std::string text(const std::string& key) const;
-    // Whether it is given, and this word.
+    // Returns whether the option is given with this word.
     bool is(const std::string& key, const std::string& word) const { return text(key) == word; }
-    // 0 where it is not given.
+    // Returns the number that was given; 0 where the option is not given.
     double number(const std::string& key) const;
     const Given* find(const std::string& key) const;
 

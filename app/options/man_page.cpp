@@ -11,7 +11,7 @@
 #include "app/options/option_words.h"
 #include "app/options/pages.h"
 
-// A namespace of its own: its short names are not those of the other files of a unity build.
+// Own namespace, so that the short names do not clash with those of other files in a unity build.
 namespace stereonav::man {
 namespace {
 
@@ -101,8 +101,8 @@ constexpr std::array kExamples{
           "What each way of making the right eye costs, and its error."},
 };
 
-// Text for a line that begins with something else: what roff takes for its own is none of it. Every
-// dash can be copied into a shell.
+// Returns the text for a line that begins with other text: characters that roff would interpret are escaped,
+// and dashes can be copied into a shell.
 std::string escaped(std::string_view text) {
     std::string page;
     for (const char c : text) {
@@ -116,7 +116,7 @@ std::string escaped(std::string_view text) {
     return page;
 }
 
-// Filled text; no line of it is taken for a request of roff.
+// Returns a filled paragraph; none of its lines is taken for a request of roff.
 std::string paragraph(const std::string& text) {
     const std::string lines = wrapped(escaped(text), kWidth, "");
     std::string page;
@@ -156,7 +156,7 @@ std::string optionHead(const Option& option) {
     return bold(option.name()) + (value.empty() ? "" : " " + italic(value));
 }
 
-// "render [SCENE] --out FILE [OPTION ...]"
+// Returns the synopsis: "render [SCENE] --out FILE [OPTION ...]".
 std::string usage(const Command& command) {
     std::string line = bold(std::string("stereonav ") + command.name);
     for (const Option& option : optionTable())

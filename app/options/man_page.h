@@ -5,7 +5,7 @@
 
 namespace stereonav {
 
-// In roff, with the macros of man(7).
+// Returns the page in roff, with the macros of man(7).
 std::string manPage();
 
 }  // namespace stereonav

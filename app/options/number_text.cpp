@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kLongestShown = 40;
 
-// A plus sign, which is no part of from_chars' numbers.
+// Returns the text without a leading plus sign, which from_chars does not accept.
 std::string_view withoutPlus(std::string_view text) {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     return text;
@@ -26,7 +26,7 @@ Error refusal(const std::string& option, const std::string& expected, std::strin
     return {option, "", "expected " + expected + ", got " + shownText(text), advice};
 }
 
-// "0 to 1", "each 0 to 1", "0 to 1, then 2 to 3": each range once where it is the same.
+// Returns "0 to 1", "each 0 to 1" or "0 to 1, then 2 to 3": equal ranges are written once.
 std::string rangesText(const std::vector<NumberRange>& ranges) {
     std::vector<std::string> texts;
     texts.reserve(ranges.size());
@@ -113,7 +113,7 @@ GivenNumbers numbersIn(const std::string& option, const NumberList& list, const 
 }
 
 std::string listText(const NumberList& list) {
-    // the longest says all
+    // The longest form has the ranges of all others.
     const NumberForm* longest = &list.forms.front();
     for (const NumberForm& form : list.forms)
         if (form.numbers.size() > longest->numbers.size()) longest = &form;

@@ -1,5 +1,5 @@
-// Numbers out of what a person writes: decimal, finite, nothing beside them. What is refused says so in the
-// same line everywhere: `OPTION: expected 1 to 170 degrees, got "nan"; ADVICE`.
+// Numbers from text: decimal, finite, nothing beside them. Refusals have the same form everywhere: `OPTION:
+// expected 1 to 170 degrees, got "nan"; ADVICE`.
 #pragma once
 
 #include <cstdint>
@@ -12,29 +12,30 @@
 
 namespace stereonav {
 
-// "-1.5e3"; none for anything else: nan, inf, hexadecimal, blanks, trailing text, what no double holds.
+// Returns the number in a text such as "-1.5e3"; empty for anything else: nan, inf, hexadecimal, blanks,
+// trailing text, and what no double holds.
 std::optional<double> numberFromText(std::string_view text);
-// "1,2,3"; empty where it is anything else.
+// Returns the numbers of "1,2,3"; none for anything else.
 std::vector<double> numbersFromText(std::string_view text);
 
-// The text in quotes, cut where it is long.
+// Returns the text in quotes, shortened where it is long.
 std::string shownText(std::string_view text);
 
-// Throw Error, naming the option. advice: what to write instead.
+// Returns the number in `text`. Throws Error that names the option. advice: what to write instead.
 double numberIn(const std::string& option, const NumberRange& range, const std::string& advice,
                 std::string_view text);
-// Whole numbers: ranges end at whole numbers within +-2^63.
+// Returns the whole number in `text`; ranges end at whole numbers within +-2^63.
 std::int64_t wholeIn(const std::string& option, const NumberRange& range, const std::string& advice,
                      std::string_view text);
 
-// What a list of numbers may be: "x,y,z", or after a word, as in "centreline,0.05".
+// One form of a list of numbers: "x,y,z", or with a word first, as in "centreline,0.05".
 struct NumberForm {
-    std::string word;  // its first; "": none
+    std::string word;  // first word of the list; "": none
     std::vector<NumberRange> numbers;
-    std::size_t least = numbers.size();  // how many of them there are at least
+    std::size_t least = numbers.size();  // least number of values
 };
 struct NumberList {
-    std::string what;  // "x,y,z in metres"
+    std::string what;  // description: "x,y,z in metres"
     std::vector<NumberForm> forms;
     std::string advice;
 };
@@ -42,9 +43,9 @@ struct GivenNumbers {
     std::string word;
     std::vector<double> numbers;
 };
-// By the first form that it fits. Throws Error, naming the option.
+// Reads the text by the first form that fits. Throws Error that names the option.
 GivenNumbers numbersIn(const std::string& option, const NumberList& list, const std::string& text);
-// "x,y,z in metres: each -1e9 to 1e9 metres"
+// Returns the description of all forms: "x,y,z in metres: each -1e9 to 1e9 metres".
 std::string listText(const NumberList& list);
 
 }  // namespace stereonav

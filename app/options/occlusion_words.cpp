@@ -14,7 +14,7 @@ namespace {
 struct Method {
     OcclusionMethod method;
     const char* name;
-    double OcclusionEstimate::*number;  // which may follow the name; null: none
+    double OcclusionEstimate::*number;  // number that may follow the name; null: none
     const char* numberName;
     double least, most;
 };

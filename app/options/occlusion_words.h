@@ -1,4 +1,4 @@
-// --ambient-method: "gaussian", "t-beta", "t-beta B", "drawn-in", "drawn-in S", "chebyshev".
+// Values of --ambient-method: "gaussian", "t-beta", "t-beta B", "drawn-in", "drawn-in S", "chebyshev".
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace stereonav {
 
-// None for anything else.
+// Returns the estimate that the text names; empty for any other text.
 std::optional<OcclusionEstimate> occlusionEstimateFromText(const std::string& text);
-// What is wrong with such a text, where anything is.
+// Returns what is wrong with such a text; empty where nothing is.
 std::optional<ValueProblem> problemOfOcclusionText(const std::string& text);
-// The text that gives such an estimate: without numbers that are usual.
+// Returns the text for an estimate; numbers that have their default are left out.
 std::string textOf(const OcclusionEstimate& estimate);
-// For help: with what may follow them.
+// Returns the names for help, with the numbers that may follow them.
 std::string occlusionMethodNames();
 
 }  // namespace stereonav

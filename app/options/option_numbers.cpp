@@ -5,7 +5,7 @@
 namespace stereonav {
 namespace {
 
-// One for all three, or three.
+// Returns the list for a colour: one number for all three channels, or three.
 NumberList colors(double most, const char* what, const char* advice) {
     const NumberRange range = within(0, most);
     return {what, {{"", {range}}, {"", {range, range, range}}}, advice};

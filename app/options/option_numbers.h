@@ -1,4 +1,4 @@
-// The lists of numbers that options take, for where they are declared and where they are read.
+// The lists of numbers that options take; used where options are declared and where they are read.
 #pragma once
 
 #include "app/options/number_text.h"
@@ -24,6 +24,6 @@ constexpr const char* kHeadLamp = "head";
 constexpr const char* kAutoContours = "auto";
 constexpr const char* kCentrelineLights = "centreline";
 constexpr NumberRange kValueRange = within(-1e30, 1e30);  // values of a volume
-constexpr double kBrightestLight = 1e30;                  // well within floats
+constexpr double kBrightestLight = 1e30;                  // well within the range of floats
 
 }  // namespace stereonav

@@ -15,7 +15,7 @@ std::vector<Command>& allCommands() {
     return all;
 }
 
-// Any option by its key, in the words of a scene file.
+// Returns the option --set, which gives any other option by its key in scene files.
 std::vector<Option> setOption() {
     using namespace command;
     return {
@@ -30,7 +30,7 @@ std::vector<Option> setOption() {
 
 struct Part {
     std::vector<Option> (*options)();
-    bool inFile;  // whether scene files may say them
+    bool inFile;  // whether scene files may contain them
 };
 constexpr std::array<Part, 11> kShownParts{{{sourceOptions, true},
                                             {studyOptions, true},
@@ -45,7 +45,7 @@ constexpr std::array<Part, 11> kShownParts{{{sourceOptions, true},
                                             {pictureOptions, false}}};
 constexpr std::array<Part, 2> kLastParts{{{setOption, false}, {tellingOptions, false}}};
 
-// The bits of the commands that a row is for, which names them or traits of them.
+// Returns the bits of the commands that a row names directly or by a trait.
 CommandSet commandsWith(CommandSet asked) {
     CommandSet found = 0;
     for (const Command& command : commands())
@@ -76,7 +76,7 @@ std::vector<Option> makeTable() {
 }  // namespace
 
 void setCommands(std::vector<Command> commands) {
-    CommandSet own = CommandSet{1} << 32;  // beyond those that have a name
+    CommandSet own = CommandSet{1} << 32;  // first bit after those of named commands
     for (Command& command : commands)
         if (command.command == 0) command.command = std::exchange(own, own << 1);
     allCommands() = std::move(commands);

@@ -15,21 +15,22 @@
 namespace stereonav {
 
 namespace command {
-// Commands that rows of others, or the window, name. All others get a bit of their own from setCommands().
+// Bits of commands that rows of other commands, or the window, name. setCommands() assigns bits to all
+// others.
 constexpr CommandSet kInfo = 1 << 0, kRender = 1 << 1, kPlay = 1 << 2, kCompare = 1 << 3, kReport = 1 << 4,
                      kMesh = 1 << 5, kBake = 1 << 6, kView = 1 << 7, kMeasure = 1 << 8, kProfile = 1 << 9;
-// Traits of commands: rows are for all that have one.
+// Traits of commands; a row with a trait applies to all commands that have it.
 constexpr CommandSet kShowing = 1 << 16;                       // shows any scene as it looks
-constexpr CommandSet kOfGround = 1 << 17, kOfColon = 1 << 18;  // takes ground alone, a colon alone
-constexpr CommandSet kTelling = 1 << 19;                       // tells what was done as a document, if asked
+constexpr CommandSet kOfGround = 1 << 17, kOfColon = 1 << 18;  // takes ground only, a colon only
+constexpr CommandSet kTelling = 1 << 19;                       // can report its result as a document
 constexpr CommandSet kWithScene = kShowing | kOfGround | kOfColon | kBake;
 constexpr CommandSet kAll = ~CommandSet{0};
 }  // namespace command
 
-// What a rule looks at.
+// The facts that a rule of an option looks at.
 struct Asked {
     const GivenOptions& given;
-    SceneSet type;  // one bit, or 0 of commands without a scene
+    SceneSet type;  // type of the scene, one bit; 0 for commands without a scene
 
     bool has(const char* key) const { return given.has(key); }
     bool is(const char* key, const char* word) const { return given.is(key, word); }
@@ -37,52 +38,52 @@ struct Asked {
     bool runs(CommandSet commands) const { return (given.command & commands) != 0; }
 };
 
-// "{model}" in texts stands for what was given as --model.
+// A reason to refuse an option. "{model}" in its texts stands for the value of --model.
 struct OptionRule {
     bool (*broken)(const Asked&);
     std::string problem, advice;
 };
 
 struct Exclusion {
-    const char* key;  // the other one's
+    const char* key;  // key of the other option
     std::string advice = "leave one of them out";
 };
 
-// Under which heading the window lists it; None: it is no setting of a scene that is shown.
+// Heading in the window; None: the option is no setting of a scene that is shown.
 enum class OptionPanel { None, View, Light, Material, Medium, Quality, Study };
 
 struct Option {
     const char* key = "";  // "vertical-scale"; "SCENE" stands without dashes
     ValueType value;
     std::string help;           // one line
-    const char* advice = "";    // what to write instead of what is refused
-    const char* group = "";     // under which help lists it
-    const char* fallback = "";  // what holds where it is left out
-    CommandSet commands = 0;    // which have it; left out by a command's own options
+    const char* advice = "";    // what to write instead of a refused value
+    const char* group = "";     // heading in help
+    const char* fallback = "";  // value in effect where the option is left out
+    CommandSet commands = 0;    // commands that have it; empty for options of single commands
     SceneSet scenes = scene_type::kAll;
-    OptionRule elsewhere{};  // what is said with another scene, where it is not said by the types
+    OptionRule elsewhere{};  // message with another scene, in place of the one about types
     std::vector<Exclusion> excludes{};
-    std::vector<OptionRule> rules{};  // the first that is broken is told
+    std::vector<OptionRule> rules{};  // the first broken rule is reported
     bool required = false, repeated = false;
     bool inFile = true;  // whether a scene file may say it
     OptionPanel panel = OptionPanel::None;
     void (*take)(OptionTargets& to, const OptionValue& value) = nullptr;
 
     bool positional() const { return key == std::string_view("SCENE"); }
-    // "--fov"
+    // Returns the name on the command line: "--fov".
     std::string name() const { return positional() ? key : std::string("--") + key; }
 };
 
-// All, in the order in which help lists them. Some keys stand for different things with different commands.
+// Returns all options in the order of help. Some keys mean different things with different commands.
 const std::vector<Option>& optionTable();
-// What help says of it: what it is, what it takes, and what holds where it is left out.
+// Returns the line of help: what the option is, what it takes, and its default.
 std::string helpLine(const Option& option);
-// Null where the command has none of this key.
+// Returns the command's option of this key; null where it has none.
 const Option* findOption(CommandSet command, std::string_view key);
 
 constexpr const char* kSetKey = "set";  // gives any other option: --set fov=45
 
-// The parts of the table that commands share.
+// Parts of the table that commands share.
 std::vector<Option> sourceOptions();
 std::vector<Option> studyOptions();
 std::vector<Option> lookOptions();

@@ -1,4 +1,4 @@
-// Option::take of an option whose value goes to one field as it is.
+// Option::take of options whose value is stored in one field unchanged.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace stereonav {
 template <typename Field>
 void takeValue(Field& field, const OptionValue& value) {
     if constexpr (std::is_same_v<Field, bool>)
-        field = true;  // a flag that was given
+        field = true;  // the flag was given
     else if constexpr (std::is_same_v<Field, std::string>)
         field = value.text;
     else if constexpr (std::is_enum_v<Field>)
@@ -34,7 +34,7 @@ inline void takeValue(std::vector<std::string>& fields, const OptionValue& value
     fields.push_back(value.text);
 }
 
-// The structure that a field of one of this type is in.
+// The structure that a member pointer of this type belongs to.
 template <typename Options>
 Options& targetOf(const OptionTargets& to) {
     if constexpr (std::is_same_v<Options, SceneOptions>)
@@ -46,8 +46,8 @@ Options& targetOf(const OptionTargets& to) {
 template <typename Options, typename Field>
 Options optionsOf(Field Options::*);
 
-// The field of a scene's or the command's own structure that is reached by these members:
-// into<&MeshOptions::out>, into<&SceneOptions::volume, &VolumeOptions::opacity>.
+// Option::take that stores the value in a field of the scene's or the command's structure, which these
+// members lead to: into<&MeshOptions::out>, into<&SceneOptions::volume, &VolumeOptions::opacity>.
 template <auto first, auto... rest>
 void into(OptionTargets& to, const OptionValue& value) {
     auto& options = targetOf<decltype(optionsOf(first))>(to);

@@ -1,4 +1,4 @@
-// Where the values of one command go.
+// The structures that the values of one command are stored in.
 #pragma once
 
 #include <stdexcept>
@@ -12,7 +12,7 @@ namespace stereonav {
 
 class OptionTargets {
 public:
-    // What shared rows of the table write to; null: the command has none.
+    // Structures that shared rows of the table write to; null: the command has none.
     SceneOptions* scene = nullptr;
     SizeOption* size = nullptr;
     Telling* telling = nullptr;
@@ -22,7 +22,8 @@ public:
     bool* curvature = nullptr;
     std::optional<double>* refraction = nullptr;
 
-    // The command's structure; its members of these names are what shared rows write to. It outlives this.
+    // Sets the command's structure; shared rows write to its members of these names. It must outlive this
+    // object.
     template <typename Options>
     void bind(Options& options) {
         mType = &typeid(Options);
@@ -42,13 +43,13 @@ public:
         if constexpr (requires { options.path; }) path = &options.path;
     }
 
-    // The command's structure; null: it is of another type.
+    // Returns the command's structure; null where it is of another type.
     template <typename Options>
     Options* find() const {
         return mType && *mType == typeid(Options) ? static_cast<Options*>(mOptions) : nullptr;
     }
 
-    // Returns that structure; throws where a row of the table is for a command with another one.
+    // Returns the command's structure; throws where it is of another type than the row of the table expects.
     template <typename Options>
     Options& of() const {
         Options* const options = find<Options>();

@@ -1,4 +1,4 @@
-// What options stand for once they are read.
+// The types that the values of options have once they are read.
 #pragma once
 
 #include <cstdint>
@@ -10,81 +10,81 @@
 
 namespace stereonav {
 
-// --light: what lights a scene in the place of its own light.
+// Value of --light: the light that replaces a scene's own.
 struct LightChoice {
     enum class Kind : std::uint8_t {
-        Own,           // nothing was said
-        Plain,         // none is worked out behind the window of a terrain
-        File,          // a bake
-        Auto,          // the bake of a terrain in the cache
-        Lazy,          // light of a volume that is worked out while one looks
-        LazyTransfer,  // ... for a sky that turns
-        Traced         // paths from every pixel of a picture
+        Own,           // the option is not given
+        Plain,         // no light is worked out behind the window of a terrain
+        File,          // a file that bake has written
+        Auto,          // the baked light of a terrain in the cache
+        Lazy,          // light of a volume, worked out while it is shown
+        LazyTransfer,  // the same as transfer, for a sky that turns
+        Traced         // path tracing from every pixel of a picture
     };
     Kind kind = Kind::Own;
-    std::string file;  // named by File
+    std::string file;  // file name, for File
 
     bool given() const { return kind != Kind::Own; }
     bool lazy() const { return kind == Kind::Lazy || kind == Kind::LazyTransfer; }
     bool traced() const { return kind == Kind::Traced; }
 };
 
-// --shading: the models that a volume's light is compared with (Wyman et al. 2006, fig. 9), in the order of
-// kShadingNames.
+// Value of --shading: the models that a volume's light is compared with (Wyman et al. 2006, fig. 9), in the
+// order of kShadingNames.
 enum class Shading : std::uint8_t { Lamp, Lambert, LambertShadows, Phong, PhongShadows, Varying, Fog };
 
 const char* nameOf(Shading shading);
 
 std::vector<std::string> shadingNames();  // in the order of the enumeration
 
-// --fluid: tagged fluid in a colon is taken out, left with its surface as wall, or taken out with the wall
-// that was under it tinted; in the order of fluidNames().
+// Value of --fluid: tagged fluid in a colon is removed, left with its surface as wall, or removed with the
+// wall below it tinted; in the order of fluidNames().
 enum class FluidChoice : std::uint8_t { Out, Left, Tinted };
 std::vector<std::string> fluidNames();
-FluidChoice fluidFromName(std::string_view name);  // Out for any other
+FluidChoice fluidFromName(std::string_view name);  // Out for any other name
 
-// --modulate
+// Value of --modulate: what opacity is modulated by.
 enum class Modulation : std::uint8_t { None, Variance, Gradient };
 const char* nameOf(Modulation modulation);
 std::vector<std::string> modulationNames();
-Modulation modulationFromName(std::string_view name);  // None for any other
+Modulation modulationFromName(std::string_view name);  // None for any other name
 
-// --sun, --light-from: where light comes from, radians.
+// Value of --sun and --light-from: the direction that light comes from, radians.
 struct LightPlace {
     double azimuth = 0;  // clockwise from north, -pi..pi
     double elevation = 0;
 };
 
-// --lamp: at a place, metres; none: midway between the eyes.
+// Value of --lamp: the place of the lamp, metres; empty: midway between the eyes.
 struct LampChoice {
     std::optional<glm::dvec3> place;
 };
 
-// --mist: a layer from below up to a height, and what it takes away of light that falls through it.
+// Value of --mist: a layer from the lowest ground up to a height, and how much it attenuates vertical light.
 struct Mist {
     double top = 0;           // metres, world z
-    double opticalDepth = 0;  // straight down, > 0
+    double opticalDepth = 0;  // along the vertical, > 0
 };
 
-// --point-light, --light of a bake: one lamp, or lamps along a colon's centreline.
+// Value of --point-light, and of --light of a bake: one lamp, or lamps along a colon's centreline.
 struct LampsAsked {
     bool centreline = false;
-    std::optional<double> spacing;    // metres along it; none: chosen
-    glm::dvec3 position{0.0};         // metres, of one lamp
-    std::optional<double> intensity;  // > 0; none: as bright as a sky of 1
+    std::optional<double> spacing;    // metres along the centreline; empty: chosen
+    glm::dvec3 position{0.0};         // metres, for one lamp
+    std::optional<double> intensity;  // > 0; empty: as bright as a sky of 1
 };
 
-// --isovalues
+// Value of --isovalues.
 struct ValueRange {
-    double low = 0, high = 0;  // among the volume's values, low <= high
+    double low = 0, high = 0;  // values of the volume, low <= high
 };
 
-// --tiles: whether an elevation model goes into tiles on disk; as GroundTiles of a terrain.
+// Value of --tiles: whether an elevation model is stored as tiles on disk; see GroundTiles of a terrain.
 enum class TilesChoice : std::uint8_t { Auto, On, Off };
 
-// --sweep: where a medium is swept.
+// Value of --sweep: whether the CPU or the GPU sweeps a medium.
 enum class SweepChoice : std::uint8_t {
-    Auto,  // what makes a scene's first frame faster; under a software renderer the processor, unasked
+    Auto,  // the one with the faster first frame; the CPU, unmeasured, with a software renderer
     Cpu,
     Gpu
 };

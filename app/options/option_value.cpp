@@ -26,7 +26,7 @@ Error refusal(const std::string& option, const ValueType& type, const std::strin
     return {option, "", "expected " + type.expected() + ", got " + shownText(text), advice};
 }
 
-// "a, b or c"
+// Returns "a, b or c".
 std::string oneOf(const std::vector<std::string>& words) {
     std::string text;
     for (std::size_t n = 0; n < words.size(); ++n)
@@ -34,7 +34,7 @@ std::string oneOf(const std::vector<std::string>& words) {
     return text;
 }
 
-// What memory there is for is checked where the size is used.
+// Reads the sides of a size. Whether memory suffices is checked where the size is used.
 std::vector<double> sidesOf(const std::string& option, const ValueType& type, const std::string& advice,
                             const std::string& text) {
     const std::size_t cross = std::min(text.find('x'), text.size());
@@ -48,7 +48,7 @@ std::vector<double> sidesOf(const std::string& option, const ValueType& type, co
     }
 }
 
-// One number, or the two ends of a part.
+// Reads one number, or the first and last number of a part.
 std::vector<double> wholeOrPartIn(const std::string& option, const ValueType& type, const std::string& advice,
                                   const std::string& text) {
     const std::size_t dots = text.find("..");

@@ -1,5 +1,5 @@
-// What an option takes, and a value that was read by that: numbers are checked against their range, words
-// against their list, before anything else is done.
+// The type of an option's value, and a value read by it: numbers are checked against their range and words
+// against their list before anything else is done.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@
 namespace stereonav {
 
 enum class ValueKind {
-    Flag,         // given or not
-    Number,       // in a range
+    Flag,         // without a value
+    Number,       // a number in a range
     Whole,        // a whole number in a range
-    WholeOrPart,  // the same, or "FIRST..LAST": two from 0 to the range's end, in this order
-    Numbers,      // a NumberList
+    WholeOrPart,  // Whole, or "FIRST..LAST": two from 0 to the range's end, in this order
+    Numbers,      // a list of numbers (NumberList)
     Size,         // "500x400"
-    Fraction,     // "0.0333" or "1/30", in a range
+    Fraction,     // "0.0333" or "1/30", within a range
     Word,         // one of a list
-    Words,        // several of a list that only the scene knows, separated by commas
-    Text,         // anything
+    Words,        // several words, separated by commas, of a list that only the scene knows
+    Text,         // any text
     File,         // a file or folder
     FileOrWord    // a file, or one of a list
 };
@@ -35,15 +35,15 @@ struct ValueType {
     NumberRange range;
     const NumberList* list = nullptr;
     std::vector<std::string> words;
-    // What is wrong with a value that is of its kind; null: nothing.
+    // Returns what is wrong with a value of this kind; null: nothing can be.
     std::optional<ValueProblem> (*check)(const std::string& text) = nullptr;
 
-    // Returns this type with a check.
+    // Returns a copy of this type with a check.
     ValueType checked(std::optional<ValueProblem> (*by)(const std::string& text)) const;
     bool takesNumbers() const;
-    bool takesText() const;  // a name, a file, words that a scene knows
+    bool takesText() const;  // true for names, files, and words that a scene knows
     bool isFile() const { return kind == ValueKind::File || kind == ValueKind::FileOrWord; }
-    // "1 to 170 degrees"; "" where anything may be written.
+    // Returns the range or list for messages: "1 to 170 degrees"; "" where any text is accepted.
     std::string expected() const;
 };
 
@@ -61,17 +61,17 @@ ValueType fileValue();
 ValueType fileOrWordValue(std::vector<std::string> words);
 
 struct OptionValue {
-    std::string text;             // the value as it is written
-    std::vector<double> numbers;  // both sides of a size, both ends of a part
-    std::int64_t whole = 0;       // read by Whole
-    std::string word;             // which a NumberList's form begins with
-    std::size_t choice = 0;       // read by Word: which of the list
+    std::string text;             // the value as written
+    std::vector<double> numbers;  // both sides of a size, or both ends of a part
+    std::int64_t whole = 0;       // value of Whole
+    std::string word;             // first word of a NumberList's form
+    std::size_t choice = 0;       // index of a Word in its list
     std::vector<std::string> words;
 
     double number() const { return numbers.front(); }
 };
 
-// Throws Error that names the option. advice: what to write instead.
+// Reads and checks the text. Throws Error that names the option. advice: what to write instead.
 OptionValue readValue(const std::string& option, const ValueType& type, const std::string& advice,
                       const std::string& text);
 

@@ -15,7 +15,7 @@ std::string commandsText(CommandSet which) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// The types in the fewest words.
+// Returns the types of scenes in as few words as possible.
 std::string scenesText(SceneSet scenes) {
     using namespace scene_type;
     struct Named {
@@ -38,7 +38,7 @@ std::string scenesText(SceneSet scenes) {
     return "some";
 }
 
-// What stands for a value that is given has its name in capitals.
+// Replaces placeholders of values, such as {model}, by VALUE.
 std::string withoutKeys(std::string text) {
     for (std::size_t open = text.find('{'); open != std::string::npos; open = text.find('{'))
         text.replace(open, text.find('}', open) - open + 1, "VALUE");

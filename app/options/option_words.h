@@ -1,4 +1,4 @@
-// What the pages (docs/options.md, the man page) say of an option, in words.
+// Descriptions of options for docs/options.md and the man page.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,17 @@
 
 namespace stereonav {
 
-// Under which the table lists options, in its order; "": those of every scene.
+// Returns the headings of the table in its order; "": options of every scene.
 std::vector<std::string> optionGroups();
 
-// What stands behind its name: "NUMBER"; "" behind flags.
+// Returns the placeholder of an option's value: "NUMBER"; "" for flags.
 std::string valueText(const Option& option);
-// Help with range, unit and default, its commands and scenes, what it does not go with: sentences. mark
-// stands around names of other options.
+// Returns sentences: help with range, unit and default, commands and scenes, and conflicting options. `mark`
+// is put around names of other options.
 std::string optionText(const Option& option, const std::string& mark);
 
-// Lines of at most `width` characters where words allow it; those after the first begin with indent.
+// Returns lines of at most `width` characters where words allow it; lines after the first begin with
+// `indent`.
 std::string wrapped(const std::string& text, std::size_t width, const std::string& indent);
 
 }  // namespace stereonav

@@ -10,7 +10,7 @@ namespace stereonav {
 namespace fs = std::filesystem;
 namespace {
 
-// "folder/" is "folder".
+// Returns the path without a slash at its end: "folder/" is "folder".
 fs::path withoutSlash(const fs::path& folder) {
     return folder.has_filename() ? folder : folder.parent_path();
 }

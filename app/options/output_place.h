@@ -1,4 +1,4 @@
-// Places for results, checked before the work that fills them starts.
+// Checks of output places, made before the work starts whose result goes there.
 #pragma once
 
 #include <cstdio>
@@ -11,32 +11,31 @@ namespace stereonav {
 
 struct NamedPlace {
     const char* option;
-    std::string place;  // "": not given
+    std::string place;  // path as given; "": not given
 };
 
-// Each tries for real whether a file can be made there, creates nothing that stays, and throws Error naming
-// `option`.
-// "-" is standard output. Folders are not made on the way.
+// Checks by trying that the file can be made; nothing stays behind. Throws Error that names `option`. "-" is
+// standard output. Missing folders are not made.
 void checkOutputFile(const std::string& option, const std::filesystem::path& file);
-// Also that it is a file that a later run can go on from: neither standard output nor a pipe or device.
+// Checks also that a later run can go on from the file: it is neither standard output nor a pipe or device.
 void checkOutputToReadAgain(const std::string& option, const std::filesystem::path& file);
-// Also that the extension is one of a picture that can be written; standard output gets PNG.
+// Checks also that the extension is one of a picture that can be written; standard output gets PNG.
 void checkOutputPicture(const std::string& option, const std::filesystem::path& file);
 
-// A folder for many files, which may be missing itself where the one that holds it is there.
+// Checks a folder for many files; the folder itself may be missing, but not its parent.
 void checkOutputFolder(const std::string& option, const std::filesystem::path& folder);
-// Makes it, but none above it. Throws Error.
+// Makes the folder, but no parent folders. Throws Error.
 void makeOutputFolder(const std::filesystem::path& folder);
 
-// Throws Error where an output is one of the inputs, under whatever name, since it would be destroyed.
+// Throws Error where the output is the same file as an input, under any name: the input would be destroyed.
 void checkNoInput(const NamedPlace& output, const std::vector<NamedPlace>& inputs);
 
-// Throws Error where one of these outputs is a file that has been read since the program began, by whomever
-// (engine/base/files_read.h): known once the scene is loaded, and said before the long work starts.
+// Throws Error where one of these outputs is a file that the program has read since it began
+// (engine/base/files_read.h). To be called once the scene is loaded, before the long work starts.
 void checkNotRead(std::initializer_list<NamedPlace> outputs);
 
-// Where to print what there is to say beside these outputs: standard output, or standard error where one of
-// them goes to standard output. Throws Error where two go to the same place.
+// Returns the stream for messages beside these outputs: standard output, or standard error where an output
+// goes to standard output. Throws Error where two outputs go to the same place.
 std::FILE* messagesBeside(const std::vector<NamedPlace>& outputs);
 
 }  // namespace stereonav

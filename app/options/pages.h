@@ -1,4 +1,4 @@
-// The commands that print what the table of options says: stereonav options, completion bash, man.
+// Commands that print the table of options: stereonav options, completion bash, man.
 #pragma once
 
 #include <span>
@@ -7,8 +7,8 @@
 namespace stereonav {
 
 struct PageFacts {
-    const char* name;  // "completion"
-    const char* of;    // the word behind it, "bash"; "": none
+    const char* name;  // command: "completion"
+    const char* of;    // word after the command: "bash"; "": none
     const char* help;
     std::string (*text)();
 };

@@ -1,4 +1,4 @@
-// The words of --paint: each of some types of scenes, with what may follow it after a colon.
+// The words of --paint: each is for some types of scenes and may have an argument after a colon.
 #pragma once
 
 #include <optional>
@@ -11,24 +11,24 @@ namespace stereonav {
 
 struct PaintWord {
     const char* word;   // "viewshed"
-    const char* takes;  // what follows the colon, as help shows it: "X,Y,HEIGHT"; "": nothing
-    SceneSet scenes;    // the types that it is for
+    const char* takes;  // argument after the colon, for help: "X,Y,HEIGHT"; "": none
+    SceneSet scenes;    // types of scenes that have the word
 
-    // What is wrong with what follows; null: nothing may follow.
+    // Returns what is wrong with the argument; null: the word has no argument.
     std::optional<ValueProblem> (*problem)(const std::string& rest) = nullptr;
 };
 
-// All, each type's from a file of its own.
+// Returns all words; those of each type of scene are declared in a file of their own.
 std::vector<PaintWord> paintWords();
 std::vector<PaintWord> groundPaintWords();   // paint_words_ground.cpp
 std::vector<OptionRule> groundPaintRules();  // rules of --paint
 std::vector<PaintWord> colonPaintWords();    // paint_words_colon.cpp
 std::vector<OptionRule> colonPaintRules();   // rules of --paint
 
-// Words of colons.
+// Words for colons.
 constexpr const char *kPaintCoverage = "coverage", *kPaintBothWays = "both";
 
-// A value of --paint, cut at its first colon.
+// A value of --paint, split at its first colon.
 struct PaintAsked {
     std::string word, rest;
 };

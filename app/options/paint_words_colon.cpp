@@ -1,4 +1,4 @@
-// What a colon's wall can be painted with.
+// Values of --paint for a colon's wall.
 #include "app/options/number_text.h"
 #include "app/options/paint_words.h"
 

@@ -1,4 +1,4 @@
-// What ground can be painted with.
+// Values of --paint for ground.
 #include <algorithm>
 #include <initializer_list>
 

@@ -15,7 +15,7 @@
 namespace stereonav {
 namespace {
 
-// "true" or "false" of a flag that stands in a file or behind --set.
+// Returns the value of a flag in a scene file or after --set: "true" or "false". Throws Error for other text.
 bool isTrue(const std::string& text, const std::string& place) {
     if (text == "true" || text == "false") return text == "true";
     throw Error(place, "", "expected true or false, got " + shownText(text), "correct the value");
@@ -25,7 +25,7 @@ void takeAny(const Option& option, const std::string& text, const std::string& p
     if (option.value.kind != ValueKind::Flag || isTrue(text, place)) takeOption(option, text, place, parsed);
 }
 
-// Files are relative to the scene file's folder; words are none.
+// Returns file names relative to the scene file's folder; words are returned unchanged.
 std::string besideFile(const Option& option, const std::string& text, const std::filesystem::path& toml) {
     const std::vector<std::string>& words = option.value.words;
     if (!option.value.isFile() || std::find(words.begin(), words.end(), text) != words.end()) return text;
@@ -35,7 +35,7 @@ std::string besideFile(const Option& option, const std::string& text, const std:
                                                                                          : text;
 }
 
-// What the command line says, or rules out, the file does not.
+// Returns whether the command line gives or excludes this option; the scene file's value is then ignored.
 bool isRuledOut(const Option& option, const GivenOptions& given) {
     if (given.has(option.key)) return true;
     const auto excludes = [&](const Option& one, const std::string& other) {
@@ -48,7 +48,7 @@ bool isRuledOut(const Option& option, const GivenOptions& given) {
     });
 }
 
-// The options of a scene file, and the scene that it names.
+// Reads the options of a scene file, and the scene that it names.
 void takeSceneFile(ParsedOptions& parsed) {
     const std::filesystem::path toml = parsed.to.scene->scene;
     std::error_code code;
@@ -58,7 +58,7 @@ void takeSceneFile(ParsedOptions& parsed) {
     const GivenOptions onCommandLine = parsed.given;
     for (const SceneFileOption& said : read.options) {
         const Option* option = findOption(parsed.given.command, said.key);
-        // an option of other commands, or another thing with this one
+        // Options of other commands, and keys that mean another thing with this one, are skipped.
         if (!option || !option->inFile || isRuledOut(*option, onCommandLine)) continue;
         const std::string place = fmt::format("{}:{}: {}", toml.string(), said.line, said.key);
         if (said.texts.size() > 1 && !option->repeated)
@@ -80,7 +80,7 @@ void chooseCommand(CommandSet which, ParsedOptions& parsed) {
 void takeOption(const Option& option, const std::string& text, const std::string& place,
                 ParsedOptions& parsed) {
     OptionValue value = readValue(place, option.value, option.advice, text);
-    if (text.empty() && option.value.takesText())  // which would be taken for none
+    if (text.empty() && option.value.takesText())  // an empty text would mean "not given"
         throw Error(place, "", "expected a name, got \"\"",
                     option.positional() && *option.fallback
                         ? std::string("leave it out for ") + option.fallback
@@ -105,7 +105,7 @@ void takeSetOption(const std::string& text, ParsedOptions& parsed) {
 void finishOptions(ParsedOptions& parsed) {
     SceneOptions* const scene = parsed.to.scene;
     if (!scene) return refuseWhatDoesNotApply(parsed.given, 0, "");
-    // `view` alone is what a desktop's menu starts, with a file or with none.
+    // A desktop's menu starts `view` without options, with a file or with none.
     if (auto* const view = parsed.to.find<ViewOptions>()) view->startPage = parsed.given.empty();
     takeSceneFile(parsed);
     scene->given = parsed.given;

@@ -1,4 +1,4 @@
-// What a command was given, from wherever: the command line, --set, and the scene file.
+// The options that a command was given by the command line, --set and the scene file.
 #pragma once
 
 #include <functional>
@@ -9,11 +9,12 @@
 
 namespace stereonav {
 
-// The type of scene that options name; none where the name stands for no scene, which is said when it is
-// loaded.
+// Returns the type of the scene that options name; empty where the name stands for no scene, which is
+// reported when the scene is loaded.
 using SceneTypeOf = std::optional<SceneSet> (*)(const SceneOptions& options);
 
-// What was given to the command that was chosen, and what runs it. Not copied: values go into what runs.
+// The options of the chosen command, and the function that runs it. Not copied: the function refers to the
+// values.
 struct ParsedOptions {
     explicit ParsedOptions(SceneTypeOf by) : typeOf(by) {}
     ParsedOptions(const ParsedOptions&) = delete;
@@ -24,21 +25,21 @@ struct ParsedOptions {
     std::function<int()> run;  // empty until a command is chosen
 };
 
-// Makes the command's structure the one that its options go to.
+// Makes the structure of a command and stores its options there from now on.
 void chooseCommand(CommandSet which, ParsedOptions& parsed);
 
-// Reads a value and lets it go to its place. place: what messages call it. Throws Error.
+// Reads a value and stores it. place: its name in messages. Throws Error.
 void takeOption(const Option& option, const std::string& text, const std::string& place,
                 ParsedOptions& parsed);
-// "KEY=VALUE", as --set has it. Throws Error.
+// Reads "KEY=VALUE", the form of --set. Throws Error.
 void takeSetOption(const std::string& text, ParsedOptions& parsed);
 
-// When all of the command line is read: takes what the scene file says beside it, and refuses what does not
-// apply. Throws Error.
+// Adds the options of the scene file and refuses options that do not apply. To be called when the whole
+// command line is read. Throws Error.
 void finishOptions(ParsedOptions& parsed);
 
-// How `compare` shows a scene of which the name alone is given: as its file says, if it is a scene file,
-// which may name another scene. Throws Error.
+// Returns the options for a scene that `compare` is given by name only: those of its scene file, if it is
+// one, which may name another scene. Throws Error.
 SceneOptions sceneOptionsOf(const std::string& scene, SceneTypeOf typeOf);
 
 }  // namespace stereonav

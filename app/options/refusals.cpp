@@ -21,7 +21,7 @@ struct Refusal {
     Reason reason;
 };
 
-// "{model}" becomes what was given as --model, "{SCENE}" the scene.
+// Replaces "{model}" by the value of --model, and "{SCENE}" by the scene's name.
 std::string filledIn(std::string text, const GivenOptions& given, const std::string& scene) {
     for (std::size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open)) {
         const std::size_t close = text.find('}', open);
@@ -33,7 +33,7 @@ std::string filledIn(std::string text, const GivenOptions& given, const std::str
     return text;
 }
 
-// Returns why an option that another type of scene has is refused.
+// Returns why an option of another type of scene is refused.
 Reason reasonOfType(const Option& option, SceneSet type, const std::string& scene) {
     using namespace scene_type;
     const bool medium = type & kMedia;
@@ -92,7 +92,7 @@ void refuseWhatDoesNotApply(const GivenOptions& given, SceneSet type, const std:
             add(refusals, is->place, *reason);
     }
     if (refusals.empty()) return;
-    // The first is written as an error is; so are those behind it.
+    // The first refusal has the form of an error message; the others follow in the same form.
     std::string rest;
     for (std::size_t n = 1; n < refusals.size(); ++n)
         rest += fmt::format(". {}: {}; {}", refusals[n].places, refusals[n].reason.problem,
@@ -102,7 +102,7 @@ void refuseWhatDoesNotApply(const GivenOptions& given, SceneSet type, const std:
 }
 
 void refuseWhatDoesNotApply(const SceneOptions& options, std::optional<SceneSet> type) {
-    // A scene that the command can't take at all is what it says first.
+    // A scene that the command does not take at all is reported by the command itself.
     if (options.given.command == 0 || !type || !(commandOf(options.given.command).scenes & *type)) return;
     refuseWhatDoesNotApply(options.given, *type, options.scene);
 }

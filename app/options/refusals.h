@@ -1,4 +1,4 @@
-// Options that do not apply: all are told together, each with the reason and what to do.
+// Refusal of options that do not apply: all are reported together, each with the reason and what to do.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,12 @@
 
 namespace stereonav {
 
-// type: the scene's; 0: a command without one. Throws Error with one line, naming every option of the table
-// that does not go with the scene, with another option that was given, or with what another one chooses.
+// Throws Error with one line that names every option that conflicts with the scene, with another option, or
+// with what another option chooses. type: the scene's; 0: a command without a scene.
 void refuseWhatDoesNotApply(const GivenOptions& given, SceneSet type, const std::string& scene);
 
-// Checks what SceneOptions hold in the same way. Does nothing without a type, where the scene's name stands
-// for none: that is told when it is loaded.
+// Checks the options of a scene in the same way. Does nothing without a type, where the scene's name stands
+// for no scene: that is reported when the scene is loaded.
 void refuseWhatDoesNotApply(const SceneOptions& options, std::optional<SceneSet> type);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// Which scene a command shows or measures, and how: what app/scene makes a scene from.
+// The scene that a command shows or measures, and how: the input from which app/scene makes a scene.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,15 +15,15 @@
 
 namespace stereonav {
 
-// Which warped pixels of the right eye are cast as well.
+// Which warped pixels of the right eye are cast in addition.
 struct QualityOptions {
-    std::optional<double> quality;        // 0..1: share of the expected squared error that is to go
-    std::optional<double> targetPsnr_db;  // against a full cast, for 95 of 100 frames
-    std::optional<double> target_ms;      // time for both eyes of a frame: what fits is cast
-    std::optional<int> edges;  // rays added to pixels at edges; none: kDefaultEdgeRays where rays are cast
+    std::optional<double> quality;        // 0..1: share of the expected squared error to remove
+    std::optional<double> targetPsnr_db;  // PSNR against a full cast, reached by 95 of 100 frames
+    std::optional<double> target_ms;      // time for both eyes of a frame; as much is cast as fits
+    std::optional<int> edges;  // rays added to pixels at edges; empty: kDefaultEdgeRays for cast rays
 };
 
-// The light of a picture whose every pixel is path traced; each value means what it means to a bake.
+// The light of a path-traced picture; each value has the same meaning as for a bake.
 struct TracedOptions {
     std::optional<int> samples;  // paths from each pixel
     std::optional<int> bounces;
@@ -32,53 +32,55 @@ struct TracedOptions {
     std::optional<double> reach_mm;
 };
 
-// What is painted on a terrain's ground in pictures that are shown.
+// Paint on a terrain's ground in pictures.
 struct GroundPaintOptions {
-    std::optional<double> contours_m;  // between them; 0 or none: no contours, unless contoursAuto
-    bool contoursAuto = false;         // by the relief
-    std::string tracks;                // a GPX or GeoJSON file that is drawn; "": none
-    std::string follow;                // ... and one that the scene's own flight goes along
+    std::optional<double> contours_m;  // interval; 0 or empty: no contours, unless contoursAuto
+    bool contoursAuto = false;         // interval chosen by the relief
+    std::string tracks;                // GPX or GeoJSON file to draw; "": none
+    std::string follow;                // GPX or GeoJSON file that the scene's flight follows; "": none
     double followHeight_m = 50;        // above the ground
 };
 
 struct SceneOptions {
-    // "" or "terrain": built in; a .toml; a DEM file; "colon", "cloud", "wax": built in; a CT study
+    // Name of the scene: "" or "terrain" (built in), a .toml, a DEM file, "colon", "cloud" or "wax" (built
+    // in), a CT study.
     std::string scene;
-    std::optional<double> verticalScale;  // none: as the scene says
+    std::optional<double> verticalScale;  // empty: the scene's own
     bool openHoles = false;
     TilesChoice tiles = TilesChoice::Auto;
-    std::optional<double> memory_bytes;  // limit for the program; none: what the system says
-    std::string image, sky;              // pictures; "": as the scene says
-    bool physicalSky = false;            // by scattering in the air
-    std::optional<double> visibility_m;  // through that air; none: as usual
-    std::optional<glm::vec3> skyColor;   // around traced light, in the place of a picture
-    bool shadeImage = false;             // the picture is lit by the sun too
+    std::optional<double> memory_bytes;  // limit for the program; empty: what the system reports
+    std::string image, sky;              // files of pictures; "": the scene's own
+    bool physicalSky = false;            // sky by scattering in the air
+    std::optional<double> visibility_m;  // in the air of the physical sky; empty: the default
+    std::optional<glm::vec3> skyColor;   // colour of the sky around traced light, in place of a picture
+    bool shadeImage = false;             // whether the sun also lights the picture on the ground
     LightChoice light;
-    std::optional<LightPlace> sun;  // over a terrain; none: as the scene says
+    std::optional<LightPlace> sun;  // sun over a terrain; empty: the scene's own
     std::optional<double> separation_m, zeroParallax_m;
-    std::optional<double> fov_deg;  // vertical; none: as the scene says
-    int threads = 0;                // 0: all
+    std::optional<double> fov_deg;  // vertical; empty: the scene's own
+    int threads = 0;                // 0: as many as the system has
     SimdTarget simd = SimdTarget::Auto;
     VolumeOptions volume;
     GroundPaintOptions ground;
-    std::string paint;  // a word of --paint, as it was written (app/options/paint_words.h); "": none
+    std::string paint;  // a word of --paint, as written (app/options/paint_words.h); "": none
     QualityOptions quality;
     MediumOptions medium;
-    std::optional<TracedOptions> traced;  // none: of commands that trace no pictures
-    GivenOptions given;                   // which of these and of the command's own were given
-    // Shading below a terrain's samples: on where pictures are shown, off where they are measured.
+    std::optional<TracedOptions> traced;  // empty for commands that trace no pictures
+    GivenOptions given;                   // which options of the scene and of the command were given
+    // Shading of detail finer than a terrain's samples: on where pictures are shown, off where they are
+    // measured.
     bool groundDetail = false;
-    double levelOfDetail = 0;  // share of a pixel that far ground may be off; 0: exact
+    double levelOfDetail = 0;  // error that distant ground may have, as a share of a pixel; 0: exact
     // Whether ground that is cast lies on a round Earth, and the share of its curvature that light follows.
     bool curvature = false;
-    std::optional<double> refraction;  // none: what is usual on the body that the ground lies on
-    bool lightLater = true;            // a window works out sky light of ground that has none (ShownTerrain)
-    // Set by a window: pictures do not wait for detail; ground whose tiles are not made yet is shown coarse.
+    std::optional<double> refraction;  // empty: the default of the body that the ground lies on
+    bool lightLater = true;            // a window computes sky light of ground that has none (ShownTerrain)
+    // Set by a window: pictures do not wait for detail, and ground without finished tiles is shown coarsely.
     bool detailLater = false, standInFirst = false;
-    bool skyTurns = false;  // set by a window: keep what turning the sky over baked transfer takes
+    bool skyTurns = false;  // set by a window: keep what is needed to turn the sky over baked transfer
 };
 
-// What commands that show pictures begin with.
+// Returns the defaults of commands that show pictures.
 inline SceneOptions shownSceneOptions() {
     SceneOptions options;
     options.groundDetail = true;

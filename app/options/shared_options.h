@@ -1,24 +1,24 @@
-// What several commands take beside a scene.
+// Options that several commands have beside those of a scene.
 #pragma once
 
 #include <optional>
 
 namespace stereonav {
 
-// How a command tells what it has done: in words, as one JSON document, or not at all.
+// How a command reports its result: in words, as one JSON document, or not at all.
 struct Telling {
     bool json = false;
-    bool quiet = false;  // neither progress nor notes: only what was asked for, and errors
+    bool quiet = false;  // no progress and no notes: only the result, and errors
 };
 
 struct SizeOption {
     int width = 1280, height = 720;  // pixels of one eye
 };
 
-// How many rays each pixel of a whole picture gets.
+// Rays per pixel of a whole picture.
 struct RayOptions {
-    int rays = 1;                    // a pixel
-    std::optional<double> until_db;  // rays until this PSNR against very many is expected; none: `rays`
+    int rays = 1;                    // rays per pixel
+    std::optional<double> until_db;  // expected PSNR against very many rays at which to stop; empty: `rays`
 
     bool many() const { return rays > 1 || until_db; }
 };

@@ -1,4 +1,4 @@
-// Options: how ground is seen, what is drawn on it, and tracks over it that are flown.
+// Options: how ground is seen, what is drawn on it, and tracks that are flown.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
 #include "app/options/option_take.h"

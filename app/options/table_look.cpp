@@ -35,7 +35,7 @@ bool isGround(const Asked& asked) {
     return asked.is("medium", "ground");
 }
 
-// A picture; of traced light also a colour; of a terrain also scattering.
+// Stores --sky: a picture; for traced light also a colour; for a terrain also scattering.
 void takeSky(OptionTargets& to, const OptionValue& value) {
     if (value.text == kPhysicalSky)
         to.scene->physicalSky = true;

@@ -12,7 +12,7 @@ namespace {
 using namespace command;
 using namespace scene_type;
 
-// What a model leaves out; in a window a key chooses another one.
+// Refuses an option that the chosen model ignores; in a window a key chooses another model.
 OptionRule unlessModel(bool (*leavesOut)(const Asked&)) {
     return {leavesOut, "has no effect on the model {model}", "leave it out, or choose another --model"};
 }

@@ -1,4 +1,4 @@
-// Options: how big, in which way, from where, and into what.
+// Options: size, method, pose and output of pictures.
 #include <fmt/format.h>
 
 #include "app/options/option_numbers.h"
@@ -29,7 +29,7 @@ void takeMode(OptionTargets& to, const OptionValue& value) {
 void takePath(OptionTargets& to, const OptionValue& value) {
     *to.path = value.text;
 }
-// One number: how many. Two: from which to which.
+// Stores --frames: one number is a count, two are the first and last frame.
 void takeFrames(OptionTargets& to, const OptionValue& value) {
     const auto at = [&](std::size_t n) { return static_cast<int>(value.numbers[n]); };
     if (value.numbers.size() == 1)
@@ -51,7 +51,7 @@ std::optional<ValueProblem> problemOfFileMode(const std::string& text) {
     return ValueProblem{text + " shows one eye after the other, which view alone can", modes};
 }
 
-// Files of pictures that have both eyes, each in a place of its own.
+// Pictures that hold both eyes in an arrangement of their own (.jps, .mpo).
 bool rendersJpsOtherwise(const Asked& asked) {
     return asked.runs(kRender) && isJps(asked.given.text("out")) &&
            outputModeFromName(asked.given.text("mode")) != OutputMode::CrossEyed;

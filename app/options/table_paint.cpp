@@ -1,4 +1,4 @@
-// The option --paint: one for all types of scenes, whose words are their own (paint_words.h).
+// The option --paint: one for all types of scenes, each of which has its own words (paint_words.h).
 #include <utility>
 
 #include "app/options/number_text.h"
@@ -11,7 +11,7 @@ namespace {
 
 using namespace command;
 
-// "slope, aspect, viewshed:X,Y,HEIGHT"
+// Returns "slope, aspect, viewshed:X,Y,HEIGHT".
 std::string namesOfPaint() {
     std::string names;
     for (const PaintWord& word : paintWords())

@@ -32,7 +32,7 @@ OptionRule notOfTracedLight() {
             "choose --samples instead"};
 }
 
-// "linear, cubic or selective"
+// Returns "linear, cubic or selective".
 std::string dialledMethods() {
     std::vector<std::string_view> names;
     for (const NamedMethod& named : kRightEyeMethods)

@@ -1,4 +1,4 @@
-// Options: which scene, and how it is read.
+// Options: the scene, and how it is read.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
 #include "app/options/option_take.h"

@@ -1,4 +1,4 @@
-// Options: which study, where the colon is in it, and which surface is shown instead.
+// Options: the study, where the colon is in it, and which surface is shown instead.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
 #include "app/options/option_take.h"
@@ -15,7 +15,7 @@ OptionRule unlessColonIsLookedFor() {
             "does not go with --isosurface, which looks for no colon", kLeaveOneOut};
 }
 
-// One of the options that change pieces of the colon that were found.
+// Returns one of the options that add pieces to the colon or remove them.
 template <std::vector<glm::dvec3> PieceChoices::*places>
 Option pieceChoice(const char* key, const char* help) {
     return {.key = key,

@@ -15,14 +15,14 @@ namespace {
 using namespace command;
 using namespace scene_type;
 
-constexpr NumberRange kLookRange = above(0, 1e6, "mm");  // how far around
+constexpr NumberRange kLookRange = above(0, 1e6, "mm");  // radius of the neighbourhood
 constexpr NumberRange kShareRange = within(0, 1);
 constexpr NumberRange kSteepestRange = above(0, kSteepestOpenness);
 
 bool isModulated(const Asked& asked) {
     return asked.has("modulate") && !asked.is("modulate", "none");
 }
-// Returns what is wrong with a curve; a file is read with the scene.
+// Returns what is wrong with a curve; files are checked when the scene is read.
 std::optional<ValueProblem> problemOfTransfer(const std::string& text) {
     if (!isCurveText(text)) return std::nullopt;
     try {

@@ -23,7 +23,7 @@ LightPlace lightPlaceOf(const OptionValue& value) {
 
 Pose poseOf(const OptionValue& value) {
     std::vector<double> n = value.numbers;
-    n.resize(6);  // angles of 0 where none are said
+    n.resize(6);  // missing angles are 0
     return poseFromAngles({n[0], n[1], n[2]}, n[3] * kRadians, n[4] * kRadians, n[5] * kRadians);
 }
 

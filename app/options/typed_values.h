@@ -1,4 +1,4 @@
-// From values that were read and checked to what they stand for.
+// Conversion of values that were read and checked to the types of the program.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,17 +10,17 @@
 
 namespace stereonav {
 
-// "2G", "500M" or bytes, of 10 MB and more. For what that cannot be of, the problem; 0 bytes.
+// A size of memory: "2G", "500M" or bytes, at least 10 MB. Any other text has a problem, and 0 bytes.
 std::optional<ValueProblem> problemOfMemory(const std::string& text);
 double bytesOfMemoryText(const std::string& text);
 
-// Returns the enumerator at the place that a Word has in its list.
+// Returns the enumerator at the index that a Word has in its list.
 template <typename Enum>
 Enum choiceOf(const OptionValue& value) {
     return static_cast<Enum>(value.choice);
 }
 
-// One number for all three, or three.
+// Returns a colour from one number for all three channels, or from three.
 glm::dvec3 colorOf(const OptionValue& value);
 glm::dvec3 placeOf(const OptionValue& value);
 LightPlace lightPlaceOf(const OptionValue& value);

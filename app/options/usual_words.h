@@ -9,7 +9,7 @@ constexpr const char* kUpHelp =
     "the axis of a study's file that is to point up; not where a colon is looked for";
 constexpr const char* kUpAdvice = "-z stands a volume on its head";
 
-// Ranges and words of traced light and of bakes.
+// Values of traced light and of bakes.
 constexpr NumberRange kSamplesRange = within(1, 1 << 24);
 constexpr const char* kSamplesAdvice = "100 is a first look";
 constexpr NumberRange kBouncesRange = within(0, 8);
@@ -31,7 +31,7 @@ constexpr const char* kMediumGroup = "Options of media";
 constexpr const char* kQualityGroup = "Options of quality";
 constexpr const char* kTracedGroup = "Options of --light traced";
 
-// What is refused, and what to do.
+// Parts of refusals: what to do instead.
 constexpr const char* kLeaveItOut = "leave it out";
 constexpr const char* kLeaveOneOut = "leave one of them out";
 

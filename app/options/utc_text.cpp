@@ -13,7 +13,7 @@ std::optional<double> secondsFromText(const std::string& text) {
     const auto reads = [&](const char* pattern, int fields) {
         return std::sscanf(digits.c_str(), pattern, &year, &month, &day, &hour, &minute, &second) == fields;
     };
-    // Whatever follows is found by writing the same again.
+    // Trailing text and impossible dates are found by formatting the result again.
     char again[64];
     if (reads("%4d-%2d-%2dT%2d:%2d:%2d", 6))
         std::snprintf(again, sizeof again, "%04d-%02d-%02dT%02d:%02d:%02d", year, month, day, hour, minute,

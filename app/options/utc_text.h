@@ -1,4 +1,4 @@
-// Dates and times as people write them on a command line.
+// Dates and times on the command line.
 #pragma once
 
 #include <optional>
@@ -6,8 +6,9 @@
 
 namespace stereonav {
 
-// "2026-06-21T19:30", "2026-06-21T19:30:15" or "2026-06-21", which is its noon; a Z at the end changes
-// nothing. Seconds since 1970 in UTC; none for anything else, or no day of the calendar.
+// Returns seconds since 1970 in UTC for "2026-06-21T19:30", "2026-06-21T19:30:15" or "2026-06-21", which
+// means noon; a Z at the end changes nothing. Empty for any other text, and for a day that is not in the
+// calendar.
 std::optional<double> secondsFromText(const std::string& text);
 
 }  // namespace stereonav
