@@ -1,4 +1,4 @@
-// A CT study as `info` and the report describe it.
+// Facts of a CT study for `info` and the report.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 namespace stereonav {
 namespace {
 
-constexpr double kMm = 1000, kMl = 1e6;  // of a metre, of a cubic metre
+constexpr double kMm = 1000, kMl = 1e6;  // millimetres in a metre, millilitres in a cubic metre
 
-// Pages in use: volumes are written where there is something.
+// Returns the memory in use, by pages: large volumes occupy memory only where they were written.
 std::vector<Held> heldBy(const ColonScene& colon) {
     std::vector<Held> held;
     const auto add = [&](const char* what, std::size_t bytes) {
@@ -60,7 +60,7 @@ double millilitres(const LumenField& lumen) {
     return kMl * sum;
 }
 
-// What the flight keeps from the wall, the eyes as far apart as they get.
+// Returns the distance that the flight keeps from the wall, with the eyes as far apart as they get.
 FlightClearance clearanceIn(const Scene& scene) {
     const ColonScene& colon = *scene.offered<const ColonScene>();
     if (colon.path.samples().size() < 2) return {};
@@ -68,7 +68,7 @@ FlightClearance clearanceIn(const Scene& scene) {
     return clearanceOf(colon.path, free, scene.stereo.separation);
 }
 
-// Rounded down: what is kept is no less.
+// Returns the distances rounded down, so that the true ones are no smaller.
 std::string clearanceText(const FlightClearance& kept) {
     const auto mm = [](double metres) { return std::floor(kMm * metres * 100) / 100; };
     if (kept.head >= ColonFlight::kFarthestClearance)
@@ -121,8 +121,8 @@ Facts factsOfVolume(const Scene& scene) {
     list.json("kind", inside ? "colon" : "isosurface");
     list.both("format", colon.format, "read by");
     list.text("shown as", inside ? "a colon, from inside" : "a surface, from outside");
-    // The study's own; what follows is of the grid that is shown: a part around the lumen, or one with a
-    // border.
+    // Facts of the study itself; those below describe the grid that is shown: a part around the lumen, or the
+    // whole with a border.
     list.json("study", Facts{factForAll("size", sizeOf(study), "voxels"),
                              factForJson("spacing_mm", mmOf(study.spacing), "mm"),
                              factForJson("origin_mm", mmOf(study.origin), "mm")});
@@ -137,11 +137,11 @@ Facts factsOfVolume(const Scene& scene) {
     list.json("range", FactNumbers{range.lowest, range.highest});
     const double isovalue = isovalueOf(colon);
     list.json("isovalue", isovalue);
-    // Those of a colon are of its box, without fluid; a mask's are smoothed.
+    // Values of a colon are those of its box, without fluid; a mask's are smoothed.
     list.text("values", fmt::format("{:.6g} .. {:.6g}{}, surface at {:.6g}", range.lowest, range.highest,
                                     inside ? " in the lumen's box" : "", isovalue));
     list.both("translucent", !opaque, "wall", opaque ? "opaque" : "translucent");
-    // Only a colon's lumen is told of.
+    // Adds a fact only where the lumen is a colon's.
     const auto ofColon = [&](const char* key, FactValue value, const char* label, std::string words,
                              const char* unit) {
         if (inside)

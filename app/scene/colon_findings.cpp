@@ -15,13 +15,13 @@ struct OwnFinding final : SurfaceFinding::Own {
     Finding finding;
 };
 
-// As they are listed: with their comments, and notes on those that are of one polyp.
+// Returns the findings for output: with their comments, and with notes on several findings of one polyp.
 std::vector<Finding> findingsOf(const FindingRefs& list) {
     std::vector<Finding> findings;
     for (const SurfaceFinding* const one : list) {
         findings.push_back(static_cast<const OwnFinding&>(*one->own).finding);
         findings.back().comment = one->comment;
-        findings.back().candidate = false;  // a person lists it
+        findings.back().candidate = false;  // a person has listed it
     }
     noteDoubles(findings);
     return findings;
@@ -57,7 +57,7 @@ SurfaceFinding ColonFindings::at(const glm::dvec3& place, const std::string& com
     return made;
 }
 
-// Under the mutex.
+// Returns the tool, made at the first call. The mutex has to be held.
 FindingTool& ColonFindings::tool(const std::shared_ptr<const SliceStudy>& study, Progress& progress) const {
     progress.report(0, "making the wall's mesh");
     if (!mTool) mTool = std::make_unique<FindingTool>(mColon, mWall.get(progress));

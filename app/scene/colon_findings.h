@@ -10,10 +10,10 @@
 
 namespace stereonav {
 
-// Holds nothing until something is measured.
+// Measures polyps of a colon; reads and makes nothing before the first measurement.
 class ColonFindings final : public SurfaceFindings {
 public:
-    // A colon, its wall, and what it was read by, which must outlive it.
+    // The colon, its wall, and the options that it was read with must outlive this object.
     ColonFindings(const ColonScene& colon, const SharedWall& wall, const ColonOptions& reading)
         : mColon(colon), mWall(wall), mReading(reading) {}
 
@@ -40,9 +40,9 @@ private:
     const ColonScene& mColon;
     const SharedWall& mWall;
     const ColonOptions& mReading;
-    mutable std::mutex mMutex;  // of what follows, which is made by the first measuring
+    mutable std::mutex mMutex;  // guards the members below, which the first measurement makes
     mutable std::unique_ptr<FindingTool> mTool;
-    mutable std::shared_ptr<const SliceStudy> mStudy;  // that mTool tells values of
+    mutable std::shared_ptr<const SliceStudy> mStudy;  // study whose values mTool reports
 };
 
 }  // namespace stereonav

@@ -16,7 +16,8 @@ bool castsShadows(Shading shading) {
     return shading == Shading::LambertShadows || shading == Shading::PhongShadows;
 }
 
-// A lamp outside lights nothing of a closed wall that casts shadows.
+// Throws Error for a shading whose lamp stands outside a closed wall that casts shadows: it would light
+// nothing.
 void checkShading(const VolumeOptions& volume, const VolumeSide& side) {
     if (castsShadows(volume.shading))
         side.expectOutside(
@@ -25,7 +26,7 @@ void checkShading(const VolumeOptions& volume, const VolumeSide& side) {
             "add --isosurface, or use lambert or phong");
 }
 
-// A folder may hold ground as well, which is not what is opened.
+// Adds a note where the folder holds ground as well: that is not opened.
 void noteGround(const SceneOptions& options, std::vector<std::string>& notes) {
     std::error_code code;
     if (std::filesystem::is_directory(options.scene, code) && terrainType().owns(options.scene))

@@ -1,4 +1,4 @@
-// A CT study as the commands use it: the way through a colon, or a surface seen from outside.
+// CT studies for the commands: the way through a colon, or a surface seen from outside.
 #pragma once
 
 #include "app/scene/scene_loading.h"
@@ -7,13 +7,13 @@
 
 namespace stereonav {
 
-// Throws Error for what does not fit together.
+// Returns how the colon is read. Throws Error for options that contradict each other.
 ColonOptions colonOptionsOf(const SceneOptions& options);
 
-// Reads or makes the study that the options name, with its light. keepsStudy: as in ColonOptions. Throws
-// Error, Cancelled.
+// Reads or makes the study that the options name, with its light. keepsStudy: see ColonOptions. Throws Error,
+// Cancelled.
 LitVolume litVolumeOf(const SceneOptions& options, Progress& progress, bool keepsStudy = false);
-// The same as a scene whose rays are cast.
+// Loads the same study as a scene whose rays are cast.
 std::unique_ptr<Scene> loadColonScene(const SceneOptions& options, SimdTarget simd, Progress& progress);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// The colon that a command's scene names, and what instruments measure on it.
+// The colon that a command's scene names, for instruments that measure on it.
 #pragma once
 
 #include <memory>
@@ -14,18 +14,18 @@
 
 namespace stereonav {
 
-// Throws Error unless the name can be that of a colon: before anything is read.
+// Throws Error, before anything is read, unless the name can be that of a colon.
 void expectColonName(const std::string& scene);
 
-// The colon in it. Throws Error, naming it, where none was found.
+// Returns the colon of a scene. Throws Error that names the scene where no colon was found.
 const ColonScene& colonOf(const Scene& scene, const SceneOptions& options);
 
-// Millimetres with a comma between them, a tenth each: "12.3, -4.0, 100.7".
+// Returns a place in millimetres with one decimal: "12.3, -4.0, 100.7".
 std::string placeText(const glm::dvec3& world);
-// The same for documents: millimetres.
+// Returns a place in millimetres for documents.
 FactNumbers placeNumbers(const glm::dvec3& world);
 
-// What is said of results that could be taken for a physician's.
+// Note on results that could be taken for those of a medical device.
 constexpr const char* kNoMedicalDevice = "stereonav is not a medical device";
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// What goes by the Earth's own air, sky and places, and so is of no use on another body.
+// Refusal of options that depend on the Earth's air, sky or places where the ground lies on another body.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace stereonav {
 
-// Throws Error naming `what`, an option or a file, unless the ground lies on the Earth. does: "is of
-// longitudes on the Earth".
+// Throws Error that names `what`, an option or a file, unless the ground lies on the Earth. does: the reason,
+// "is of longitudes on the Earth".
 void expectEarth(const Body& body, const std::string& what, const std::string& does);
 
 }  // namespace stereonav

@@ -8,7 +8,7 @@
 namespace stereonav {
 namespace {
 
-// A scene file that names another scene, or "": it is a terrain's, or none.
+// Returns the scene that a scene file names; "" for a terrain's scene file and for other files.
 std::string namedIn(const std::string& scene) {
     return std::filesystem::path(scene).extension() == ".toml" ? readSceneFileOptions(scene).scene : "";
 }
@@ -22,7 +22,7 @@ Facts factsOfKind(const SceneType& type, const std::string& scene) {
 Facts glanceAt(const std::string& scene, Progress& progress) {
     constexpr const char* kLooking = "looking";
     progress.report(0, kLooking);
-    const SceneType& type = sceneTypeNamed(scene);  // says of what is not there
+    const SceneType& type = sceneTypeNamed(scene);  // throws where nothing has this name
     const std::string named = namedIn(scene);
     if (!named.empty()) {
         Facts facts{factForText("kind", "scene of " + std::filesystem::path(named).filename().string())};

@@ -1,4 +1,4 @@
-// What a file or a folder is before it is loaded, by its headers alone: kind, size, unit, spacing, values.
+// Facts of a file or folder from its headers alone, before it is loaded: kind, size, unit, spacing, values.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace stereonav {
 
-// A bounded read. scene: as sceneTypeNamed() takes it. Throws Error, one line, where it is none or is damaged
-// so that its header says so; Cancelled.
+// Reads a bounded number of bytes. scene: see sceneTypeNamed(). Throws Error, one line, where the file is of
+// no known type or its header is damaged; Cancelled.
 Facts glanceAt(const std::string& scene, Progress& progress);
 
-// Of single types.
+// The same for files of one type.
 Facts glanceAtMesh(const std::string& file, Progress& progress);
 Facts glanceAtTerrain(const std::string& file, Progress& progress);
 Facts glanceAtVolume(const std::string& file, Progress& progress);

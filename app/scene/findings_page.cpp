@@ -1,4 +1,4 @@
-// The page of findings: a table, and of each the polyp from two sides and in its slice.
+// The page of findings: a table, and for each finding the polyp from two sides and in its slice.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,8 +45,8 @@ double valueAt(const GreyVolume& study, const glm::dvec3& world) {
     return study.frame.contains(v) ? study.at(v) * study.scale + study.offset : kLungLow;
 }
 
-// The plane of its widest slice in the lung window; the patient's right is on the left of axial and coronal
-// ones.
+// Returns the slice in which the polyp is widest, in the lung window. In axial and coronal slices the
+// patient's right is on the left.
 Plane<PackedColor> sliceOf(const GreyVolume& study, const MeasuredPolyp& polyp) {
     const glm::dvec3 right = polyp.sliceAxis == 0 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 down = polyp.sliceAxis == 2 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);

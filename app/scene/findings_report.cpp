@@ -11,7 +11,8 @@
 
 namespace stereonav {
 
-// Of a study that is not DICOM its content tells which it is; of the built-in colon what it was made of.
+// A study that is not DICOM is identified by its content, the built-in colon by the parameters it was made
+// with.
 std::string findingsReport(const ColonOptions& reading, const std::vector<Finding>& findings) {
     if (cradsClassOf(findings).empty())
         throw Error("report", "", "expected a finding that a person kept, found candidates alone",

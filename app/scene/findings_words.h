@@ -1,4 +1,4 @@
-// Findings as words and as files: a table, a document that is read back, a page with pictures, a DICOM
+// Findings as text and as files: a table, a document that can be read back, a page with pictures, a DICOM
 // report.
 #pragma once
 
@@ -12,42 +12,42 @@
 
 namespace stereonav {
 
-// "flat", "sessile", "pedunculated"
+// Returns "flat", "sessile" or "pedunculated".
 const char* nameOf(PolypShape shape);
-// "axial", "coronal", "sagittal" of MeasuredPolyp::sliceAxis
+// Returns "axial", "coronal" or "sagittal" for MeasuredPolyp::sliceAxis.
 const char* nameOfSlice(int axis);
 
-// One finding for a JSON document; number: from 1.
+// Returns a finding for a JSON document; number: from 1.
 Facts factsOf(const Finding& finding, std::size_t number);
-// "C-RADS C2 by size and count alone", of what a person kept; or that nobody has.
+// Returns "C-RADS C2 by size and count alone" for the findings that a person kept, or that nobody kept any.
 std::string cradsWords(const std::vector<Finding>& findings);
-// A line for people.
+// Returns one line of text for a finding.
 std::string lineOf(const Finding& finding, std::size_t number);
 std::string csvOf(const std::vector<Finding>& findings);
 
-// A place and what was said of it.
+// A place of the document, with its comment.
 struct KeptFinding {
     glm::dvec3 place{0.0};  // world, metres
     std::string comment;
-    bool candidate = false;  // nobody has kept it
+    bool candidate = false;  // true: no person has kept it
 };
-// The findings of a document that writeFindings wrote; none where there is no such file. Throws Error where
-// it is another, or has more than kMostFindings.
+// Reads a document that writeFindings wrote; returns none where there is no such file. Throws Error for
+// another kind of file, and for more than kMostFindings.
 std::vector<KeptFinding> readFindings(const std::filesystem::path& file);
-// The document itself, and what it keeps. file: its name, for the Error where it is another.
+// Writes and reads the document as text. file: its name in errors about a document of another kind.
 std::string findingsDocument(const std::string& study, const std::vector<Finding>& findings);
 std::vector<KeptFinding> findingsIn(const std::string& document, const std::filesystem::path& file);
-// Whole or not at all, over an earlier one too. Throws Error.
+// Writes the document completely or not at all; replaces an earlier one. Throws Error.
 void writeFindings(const std::filesystem::path& file, const std::string& study,
                    const std::vector<Finding>& findings);
 
-// One HTML file with all of its pictures: each finding from two sides, and in a slice of the study, unless
-// that is empty. Throws Cancelled.
+// Returns one HTML file with all pictures: each finding from two sides, and in a slice of the study unless
+// `study` is empty. Throws Cancelled.
 std::string findingsPage(const ColonScene& colon, const GreyVolume& study,
                          const std::vector<Finding>& findings, Progress& progress);
 
-// The bytes of a DICOM structured report (colon/study/structured_report.h). reading: the study that they are
-// of. Reads heads of its files. Throws Error.
+// Returns the bytes of a DICOM structured report (colon/study/structured_report.h). reading: the study of the
+// findings; the headers of its files are read. Throws Error.
 std::string findingsReport(const ColonOptions& reading, const std::vector<Finding>& findings);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// How frames of a scene are made, as facts: what `info` and the report say of it.
+// How frames of a scene are made, as facts for `info` and the report.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@
 
 namespace stereonav {
 
-// plan: none of media, of which there is nothing to weigh: both eyes come from one sweep.
+// plan: empty for media, which have no choice to make: both eyes come from one sweep.
 Facts factsOfFrames(const Scene& scene, const std::optional<FramePlan>& plan);
 
-// "colour, depth, hole mask"
+// Returns the planes that are warped: "colour, depth, hole mask".
 std::string planesText(const FramePlan& plan);
 
 }  // namespace stereonav

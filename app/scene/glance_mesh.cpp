@@ -1,4 +1,5 @@
-// A glTF mesh by its description: the JSON of a .gltf, or the first part of a .glb. Its buffers are not read.
+// Facts of a glTF mesh from its description: the JSON of a .gltf, or the first part of a .glb. Buffers are
+// not read.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,7 +51,7 @@ std::string descriptionIn(const std::string& file) {
     return text;
 }
 
-// Numbers of elements as the file counts them; nothing is taken for them.
+// Numbers of elements according to the file; no memory is allocated by them.
 struct Counts {
     double vertices = 0, triangles = 0;
 };

@@ -1,4 +1,4 @@
-// A terrain by its headers: of an elevation model, or of the one that a scene file names.
+// Facts of a terrain from the headers of an elevation model, or of the one that a scene file names.
 #include <fmt/format.h>
 
 #include <filesystem>

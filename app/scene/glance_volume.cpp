@@ -1,4 +1,4 @@
-// A study or another volume by its headers.
+// Facts of a study or another volume from its headers.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -18,7 +18,7 @@ std::shared_ptr<const ColorTexture> GroundColors::texture() const {
 }
 
 void GroundColors::wear(std::shared_ptr<const ColorTexture> texture, bool painted, PartColors parts) {
-    // What is cast until others are.
+    // The earlier texture is in use until the renderer has the new one.
     const std::shared_ptr<const ColorTexture> before = std::exchange(mWorn, std::move(texture));
     const ColorTexture litBefore = std::exchange(mLit, ColorTexture());
     mPainted = painted;

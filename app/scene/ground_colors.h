@@ -1,5 +1,5 @@
-// Which colours a terrain that is shown has: those that it was loaded with, or others in their place, under
-// its baked light where it has some. All is called between frames.
+// The colours of a terrain that is shown: those it was loaded with, or others in their place, under its baked
+// light where there is some. All functions are called between frames.
 #pragma once
 
 #include <memory>
@@ -13,25 +13,25 @@ namespace stereonav {
 
 class GroundColors {
 public:
-    // terrain, renderer: outlive it.
+    // terrain and renderer must outlive this object.
     GroundColors(TerrainScene& terrain, TerrainRenderer& renderer);
 
-    // texture: as a scene would be loaded with it, null: as this one was. painted: it is paint in the place
-    // of the ground's own colours. parts: as TerrainRenderer::showColors() has them.
+    // texture: colours that take the place of the loaded ones; null: the loaded ones. painted: whether they
+    // are paint in place of the ground's own colours. parts: see TerrainRenderer::showColors().
     void wear(std::shared_ptr<const ColorTexture> texture, bool painted, PartColors parts);
     bool painted() const { return mPainted; }
-    // What the terrain was loaded with, or what it wears.
+    // Returns the colours that the terrain was loaded with, or those that took their place.
     std::shared_ptr<const ColorTexture> texture() const;
 
     SunPlace sun() const { return {mTerrain.look.sunAzimuth, mTerrain.look.sunElevation}; }
-    // Baked light follows; and the plain sun's sky and highlights.
+    // Turns the sun: updates baked light, and the plain sun's sky and highlights.
     void turnSun(const SunPlace& to);
 
 private:
     TerrainScene& mTerrain;
     TerrainRenderer& mRenderer;
-    std::shared_ptr<const ColorTexture> mWorn;  // null: as loaded
-    ColorTexture mLit;                          // what is worn, under baked light
+    std::shared_ptr<const ColorTexture> mWorn;  // null: the loaded colours
+    ColorTexture mLit;                          // mWorn under baked light
     bool mPainted = false;
 };
 

@@ -22,7 +22,7 @@ std::vector<GroundFigure> figuresOfLine(const GroundSamples& ground, const std::
 
 std::vector<GroundFigure> figuresOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& world,
                                         const std::optional<double>& given, const ShareDone& done) {
-    // Measuring takes ten times as long as finding the lowest, and its errors as long again.
+    // Measuring takes ten times as long as finding the lowest ground, and the errors as long again.
     const auto between = [&done](double from, double to) {
         return done ? ShareDone([&done, from, to](double share) { done(from + (to - from) * share); }) : done;
     };
@@ -39,7 +39,7 @@ std::vector<GroundFigure> figuresOfArea(const GroundSamples& ground, const std::
             {"highest_m", "highest", "m", m.highest, e.highest}};
 }
 
-// Two digits, and zeros in the place of an exponent: "+- 210" as the figure before it, not "2.1e+02".
+// Returns the error with two digits, without an exponent: "+- 210", not "2.1e+02".
 std::string errorText(const GroundFigure& figure) {
     constexpr double kNoExponent = 1e15;
     if (figure.error == 0) return "";

@@ -1,5 +1,5 @@
-// Figures of lines and areas on the ground, each with what the sample spacing leaves open: by their names in
-// files and for people.
+// Figures of lines and areas on the ground, each with the uncertainty from the sample spacing, and with names
+// for files and for people.
 #pragma once
 
 #include <optional>
@@ -18,13 +18,14 @@ struct GroundFigure {
     double value, error;  // error: 0 where there is none, NaN where it is not known
 };
 
-// world: as groundLine() takes it.
+// Returns the figures of a line. world: see groundLine().
 std::vector<GroundFigure> figuresOfLine(const GroundSamples& ground, const std::vector<glm::dvec2>& world);
-// plane: metres; none: through the lowest ground inside.
+// Returns the figures of an area. plane: height in metres that volumes refer to; empty: the lowest ground
+// inside.
 std::vector<GroundFigure> figuresOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& world,
                                         const std::optional<double>& plane, const ShareDone& done = {});
 
-// " +- 0.2", " (error not known)", or "" where there is none.
+// Returns " +- 0.2", " (error not known)", or "" where a figure has no error.
 std::string errorText(const GroundFigure& figure);
 
 }  // namespace stereonav

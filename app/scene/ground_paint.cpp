@@ -12,7 +12,7 @@
 namespace stereonav {
 namespace {
 
-// 0: none.
+// Returns the interval of contours in metres; 0: no contours.
 double contourIntervalOf(const TerrainScene& terrain, const GroundPaintOptions& options) {
     if (!options.contoursAuto) return options.contours_m.value_or(0);
     const Heightfield& ground = terrain.ground;

@@ -1,4 +1,4 @@
-// What the options paint on a terrain's ground, and what that means.
+// Paint on a terrain's ground as the options ask for it, and its legend.
 #pragma once
 
 #include <memory>
@@ -13,15 +13,16 @@
 
 namespace stereonav {
 
-// The paint that a terrain is loaded with, in the place of its tints; None where --paint says another.
+// Returns the paint that replaces a terrain's tints when it is loaded; None where --paint names another kind.
 GroundPaint groundPaintOf(const SceneOptions& options);
-GroundPaint groundPaintOf(const std::string& paint);  // a value of --paint
+GroundPaint groundPaintOf(const std::string& paint);  // for a value of --paint
 
-// Null where there are none. legend: gets what they mean. terrain, fog: outlive it.
+// Returns the painter of contours, null where the options ask for none. legend: gets an entry. terrain and
+// fog must outlive it.
 std::shared_ptr<const EyePainter> contoursOf(const TerrainScene& terrain, const Fog& fog,
                                              const GroundPaintOptions& options, PaintLegend& legend);
 
-// Adds what is painted to what a scene says of itself; nothing where nothing is.
+// Adds the legend to the facts of a scene; nothing where nothing is painted.
 void addLegend(const PaintLegend& legend, Facts& facts);
 
 }  // namespace stereonav

@@ -28,7 +28,7 @@ constexpr double kUsualEyeHeight = 2;  // metres above the ground, as for the co
 constexpr double kSunStep = 20 * 60;   // seconds, as for the command sun
 constexpr float kHiddenShare = 0.62f, kHoursShare = 0.6f;
 const glm::vec3 kHiddenColor(0.02f, 0.01f, 0.06f);
-// Few hours to many: YlOrRd of ColorBrewer the other way round, six of its classes, as sRGB.
+// Colours from few hours to many: six classes of ColorBrewer's YlOrRd in reverse order, as sRGB.
 constexpr std::array<std::array<int, 3>, 6> kHoursColors{
     {{35, 20, 60}, {128, 0, 38}, {227, 26, 28}, {253, 141, 60}, {254, 217, 118}, {255, 255, 204}}};
 
@@ -39,7 +39,7 @@ glm::vec3 hoursColor(std::size_t n) {
     return {channel(0), channel(1), channel(2)};
 }
 
-// Where that is coarser than the finest samples.
+// Returns the sample spacing as text where it is coarser than the finest samples, else "".
 std::string apart(const Heightfield& ground, const SurveyGround& survey) {
     const double spacing = ground.spacing().x;
     return spacing > survey.samples().spacing().x ? fmt::format(", by samples {} apart", lengthText(spacing))
@@ -50,7 +50,7 @@ std::shared_ptr<const EyePainter> viewshedPainter(const TerrainScene& terrain, c
                                                   const SurveyGround& survey, const std::string& place,
                                                   PaintLegend& legend, Progress& progress) {
     const std::vector<double> numbers = numbersIn("--paint", groundPlaceNumbers(), place).numbers;
-    const Heightfield& ground = terrain.ground;  // of ground in tiles the level in memory
+    const Heightfield& ground = terrain.ground;  // for ground in tiles: the level in memory
     const glm::dvec2 eye = survey.gridAt({numbers[0], numbers[1]}, "--paint");
     survey.heightAt(eye, "--paint");
     ViewshedSetting setting;
@@ -76,7 +76,7 @@ std::shared_ptr<const EyePainter> viewshedPainter(const TerrainScene& terrain, c
 std::shared_ptr<const EyePainter> hoursPainter(const TerrainScene& terrain, const Fog& fog,
                                                const SurveyGround& survey, const std::string& day,
                                                PaintLegend& legend, Progress& progress) {
-    const Heightfield& ground = terrain.ground;  // of ground in tiles the level in memory
+    const Heightfield& ground = terrain.ground;  // for ground in tiles: the level in memory
     const HeightPyramid maxima(ground);
     const SightLines lines(ground, maxima, 0);
     const double time = secondsFromText(day).value_or(0);

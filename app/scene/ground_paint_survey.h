@@ -1,4 +1,4 @@
-// What instruments find for each sample of the ground, painted on it: --paint viewshed and hours.
+// Paint by results of instruments for each sample of the ground: --paint viewshed and --paint hours.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -14,15 +14,14 @@
 
 namespace stereonav {
 
-// Null where `paint`, a value of --paint, asks for something else: surveyed() says whether it does.
-// survey: the same ground, with its places in its file's reference system. terrain, fog: outlive it. Throws
-// Error, Cancelled.
+// Returns the painter for `paint`, a value of --paint; null where surveyed() is false for it. survey: the
+// same ground with its reference system. terrain and fog must outlive the painter. Throws Error, Cancelled.
 std::shared_ptr<const EyePainter> surveyPainter(const TerrainScene& terrain, const Fog& fog,
                                                 const SurveyGround& survey, const std::string& paint,
                                                 PaintLegend& legend, Progress& progress);
 bool surveyed(const std::string& paint);
 
-// The value that paints what is seen from so high above the ground there, world x, y. Throws Error.
+// Returns the value of --paint for a viewshed from `height` above the ground at world x, y. Throws Error.
 std::string paintSeenFrom(const SurveyGround& survey, const glm::dvec2& world, double height);
 
 }  // namespace stereonav

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kTrackDoes = "has places on the Earth";
 
-// Without a place on the Earth degrees are metres, as for `profile` and `measure`.
+// Ground without a place on the Earth takes degrees as metres, like `profile` and `measure`.
 std::optional<glm::dvec2> worldOfTrack(const TerrainScene& terrain, const glm::dvec2& degrees) {
     if (!terrain.earth) return degrees;
     return terrain.earth->worldAt({degrees.y * std::numbers::pi / 180, degrees.x * std::numbers::pi / 180});
@@ -36,7 +36,7 @@ std::shared_ptr<const EyePainter> trackPainter(const TerrainScene& terrain, cons
     const TrackFile read = readTrackFile(file);
     std::vector<std::vector<glm::dvec2>> lines;
     std::vector<glm::dvec2> places;
-    long long lost = 0;  // that no system has
+    long long lost = 0;  // vertices that have no place in the ground's reference system
     for (const TrackLine& track : read.lines) {
         std::vector<glm::dvec2> line;
         for (const glm::dvec2& degrees : track.degrees)
@@ -71,7 +71,7 @@ std::shared_ptr<const EyePainter> trackPainter(const TerrainScene& terrain, cons
                              places.size() == 1 ? "" : "s");
     legend.legends.push_back(
         {"tracks", {{glm::vec3(kTrackInk[0], kTrackInk[1], kTrackInk[2]), std::move(drawn)}}});
-    // Rounding at the ground's edge is no part of a track.
+    // Rounding at the ground's edge is not reported as part of a track outside.
     if (outside > 1e-9 * length)
         legend.notes.push_back(fmt::format("{}: {} of {} lie outside the ground and are not drawn", file,
                                            lengthText(outside), lengthText(length)));

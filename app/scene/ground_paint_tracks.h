@@ -1,4 +1,4 @@
-// Tracks and places out of files, on a terrain that is shown.
+// Tracks and places from files, on a terrain that is shown.
 #pragma once
 
 #include <memory>
@@ -12,14 +12,14 @@
 
 namespace stereonav {
 
-// Draws the lines, borders and places of a GPX or GeoJSON file; says in `legend` what it drew, with its lines
-// and places, and in a note how much lies beside the ground. terrain, fog: outlive it. Throws Error where
-// nothing lies on the ground.
+// Returns the painter of the lines, borders and places of a GPX or GeoJSON file. Adds to `legend` what is
+// drawn, with lines and places, and a note on how much lies outside the ground. terrain and fog must outlive
+// the painter. Throws Error where nothing lies on the ground.
 std::shared_ptr<const EyePainter> trackPainter(const TerrainScene& terrain, const Fog& fog,
                                                const std::string& file, PaintLegend& legend);
 
-// The file's one track as a flight of the terrain. Throws Error where there are several, and where it leaves
-// the ground.
+// Returns the file's only track as a flight over the terrain. Throws Error where the file has several tracks,
+// or the track leaves the ground.
 RecordedPath followedTrack(const TerrainScene& terrain, const std::string& file, double height);
 
 }  // namespace stereonav

@@ -83,7 +83,7 @@ void GroundPainting::paintAll(Progress& progress) {
         const std::lock_guard lock(mMutex);
         show(layer, std::move(made));
     }
-    mSurvey.reset();  // a picture needs no other
+    mSurvey.reset();  // a single picture needs no other survey
     takeUp();
 }
 
@@ -108,7 +108,7 @@ void GroundPainting::ask(const std::string& key, const std::string& text) {
     const bool quick = layer == kContours || (text.empty() && (layer != kPaint || loadedPlain()));
     if (!quick) return wish(layer, {text, {}, {}});
     Progress quiet;
-    Painted made = painted(layer, {text, {}, {}}, quiet);  // at once
+    Painted made = painted(layer, {text, {}, {}}, quiet);  // contours are made at once
     const std::lock_guard lock(mMutex);
     ++mNumbers[layer];
     mWishes[layer].reset();
@@ -129,7 +129,7 @@ void GroundPainting::wish(Layer layer, Wish wish) {
         if (std::exchange(mWorks, true)) return;
     }
     const std::lock_guard begin(mBegin);
-    if (mThread.joinable()) mThread.join();  // it has nothing left to do
+    if (mThread.joinable()) mThread.join();  // the thread has nothing left to do
     mThread = std::thread([this] { workOff(); });
 }
 
@@ -165,7 +165,7 @@ std::shared_ptr<const PaintLegend> GroundPainting::legend() const {
 
 void GroundPainting::workOff() {
     stepBehindTheWindow();
-    stepBehindTheWindow();  // and behind the thread that makes frames
+    stepBehindTheWindow();  // and after the thread that makes frames
     loopOnThisThreadAlone();
     interruptLoopsBy(&mDrop);
     for (;;) {
@@ -204,13 +204,13 @@ void GroundPainting::work(Layer layer, long long number, const Wish& wish, Progr
         made = painted(layer, wish, progress);
         done = true;
     } catch (const Cancelled&) {
-        // by a newer wish, a person, or at the end
+        // cancelled by a newer wish, by the user, or at the end
     } catch (const std::exception& error) {
         problem = error.what();
     }
     const std::lock_guard lock(mMutex);
     if (mNumbers[layer] != number) return;
-    if (!mWishes[layer]) return;  // it was cancelled at its end
+    if (!mWishes[layer]) return;  // cancelled just before it was complete
     if (done) show(layer, std::move(made));
     mWishes[layer].reset();
     if (!problem.empty()) mProblem = problem;
@@ -219,7 +219,7 @@ void GroundPainting::work(Layer layer, long long number, const Wish& wish, Progr
 const SurveyGround& GroundPainting::survey(Progress& progress) {
     if (mSurvey) return *mSurvey;
     SceneOptions options = mOptions;
-    if (mTerrain.tiled || mTerrain.standIn) options.tiles = TilesChoice::On;  // as the scene's
+    if (mTerrain.tiled || mTerrain.standIn) options.tiles = TilesChoice::On;  // as for the scene itself
     mSurvey = std::make_unique<SurveyGround>(loadSurveyGround(options, progress));
     return *mSurvey;
 }
@@ -254,7 +254,7 @@ bool GroundPainting::loadedPlain() const {
 
 GroundWorn GroundPainting::groundAs(GroundPaint paint, const SunAngles& sun, Progress& progress) const {
     GroundWorn worn{paint, nullptr, mLoadedSource, sun};
-    if (!mTerrain.colorSource) return worn;  // a picture's
+    if (!mTerrain.colorSource) return worn;  // colours from a picture
     const GroundColorSource& source = *mTerrain.colorSource;
     const bool asLoaded = !turnsWithSun(paint, source) || sun == sunOf(source.look);
     if (paint == source.paint && asLoaded) return worn;
@@ -291,7 +291,7 @@ void GroundPainting::takeUp() {
     if (mTaken == mVersion && mSunTaken == sun) return;
     mSunTaken = sun;
     GroundWorn ground;
-    std::string again;  // the paint, under the sun that has turned
+    std::string again;  // name of the paint to make again after the sun has turned
     {
         const std::lock_guard lock(mMutex);
         mTaken = mVersion;

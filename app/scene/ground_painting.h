@@ -1,6 +1,6 @@
-// What is painted on a terrain that is shown, exchanged while frames are made: contours at once; tracks, what
-// is seen from a place, hours of sun, and other colours of the ground on one thread of its own, which is
-// there while there is work.
+// Paint on a terrain that is shown, exchanged while frames are made. Contours are made at once. Tracks,
+// viewsheds, hours of sun and other colours of the ground are made on one thread, which exists while there is
+// work.
 #pragma once
 
 #include <array>
@@ -25,25 +25,25 @@
 
 namespace stereonav {
 
-// Colours of the ground in the place of others.
+// Colours of the ground that replace the loaded ones.
 struct GroundWorn {
     GroundPaint paint = GroundPaint::None;
-    std::shared_ptr<const ColorTexture> texture;  // null: those that the scene was loaded with
-    std::string source;                           // as TerrainReport has it
-    SunAngles sun;                                // that paint was made under
+    std::shared_ptr<const ColorTexture> texture;  // null: the colours that the scene was loaded with
+    std::string source;                           // see TerrainReport
+    SunAngles sun;                                // sun that the paint was made under
 };
 
 class GroundPainting final : public LivePaint {
 public:
-    // terrain, fog, paint: outlive it; `paint` is changed by takeUp() alone, which calls `wear` where the
-    // ground's colours change.
+    // terrain, fog and paint must outlive this object. Only takeUp() changes `paint`; it calls `wear` where
+    // the ground's colours change.
     GroundPainting(const TerrainScene& terrain, const Fog& fog, const SceneOptions& options,
                    SurfacePaint& paint, std::function<void(const GroundWorn&)> wear);
-    ~GroundPainting() override;  // prompt
+    ~GroundPainting() override;  // returns promptly
     GroundPainting(const GroundPainting&) = delete;
     GroundPainting& operator=(const GroundPainting&) = delete;
 
-    // What the options ask for, before the first frame. Throws Error, Cancelled.
+    // Makes all paint that the options ask for, before the first frame. Throws Error, Cancelled.
     void paintAll(Progress& progress);
 
     bool takes(const std::string& key, const std::string& text) const override;
@@ -56,18 +56,18 @@ public:
     void cancel() override;
     std::string takeProblem() override;
     void takeUp() override;
-    // Of the ground's colours, in words.
+    // Returns the description of the ground's colours.
     std::string colorSource() const;
 
 private:
-    // In the order in which they are painted; their keys are kKeys.
+    // Layers in the order in which they are painted; kKeys has their keys.
     enum Layer { kPaint, kContours, kTracks, kLayers };
     static const std::array<const char*, kLayers> kKeys;
     struct Painted {
         std::string text;
-        std::shared_ptr<const EyePainter> painter;  // null: nothing
+        std::shared_ptr<const EyePainter> painter;  // null: nothing is painted
         PaintLegend legend;
-        GroundWorn ground;  // of kPaint
+        GroundWorn ground;  // for kPaint
     };
     struct SeenFrom {
         glm::dvec2 place;
@@ -75,8 +75,8 @@ private:
     };
     struct Wish {
         std::string text;
-        std::optional<SeenFrom> seenFrom;  // its text is not known yet
-        SunAngles sun;                     // when it is begun
+        std::optional<SeenFrom> seenFrom;  // set where the text is not known yet
+        SunAngles sun;                     // sun at the beginning of the work
     };
 
     static Layer layerOf(const std::string& key);
@@ -85,37 +85,37 @@ private:
     void workOff();
     Painted painted(Layer layer, const Wish& wish, Progress& progress);
     GroundWorn groundAs(GroundPaint paint, const SunAngles& sun, Progress& progress) const;
-    bool loadedPlain() const;  // in the ground's own colours
+    bool loadedPlain() const;  // whether the ground was loaded in its own colours
     const SurveyGround& survey(Progress& progress);
-    void show(Layer layer, Painted painted);  // under the mutex
-    void drop();                              // what is at work; under the mutex
+    void show(Layer layer, Painted painted);  // the mutex has to be held
+    void drop();                              // cancels the present work; the mutex has to be held
 
     const TerrainScene& mTerrain;
     const Fog& mFog;
     const SceneOptions mOptions;
     SurfacePaint& mPaint;
     const std::function<void(const GroundWorn&)> mWear;
-    const std::string mLoadedSource;        // of the colours that it was loaded with
-    std::unique_ptr<SurveyGround> mSurvey;  // read when it is first needed; of who works
+    const std::string mLoadedSource;        // description of the loaded colours
+    std::unique_ptr<SurveyGround> mSurvey;  // read when first needed; used by the working thread only
     std::atomic<long long> mVersion = 0;
-    // Of takeUp(): what it has taken, and the sun that paint was last asked for again under.
+    // Used by takeUp() only: the version it has taken, and the sun that paint was last requested for.
     long long mTaken = 0;
     GroundWorn mWorn;
     SunAngles mSunTaken, mSunAsked;
-    std::mutex mBegin;          // who begins the thread
-    mutable std::mutex mMutex;  // guards what follows
-    SunAngles mSun;             // now
+    std::mutex mBegin;          // held while the thread is begun
+    mutable std::mutex mMutex;  // guards the members below
+    SunAngles mSun;             // present sun
     std::array<Painted, kLayers> mShown;
-    std::array<std::optional<Wish>, kLayers> mWishes;  // not done
-    std::array<long long, kLayers> mNumbers{};         // of wishes, to know the newest
+    std::array<std::optional<Wish>, kLayers> mWishes;  // not done yet
+    std::array<long long, kLayers> mNumbers{};         // numbers of the newest wishes
     std::shared_ptr<const PaintLegend> mLegend;
     std::string mProblem;
     PaintWork mWork;
-    std::shared_ptr<Progress> mProgress;  // of the work; null: none
+    std::shared_ptr<Progress> mProgress;  // progress of the present work; null: none
     Layer mAtWork = kPaint;
     bool mWorks = false;
-    std::atomic<bool> mDrop = false;  // loops of the work
-    std::thread mThread;              // under mBegin
+    std::atomic<bool> mDrop = false;  // ends loops of the present work
+    std::thread mThread;              // guarded by mBegin
 };
 
 }  // namespace stereonav

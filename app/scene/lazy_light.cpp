@@ -1,4 +1,4 @@
-// The same plan as that of `bake`, for the surface that is shown.
+// The bake is planned as by `bake`, for the surface that is shown.
 #include "app/scene/lazy_light.h"
 
 #include <cmath>
@@ -28,13 +28,13 @@ LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& p
     mLight = std::make_shared<IlluminationVolume>(plan.inputs.texels);
     mChoice = plan.inputs.choice;
     if (mChoice.region) mChoice.region = &mRegion;
-    // Where the surface is moved later on, texels far from this one stand for their own values'.
+    // The surface may be moved later, so texels far from the present one are lit by their own values.
     mLighter =
         std::make_unique<TexelLighter>(mField, plan.inputs.texels, plan.inputs.light, plan.inputs.sampling);
     LazyBakeSetting setting;
     setting.shape = plan.inputs.shape;
     mBake = std::make_unique<LazyBake>(mField, mChoice, sourceOf(*mLighter), *mLight, setting);
-    double mean = 1;  // of the sky
+    double mean = 1;  // mean of the sky
     if (const auto& probe = plan.inputs.light.probe) mean = luminance(glm::dvec3(probe->mean()));
     if (transfer) {
         mStraight = skyHarmonics(options, setting.shape.order);
@@ -44,7 +44,7 @@ LazyLight::LazyLight(const SceneOptions& options, ColonScene& scene, Progress& p
     }
     BakedLook& look = scene.volume.look.baked;
     look.light = mLight;
-    // As bright as under a sky of 1 all around: what will have been lit is not known yet.
+    // Exposure is that of a sky of 1 all around: the texels that will be lit are not known yet.
     look.exposure = static_cast<float>(options.volume.exposure.value_or(mean > 0 ? 1 / mean : 1.0));
 }
 
@@ -65,8 +65,8 @@ void LazyLight::waitUntilDone() const {
     }
 }
 
-// While one flies some pixels tell enough; they pass over bricks at edges and on slopes seen nearly along,
-// which would stay dark in a picture that stands still.
+// During a flight a sample of the pixels is enough. It misses bricks at edges and on slopes seen at a grazing
+// angle, which would stay dark in a picture that rests.
 void LazyLight::seen(const EyeView& view, const EyeImage& image) {
     constexpr int kSparse = 4;
     const std::array<glm::dvec3, 3> place{view.eye, view.rayDirection(0, 0),

@@ -1,5 +1,5 @@
-// Light of a volume that is worked out while one looks at it: the background bake of a scene that a window
-// shows, with all that it refers to.
+// Light of a volume that is computed while it is shown: the background bake of a window's scene, with
+// everything it refers to.
 #pragma once
 
 #include <array>
@@ -19,37 +19,37 @@ namespace stereonav {
 
 class LazyLight {
 public:
-    // scene's look is set to show the light. Irradiance is lit by --sky, or by what bake
-    // takes where nothing is said; transfer as baked one is. Throws Error, Cancelled.
+    // Sets scene's look to show the light. Irradiance is lit by --sky, or by bake's default; transfer is
+    // baked as by bake. Throws Error, Cancelled.
     LazyLight(const SceneOptions& options, ColonScene& scene, Progress& progress);
 
-    // Another surface of the same volume is shown, at an isovalue in stored numbers: what is lit stays so,
-    // and what it lacks is lit next. Any thread.
+    // Moves the surface to another isovalue, in stored numbers: lit texels stay, missing ones are lit next.
+    // Any thread.
     void showSurface(float isovalue);
 
-    // Of transfer: where the sky stands; before a frame, that it stands elsewhere.
+    // Returns whether the sky can turn, which needs transfer. turnTo(): to be called before a frame.
     bool turns() const { return !mStraight.empty(); }
     const SkyTurn& turn() const { return mTurn; }
     void turnTo(const SkyTurn& turn);
 
-    // What a frame saw is lit next; all of it when the frame comes again. Returns at once.
+    // Lights the texels that a frame saw next; all of them when the frame comes again. Returns at once.
     void seen(const EyeView& view, const EyeImage& image);
-    // Grows as texels change, and while the last frame is to come again.
+    // Returns a number that grows as texels change, and while the last frame has to come again.
     std::uint64_t changes() const { return mBake->changes() + mLooks; }
-    // Until all that was seen last is lit.
+    // Waits until all texels that were seen last are lit.
     void waitUntilDone() const;
 
 private:
-    GreyVolume mField;  // the scene's, and its lumen: scenes come and go
+    GreyVolume mField;  // the scene's field and lumen, shared: scenes come and go
     MaskVolume mRegion;
     TexelChoice mChoice;
     std::shared_ptr<IlluminationVolume> mLight;
     std::unique_ptr<TexelLighter> mLighter;
-    std::vector<glm::vec3> mStraight;  // the sky's harmonics before it is turned; of irradiance none
+    std::vector<glm::vec3> mStraight;  // harmonics of the sky before it is turned; empty for irradiance
     SkyTurn mTurn;
-    std::array<glm::dvec3, 3> mPlace{};  // of the last frame: its eye and two rays
-    std::uint64_t mLooks = 0;            // frames of which some pixels were looked at
-    std::unique_ptr<LazyBake> mBake;     // last: it stops first
+    std::array<glm::dvec3, 3> mPlace{};  // eye and two rays of the last frame
+    std::uint64_t mLooks = 0;            // frames of which only some pixels were looked at
+    std::unique_ptr<LazyBake> mBake;     // last member: it stops first
 };
 
 }  // namespace stereonav

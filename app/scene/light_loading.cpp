@@ -50,7 +50,8 @@ void addLamps(const ColonScene& scene, const VolumeSide& side, const LampsAsked&
     if (asked.centreline) return side.addLine(asked.spacing, option, setup);
     PointLight light;
     light.position = asked.position;
-    // So that a surface in the middle of the volume that faces it is as bright as under a sky of 1.
+    // Intensity at which a surface in the middle of the volume that faces the light is as bright as under a
+    // sky of 1.
     const glm::dvec3 away = light.position - centreOf(scene.volume.field.frame);
     const double least = std::max(glm::dot(away, away), light.radius * light.radius);
     light.intensity = glm::vec3(static_cast<float>(asked.intensity.value_or(std::numbers::pi * least)));

@@ -1,5 +1,5 @@
-// From options to what a volume's bake consists of, and from its file back to light: shared by bake and by
-// the commands that show it.
+// Plans a volume's bake from options, and reads its file back as light: for bake and for the commands that
+// show it.
 #pragma once
 
 #include <filesystem>
@@ -17,27 +17,27 @@ void checkBakeOptions(const BakeOptions& options);
 struct VolumeBakePlan {
     BakeInputs inputs;
     std::vector<TexelBrick> bricks;
-    std::vector<std::string> notes;  // what was chosen, a clause each
+    std::vector<std::string> notes;  // choices that were made, a clause each
 };
-// What is baked of a volume, and the light. Throws Error, Cancelled.
+// Returns what is baked of a volume, with the light. Throws Error, Cancelled.
 VolumeBakePlan planVolumeBake(const ColonScene& scene, const BakeOptions& options, Progress& progress);
 
-// The light alone that irradiance is baked under, with what was chosen. Throws Error.
+// Returns the light for irradiance only, and adds the choices to `notes`. Throws Error.
 LightSetup lightSetupOf(const ColonScene& scene, const BakeOptions& options, std::vector<std::string>& notes);
 
-// Of the volume, the same however it was loaded: a colon that came from the cache is known near its wall
-// only.
+// Returns a hash of the volume that does not depend on how it was loaded: a colon from the cache is known
+// near its wall only.
 std::uint64_t contentOf(const ColonScene& scene, Progress& progress);
 
-// Baked light as it is shown: one of the two.
+// Baked light for display: irradiance or transfer.
 struct BakedLight {
     BakeKind kind = BakeKind::Irradiance;
-    IlluminationVolume irradiance;  // and openness; as shares of `unit`
-    float unit = 1;                 // of irradiance: lightUnitOf
+    IlluminationVolume irradiance;  // with openness; in units of `unit`
+    float unit = 1;                 // unit of irradiance: lightUnitOf
     TransferVolume transfer;
-    double error = 0;  // as estimated
+    double error = 0;  // estimated error
 };
-// Throws Error naming the file: where there is none, it is damaged, or it is of another volume.
+// Reads the light. Throws Error that names the file where it is missing, damaged, or of another volume.
 BakedLight loadBakedLight(const std::filesystem::path& file, const ColonScene& scene, Progress& progress);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// A medium as `info` describes it.
+// Facts of a medium for `info`.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ std::string lightText(const MediumLight& light) {
                        std::asin(std::clamp(from.z, -1.0, 1.0)) * kDegrees);
 }
 
-// A field that a volume's scene holds is counted there.
+// Returns the memory of the medium; a field that a volume's scene holds is counted there.
 std::vector<Held> heldBy(const Scene& loaded) {
     const Medium& medium = loaded.offered<MediumScene>()->medium;
     const auto* const volume = loaded.offered<const ColonScene>();

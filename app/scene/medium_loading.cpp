@@ -1,4 +1,4 @@
-// Scenes are loaded as ever; what they hold becomes a medium, and sweeps take the place of rays.
+// Scenes are loaded as usual; their content becomes a medium, and sweeps replace rays.
 #include "app/scene/medium_loading.h"
 
 #include <algorithm>
@@ -19,9 +19,9 @@
 namespace stereonav {
 namespace {
 
-// Where wax is lit from when nothing is said: from the left and from beyond it, so that it shines through.
+// Direction of light on wax by default: from the left and behind, so that it shines through.
 constexpr double kWaxAzimuth = 300 * kRadians, kWaxElevation = 30 * kRadians;
-// Of parallel light, so that white media are just below white on the screen.
+// Radiance of parallel light at which white media are just below white on the screen.
 constexpr float kCloudRadiance = 0.6f, kWaxRadiance = 0.75f;
 
 void makeBuiltIn(const SceneOptions& options, SimdTarget, Progress&, ShownMedium& scene) {
@@ -44,7 +44,7 @@ void makeBuiltIn(const SceneOptions& options, SimdTarget, Progress&, ShownMedium
         shown.look.background = glm::vec3(0.02f);
         shown.turnLight(kWaxAzimuth, kWaxElevation);
     }
-    // Without the noise, whose displacements may reach anywhere.
+    // Bounds without the noise, whose displacements may reach anywhere.
     const WorldBox box = Medium(field, findMediumTransfer(shown.transfer)).bounds();
     seeFromOutside(box.low, box.high, "the flight around the medium", scene);
     adjustViews(options, scene);

@@ -1,4 +1,4 @@
-// Media as the commands use them: built in, volumes and the colon under --medium, terrain as a height volume.
+// Media for the commands: built in, volumes and the colon under --medium, terrain as a height volume.
 #pragma once
 
 #include "app/scene/scene_loading.h"
@@ -6,7 +6,7 @@
 
 namespace stereonav {
 
-// A scene of this type as the medium that the options name. Throws Error, Cancelled.
+// Loads a scene of this type as the medium that the options name. Throws Error, Cancelled.
 std::unique_ptr<Scene> loadMediumScene(const SceneType& type, const SceneOptions& options, SimdTarget simd,
                                        Progress& progress);
 

@@ -1,4 +1,4 @@
-// Makes a medium from options: one function for each thing that a medium can be made of.
+// Media made from options: one function for each kind of source.
 #pragma once
 
 #include <memory>
@@ -12,13 +12,13 @@
 
 namespace stereonav {
 
-// Where light comes from when nothing is said, seen by one who looks north: from the left, behind and above.
+// Default direction of light for a viewer who looks north: from the left, behind and above.
 constexpr double kLightAzimuth = 235 * kRadians, kLightElevation = 40 * kRadians;
 
-// The field under the transfer function that `shown` names, and its surface.
+// Sets the field under the transfer function that `shown` names, and its surface.
 void putField(std::shared_ptr<const GreyVolume> field, Perturbation noise, MediumScene& shown);
 
-// Views, flight and medium into `scene`, which has not begun. Throw Error, Cancelled.
+// Set views, flight and medium of `scene`, which has not begun. Throw Error, Cancelled.
 void makeFromTerrain(const SceneOptions& options, SimdTarget, Progress& progress, ShownMedium& scene);
 void makeFromVolume(const SceneOptions& options, SimdTarget simd, Progress& progress, ShownMedium& scene);
 

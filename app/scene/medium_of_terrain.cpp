@@ -11,8 +11,8 @@ namespace stereonav {
 namespace {
 
 constexpr float kSnowRadiance =
-    0.65f;  // of parallel light on terrain, but for its own colours, which are dark
-// Ridges and valleys show grain where the light's texels are more than a hundred metres wide.
+    0.65f;  // of parallel light on terrain, except in its own colours, which are dark
+// Slices and light texels: ridges and valleys show grain where texels are wider than a hundred metres.
 constexpr int kTerrainSlices = 1200, kTerrainLight = 512;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A study as a medium: a colon's from inside, lit by a lamp at the head, or any volume from outside.
+// A study as a medium: a colon from inside, lit by a lamp at the head, or any other volume from outside.
 #include <algorithm>
 
 #include "app/scene/colon_loading.h"
@@ -11,10 +11,10 @@
 namespace stereonav {
 namespace {
 
-constexpr double kLampCone = 2.2;  // radians: wider than what is seen
-// Of parallel light and of a lamp, so that white media are just below white on the screen.
+constexpr double kLampCone = 2.2;  // radians: wider than the field of view
+// Radiance of parallel light and of a lamp at which white media are just below white on the screen.
 constexpr float kVolumeRadiance = 0.85f, kLampRadiance = 0.7f;
-// A colon's wall shows grain far away with 250 slices, none in the pictures looked at with 400.
+// Slices for a colon: its wall shows grain at a distance with 250, and none in our pictures with 400.
 constexpr int kColonSlices = 500;
 
 void lightAtHead(const ColonScene& colon, MediumScene& shown) {
@@ -57,7 +57,7 @@ void makeFromVolume(const SceneOptions& options, SimdTarget simd, Progress& prog
     std::shared_ptr<const GreyVolume> field;
     if (!colon.study.empty())
         field = std::make_shared<GreyVolume>(std::move(world.colon().study));
-    else  // what the scene holds already, which lives as long
+    else  // field that the scene already holds and that lives as long
         field = std::shared_ptr<const GreyVolume>(std::shared_ptr<void>(), &colon.volume.field);
     const glm::dvec3 size = glm::dvec3(field->frame.size) * field->frame.spacing;
     shown.transfer = options.medium.medium;

@@ -15,7 +15,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kHeadLampCone = 2.2;  // radians: wider than what is seen
+constexpr double kHeadLampCone = 2.2;  // radians: wider than the field of view
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// What the command line says of a medium: checked, and put into a scene.
+// Options of a medium: checked, and applied to a scene.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,10 +10,10 @@
 
 namespace stereonav {
 
-// All that can be checked without the scene: files and names. Throws Error.
+// Checks everything that needs no scene: files and names. Throws Error.
 void checkMediumOptions(const SceneOptions& options);
 
-// Model, phase function, light and fineness; what is not given stays. Throws Error.
+// Sets model, phase function, light and resolution; options that are not given change nothing. Throws Error.
 void applyMediumOptions(const MediumOptions& options, MediumScene& scene);
 
 }  // namespace stereonav

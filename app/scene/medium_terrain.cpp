@@ -1,4 +1,4 @@
-// Heights are copied onto a grid of one spacing; colours are read where they are, in the scene's texture.
+// Heights are resampled to a square grid; colours are read in place from the scene's texture.
 #include "app/scene/medium_terrain.h"
 
 #include <fmt/format.h>
@@ -19,17 +19,17 @@
 namespace stereonav {
 namespace {
 
-constexpr double kGroundOpacity = 0.9;  // of a layer one sample spacing thick, or kSoftSlices slices
-constexpr double kSoftSlices = 3;       // fewer, and each slice shows as a terrace
-constexpr double kThickness = 0.02;     // of the longer side: how far down the ground is solid
-constexpr double kTaper = 0.5;          // sample spacings over which it begins at least
-// Sines of the sun's elevation: from the one on faces are as above, towards the other softer.
+constexpr double kGroundOpacity = 0.9;  // of a layer as thick as one sample spacing, or as kSoftSlices slices
+constexpr double kSoftSlices = 3;       // with fewer each slice shows as a terrace
+constexpr double kThickness = 0.02;     // share of the longer side down to which the ground is solid
+constexpr double kTaper = 0.5;          // least height of the taper in sample spacings
+// Sines of the sun's elevation: from kHighSun on the taper is as above; it grows towards kLowestSun.
 constexpr double kHighSun = 0.5, kLowestSun = 0.1;
-constexpr double kMistTaper = 0.3;  // of the mist's thickness
+constexpr double kMistTaper = 0.3;  // share of the mist's thickness
 constexpr float kMistAlbedo = 0.97f;
-constexpr glm::vec3 kMistColor{0.62f};  // beside ground whose colours are as the eye is used to them
+constexpr glm::vec3 kMistColor{0.62f};  // grey that suits ground in colours the eye is used to
 
-// Heights of a grid with the same spacing both ways, row 0 southernmost.
+// Returns heights on a grid with the same spacing both ways, row 0 southernmost.
 Plane<float> heightsOf(const Heightfield& ground, double spacing) {
     const glm::dvec2 extent = ground.spacing() * glm::dvec2(ground.width() - 1, ground.height() - 1);
     const auto side = [&](double length) { return static_cast<int>(std::lround(length / spacing)) + 1; };
@@ -42,8 +42,8 @@ Plane<float> heightsOf(const Heightfield& ground, double spacing) {
     return heights;
 }
 
-// White: the colour is the place's. Light that scatters in the ground goes no further than light that falls
-// straight in.
+// Returns a white transfer function, since the colour comes from the texture. Scattered light reaches no
+// deeper into the ground than direct light.
 MediumTransfer groundTransfer(const Heightfield& ground, double length) {
     MediumMaterial material;
     material.color = glm::vec3(1.0f);
@@ -65,10 +65,10 @@ HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& option
     layer.originY = ground.originWorld().y;
     layer.levels.push_back(heightsOf(ground, layer.spacing));
     layer.below = kThickness * std::max(extent.x, extent.y);
-    // A face thinner than slices are apart, or the light's texels wide, shows them as terraces.
+    // Faces thinner than the distance of slices or the width of light texels would show as terraces.
     const double slice = glm::length(extent) / sweep.slices;
     const double step = std::max(slice, glm::length(extent) / sweep.lightSize);
-    // Light that comes in low goes through more of it, and would end within a part of a texel: ripples.
+    // Low light crosses more of the face, and would end within a part of a texel: ripples.
     const double low = std::max(std::abs(std::sin(terrain.look.sunElevation)), kLowestSun);
     layer.taper = std::min(std::max(kTaper * layer.spacing, step) * (kHighSun / std::min(low, kHighSun)),
                            0.5 * layer.below);
@@ -76,7 +76,7 @@ HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& option
     const MediumTransfer transfer = ownColors
                                         ? groundTransfer(ground, std::max(layer.spacing, kSoftSlices * slice))
                                         : findMediumTransfer(options.medium);
-    if (ownColors) {  // of the scene, which lives as long
+    if (ownColors) {  // colours of the scene, which lives as long
         layer.color = std::shared_ptr<const ColorTexture>(std::shared_ptr<void>(), &terrain.color);
         layer.colorSpacing = ground.spacing();
     }
@@ -86,7 +86,7 @@ HeightLayer groundLayer(const TerrainScene& terrain, const MediumOptions& option
     return layer;
 }
 
-// From below the lowest ground up to the top, everywhere the same.
+// Returns a uniform layer from below the lowest ground up to the top of the mist.
 HeightLayer mistLayer(const TerrainScene& terrain, const Mist& mist) {
     const Heightfield& ground = terrain.ground;
     if (!(mist.top > ground.minHeight()))
@@ -106,9 +106,9 @@ HeightLayer mistLayer(const TerrainScene& terrain, const Mist& mist) {
     layer.taper = kMistTaper * layer.below;
     MediumMaterial material;
     material.color = kMistColor;
-    // The tapers take away half of their part each.
+    // Each taper halves the extinction of its part.
     material.opacity = -std::expm1(-mist.opticalDepth / (1 - kMistTaper));
-    // Diffusion: tau_i = tau sqrt(3 (1 - albedo)).
+    // Diffusion uses tau_i = tau sqrt(3 (1 - albedo)).
     material.transport = glm::vec3(std::exp(-static_cast<float>(mist.opticalDepth / (1 - kMistTaper)) *
                                             std::sqrt(3.0f * (1.0f - kMistAlbedo))));
     const double margin = 1 + layer.below;

@@ -8,12 +8,12 @@
 
 namespace stereonav {
 
-// The ground as a layer in its own colours, read at the place from the scene's texture, or under a transfer
-// function over the height; with --mist a second layer. The ground begins as gradually as the sweep is
-// coarse. The scene must outlive it. Throws Error.
+// Returns the ground as a layer in its own colours, read in place from the scene's texture, or under a
+// transfer function over the height; with --mist a second layer. The coarser the sweep, the more gradually
+// the ground begins. The scene must outlive the medium. Throws Error.
 Medium terrainMedium(const TerrainScene& terrain, const MediumOptions& options, const SweepSetting& sweep);
 
-// The scene's sky by a unit world direction, linear RGB, bilinear between the map's texels.
+// Returns the scene's sky in a unit world direction, linear RGB, bilinear between texels.
 glm::vec3 skyAt(const SkyMap& sky, const glm::dvec3& direction);
 
 }  // namespace stereonav

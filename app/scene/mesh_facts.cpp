@@ -1,4 +1,4 @@
-// A mesh as `info` and the report describe it.
+// Facts of a mesh for `info` and the report.
 #include <fmt/format.h>
 
 #include "app/scene/scene_facts.h"

@@ -1,4 +1,4 @@
-// Meshes: glTF files.
+// The type of scenes for meshes: glTF files.
 #include "app/scene/file_glance.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/scene_type.h"
@@ -10,7 +10,7 @@
 namespace stereonav {
 namespace {
 
-constexpr SunPlace kSun{225 * kRadians, 45 * kRadians};  // over the left shoulder of who looks north
+constexpr SunPlace kSun{225 * kRadians, 45 * kRadians};  // over the left shoulder of a viewer who looks north
 
 bool isMesh(const std::string& file) {
     return hasGltfExtension(file);

@@ -6,11 +6,11 @@
 namespace stereonav {
 namespace {
 
-constexpr int kLookWidth = 64;      // pixels of the picture that tells of the room
-constexpr double kSettling = 60.0;  // seconds until nothing changes any more
-constexpr double kStep = 1.0;       // seconds, no more at once
+constexpr int kLookWidth = 64;      // width of the picture that measures the room
+constexpr double kSettling = 60.0;  // time after which nothing changes any more
+constexpr double kStep = 1.0;       // seconds, longest step
 
-// The same frustum, whatever is rounded.
+// Returns a lens of few pixels with exactly the same frustum.
 Lens smallOf(const Lens& whole) {
     Lens lens = whole;
     lens.width = std::min(whole.width, kLookWidth);
@@ -31,7 +31,7 @@ void NarrowedEyes::step(const Pose& head, double free, const RoomSeen& room, dou
 }
 
 StereoSetting NarrowedEyes::at(const Pose& head, double time) {
-    // A medium's own depths are somewhere within it; where the room ends its wall says.
+    // Depths of a medium lie somewhere within it; the end of the room is given by its wall.
     const EyeRenderer* const seen = mRoom ? mRoom->wallForPictures() : nullptr;
     if (!seen) return mScene.stereo;
     const EyeView view = makeEyeView(head, smallOf(mScene.lens));

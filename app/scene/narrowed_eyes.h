@@ -1,5 +1,5 @@
-// Eyes of pictures and videos that come together where the window's do: where the room is narrow. They never
-// go wider apart than the scene has them.
+// Eyes of pictures and videos, which come together in narrow rooms like those of the window. They never go
+// farther apart than the scene sets them.
 #pragma once
 
 #include "engine/image/eye_image.h"
@@ -11,19 +11,19 @@ namespace stereonav {
 
 class NarrowedEyes {
 public:
-    // Those of the scene as they are, where it says (RoomAround::wallForPictures).
+    // Keeps the scene's eyes unchanged where it has no wall for pictures (RoomAround::wallForPictures).
     explicit NarrowedEyes(const Scene& scene) : mScene(scene), mRoom(scene.offered<RoomAround>()) {}
 
-    // At a pose at so many seconds: settled at the first one, and from there as slowly as in the window.
-    // Casts a small picture.
+    // Returns the eyes at a pose and a time in seconds: settled at the first call, then changing as slowly as
+    // in the window. Casts a small picture.
     StereoSetting at(const Pose& head, double time);
 
 private:
     void step(const Pose& head, double free, const RoomSeen& room, double dt);
 
     const Scene& mScene;
-    const RoomAround* mRoom;   // null: they stay as they are
-    StereoFollower mFollower;  // empty before the first
+    const RoomAround* mRoom;   // null: the eyes stay unchanged
+    StereoFollower mFollower;  // empty before the first call
     ComfortLimit mComfort;
     StereoSetting mNow;
     double mTime = 0;

@@ -12,8 +12,8 @@ namespace stereonav {
 namespace {
 
 constexpr double kFov = 40 * kRadians;
-constexpr double kFraming = 0.85;      // of the distance at which a ball around the bounds fills the picture
-constexpr double kExtentSeconds = 10;  // at normal speed
+constexpr double kFraming = 0.85;      // share of the distance where a ball around the bounds fills the view
+constexpr double kExtentSeconds = 10;  // time to cross the extent at normal speed
 
 }  // namespace
 

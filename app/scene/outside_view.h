@@ -1,4 +1,4 @@
-// Views and flight for what is looked at from outside and may be entered: a medium, a mesh.
+// Views and flight for scenes that are seen from outside and may be entered: media and meshes.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,12 +10,12 @@
 
 namespace stereonav {
 
-// Lens, eyes, start and flight of `scene`: a ball around the box from low to high (world, metres) fills the
-// picture, seen northwards from a little above, and the flight goes around it once.
-// flight: what messages call it, "the flight around the medium".
+// Sets lens, eyes, start and flight of `scene`: a ball around the box from low to high (world, metres) fills
+// the picture, seen northwards from a little above, and the flight goes around it once. flight: its name in
+// messages, "the flight around the medium".
 void seeFromOutside(const glm::dvec3& low, const glm::dvec3& high, const std::string& flight, Scene& scene);
 
-// Without ground or walls. extent: metres, crossed in ten seconds at normal speed, > 0.
+// Returns a flight without ground or walls. extent: metres, crossed in ten seconds at normal speed, > 0.
 std::unique_ptr<Flight> freeFlight(const Pose& home, double extent);
 
 }  // namespace stereonav

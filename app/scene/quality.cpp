@@ -8,7 +8,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kCalibrationFrames = 15;  // of the scene's flight, beside the start pose
+constexpr int kCalibrationFrames = 15;  // frames of the scene's flight, in addition to the start pose
 
 bool wantsQuality(const QualityOptions& q) {
     return q.quality || q.targetPsnr_db || q.target_ms;

@@ -1,5 +1,5 @@
-// The quality dial: from --quality, --target-psnr and --target-ms to how the right eye is made and which of
-// its warped pixels are cast as well.
+// The quality dial: from --quality, --target-psnr and --target-ms to the method of the right eye and the
+// warped pixels that are cast in addition.
 #pragma once
 
 #include <optional>
@@ -15,21 +15,20 @@
 
 namespace stereonav {
 
-// Nothing where none of the options is given. Else measures the scene, on frames of its own flight cast in
-// full: what error is to be expected of each way of making the right eye and, where a time is the target,
-// what it takes; then plans (engine/stereo/quality_plan.h). method: as named by the user, which is then kept,
-// or "auto". Throws Error, Cancelled.
+// Returns the plan (engine/stereo/quality_plan.h); empty where none of the options is given. Measures the
+// scene on frames of its own flight, cast in full: the expected error of each method and, for a time as
+// target, its cost. method: one that is kept, or "auto". Throws Error, Cancelled.
 std::optional<QualityPlan> qualityOf(const SceneOptions& options, const Scene& scene,
                                      const std::string& method, Progress& progress);
 
-// Rays at edges, as asked for, or as they are by default: kDefaultEdgeRays where rays are cast and the
-// picture is not to have more of them everywhere, or light traced for each pixel.
+// Returns the rays at edges that the options ask for, or the default: kDefaultEdgeRays where rays are cast,
+// unless the picture gets more rays everywhere or its light is traced for each pixel.
 EdgeSetting edgesOf(const SceneOptions& options, const Scene& scene, const RayOptions& rays = {});
 
-// What a picture of so many rays takes, of what one of one ray does.
+// Returns the bytes of a picture with so many rays, given those of a picture with one ray.
 PixelBytes withRays(PixelBytes each, const RayOptions& rays);
 
-// The frames that a scene is measured on: its start pose and some of its flight.
+// Returns the frames that a scene is measured on: its start pose and some frames of its flight.
 std::vector<StereoViews> calibrationViews(const Scene& scene);
 
 }  // namespace stereonav

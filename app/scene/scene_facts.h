@@ -1,4 +1,4 @@
-// What scenes are made of, as facts: what Scene::describe() is put together from.
+// Facts of scenes by their content: the parts of Scene::describe().
 #pragma once
 
 #include <cstddef>
@@ -12,26 +12,27 @@
 
 namespace stereonav {
 
-Facts factsOfMesh(const Scene& scene);     // of one that offers const MeshRenderer
-Facts factsOfTerrain(const Scene& scene);  // of one that offers const TerrainScene
-Facts factsOfVolume(const Scene& scene);   // of one that offers const ColonScene
-// Of one that offers MediumScene: makes a frame at the start pose, for what the sweep then holds.
+Facts factsOfMesh(const Scene& scene);     // scene has to offer const MeshRenderer
+Facts factsOfTerrain(const Scene& scene);  // scene has to offer const TerrainScene
+Facts factsOfVolume(const Scene& scene);   // scene has to offer const ColonScene
+// Returns the facts of a scene that offers MediumScene. Makes a frame at the start pose, for the sweep's
+// memory.
 Facts factsOfMedium(const Scene& scene);
 
-// "curvature", of ground over a round Earth: how it sinks, the Earth's radius and the refraction. None of
-// other scenes.
+// Returns "curvature" for ground over a round Earth: its drop, the Earth's radius and the refraction. Empty
+// for other scenes.
 std::optional<Fact> factOfCurvature(const Scene& scene);
 
-// What holds how much memory; nothing that the scene does not have is named.
+// A part of the scene and its memory; parts that the scene does not have are left out.
 struct Held {
     std::string what;
     std::size_t bytes = 0;
 };
-// Adds "bytes", their sum, and "held", the parts, for JSON alone. Returns the same for people, who read it
-// after other facts: "32.1 MB: values 20.0, cells 12.1".
+// Adds "bytes", the sum, and "held", the parts, for JSON only. Returns the same as text, which follows other
+// facts: "32.1 MB: values 20.0, cells 12.1".
 std::string addHeld(Facts& facts, const std::vector<Held>& held);
 
-// A count as facts have it.
+// Returns a count as a number for facts.
 inline std::int64_t countOf(std::size_t count) {
     return static_cast<std::int64_t>(count);
 }

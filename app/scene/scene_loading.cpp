@@ -22,7 +22,7 @@
 namespace stereonav {
 namespace {
 
-// Of what is named to be read: no pipe or device, from which nothing may ever come.
+// Throws Error for an input that is a pipe or device: reading it might never end.
 void checkSource(const NamedPlace& input) {
     std::error_code code;
     if (input.place.empty() || std::filesystem::is_directory(input.place, code)) return;
@@ -33,7 +33,7 @@ void checkSource(const NamedPlace& input) {
     }
 }
 
-// "" where it is no file's name.
+// Returns the file of a transfer function; "" for a function that is given as text.
 std::string transferFileOf(const SceneOptions& options) {
     return isCurveText(options.volume.transfer) ? "" : options.volume.transfer;
 }
@@ -134,8 +134,8 @@ void adjustViews(const SceneOptions& options, Scene& scene) {
 }
 
 std::optional<FramePlan> planScene(const Scene& scene) {
-    // From the middle of the flight outwards: of a slow scene the first ones tell, and its ends are unlike
-    // the rest of it.
+    // Poses are ordered from the middle of the flight outwards: for a slow scene the first ones decide, and
+    // its ends differ from the rest.
     constexpr int kPosesAlongTheFlight = 7, kOrder[] = {3, 1, 5, 2, 4};
     std::vector<TimedPose> poses{{scene.startPose, 0}};
     if (!scene.path.samples().empty()) {
@@ -144,7 +144,7 @@ std::optional<FramePlan> planScene(const Scene& scene) {
         for (const int n : kOrder) poses.push_back(flight[std::min<std::size_t>(n, flight.size() - 1)]);
     }
     std::vector<StereoViews> views;
-    for (const TimedPose& pose : poses)  // as render, play and compare have the eyes
+    for (const TimedPose& pose : poses)  // same eyes as render, play and compare
         views.push_back(makeStereoViews(pose.pose, scene.lens, NarrowedEyes(scene).at(pose.pose, pose.time)));
     return scene.frames().measure(views);
 }

@@ -14,8 +14,7 @@
 namespace stereonav {
 namespace {
 
-// Studies are sent zipped; what is in an archive is not looked for, but for tiles of SRTM, which are read as
-// they are sent.
+// Throws Error for archives, in which studies are often sent. Zipped SRTM tiles are read as they are.
 void refuseArchive(const std::string& name) {
     if (name.ends_with(".hgt.zip") || name.ends_with(".HGT.ZIP")) return;
     std::error_code code;
@@ -33,7 +32,7 @@ void refuseArchive(const std::string& name) {
 
 }  // namespace
 
-// Elevation models have no mark of their own: any file that is nothing else may be one.
+// Elevation models have no common signature, so their type comes last: it owns all remaining files.
 std::span<const SceneType* const> sceneTypes() {
     static const std::array<const SceneType*, 4> types{&builtInMediumType(), &volumeType(), &meshType(),
                                                        &terrainType()};

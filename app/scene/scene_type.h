@@ -1,5 +1,5 @@
-// The types of scenes that there are: what is theirs, and what the program makes of it. A new type is a
-// SceneType in a file of its own and a line in scene_type.cpp.
+// The types of scenes, with their properties and functions. A new type is a SceneType in a file of its own
+// and a line in scene_type.cpp.
 #pragma once
 
 #include <memory>
@@ -20,27 +20,29 @@ namespace stereonav {
 class ShownMedium;  // app/scene/shown_medium.h
 
 struct SceneType {
-    std::string_view noun;                       // as messages call one
-    std::vector<std::string_view> builtIn = {};  // names that are no files
-    // Whether a file or folder, which is there, is its own; asked in the order of sceneTypes().
-    bool (*owns)(const std::string& file) = nullptr;  // null: none is
-    // Where its own lies below a folder that holds nothing itself, as advice; "" where it does not. Null: it
-    // is not looked for.
+    std::string_view noun;                       // noun for messages
+    std::vector<std::string_view> builtIn = {};  // names of scenes that are not files
+    // Returns whether an existing file or folder is of this type; asked in the order of sceneTypes(). Null:
+    // the type has no files.
+    bool (*owns)(const std::string& file) = nullptr;
+    // Returns, as advice, where a folder without scenes has files of this type in folders below it; "" where
+    // it has none. Null: subfolders are not searched.
     std::string (*below)(const std::string& folder) = nullptr;
-    // By which options of it are told, however it is shown: cast and as a medium, where it can be both.
+    // Returns the types for the choice of options: the one as a surface and the one as a medium, where a
+    // scene can be both.
     SceneSet (*optionsFor)(const std::string& scene) = nullptr;
-    // Files that a file of this type names. Null: none.
+    // Returns the files that a file of this type names. Null: it names none.
     std::vector<NamedPlace> (*filesOf)(const SceneOptions& options) = nullptr;
-    // What a file of it is, by its headers: a bounded read of what is there. Null: nothing is known before it
-    // is loaded. Throws Error, Cancelled.
+    // Returns facts from a file's headers by a bounded read. Null: nothing is known before loading. Throws
+    // Error, Cancelled.
     Facts (*glance)(const std::string& file, Progress& progress) = nullptr;
-    // Whose rays are cast. Null: it is shown as a medium only. Throws Error, Cancelled.
+    // Loads a scene whose rays are cast. Null: the type is shown as a medium only. Throws Error, Cancelled.
     std::unique_ptr<Scene> (*load)(const SceneOptions& options, SimdTarget simd,
                                    Progress& progress) = nullptr;
-    // Views, flight and medium into `scene`, which has not begun. Throws Error, Cancelled.
+    // Sets views, flight and medium of `scene`, which has not begun. Throws Error, Cancelled.
     void (*makeMedium)(const SceneOptions& options, SimdTarget simd, Progress& progress,
                        ShownMedium& scene) = nullptr;
-    bool hasGround = false, hasLine = false;  // for meshes of it; for the way through it
+    bool hasGround = false, hasLine = false;  // ground to make meshes of; a line to fly along
 };
 
 const SceneType& meshType();
@@ -50,10 +52,11 @@ const SceneType& builtInMediumType();
 
 std::span<const SceneType* const> sceneTypes();
 
-// Whether it is the name of one that is no file, whatever lies in the present folder.
+// Returns whether the name is that of a built-in scene, even if a file in the working folder has it too.
 bool isBuiltIn(const std::string& name);
 
-// That which a name stands for. Throws Error for a name of nothing, with what can be named.
+// Returns the type of a scene by its name. Throws Error for an unknown name, with the names that are
+// possible.
 const SceneType& sceneTypeNamed(const std::string& name);
 
 }  // namespace stereonav

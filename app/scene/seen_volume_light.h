@@ -1,5 +1,5 @@
-// Light of a volume that goes on while one looks: worked out where it is seen, or a sky over baked transfer
-// that turns.
+// Light of a volume that changes while it is shown: computed where it is seen, or a turning sky over baked
+// transfer.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,14 @@
 
 namespace stereonav {
 
-// Of one of the two; the other is null. Keys turn clockwise, as the sun goes; --turn and harmonics the other
-// way.
+// Holds one of the two; the other is null. Keys turn clockwise, like the sun; --turn and harmonics turn the
+// other way.
 class SeenVolumeLight final : public SeenLight, public TurningLight {
 public:
     SeenVolumeLight(std::shared_ptr<LazyLight> lazy, std::shared_ptr<TurningSky> sky)
         : mLazy(std::move(lazy)), mSky(std::move(sky)) {}
 
-    // Whether it is a TurningLight.
+    // Returns whether the light can turn.
     bool turns() const { return mSky || mLazy->turns(); }
 
     void seen(const EyeView& view, const EyeImage& image) override;

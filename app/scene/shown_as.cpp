@@ -40,7 +40,7 @@ std::optional<SceneSet> sceneTypeOf(const SceneOptions& options) {
     try {
         const SceneSet all = sceneTypeNamed(options.scene).optionsFor(options.scene);
         const SceneSet asked = shownAs(options).swept ? all & scene_type::kMedia : all & ~scene_type::kMedia;
-        return asked != 0 ? asked : all;  // a mesh with --medium is a mesh, which has none
+        return asked != 0 ? asked : all;  // a mesh with --medium stays a mesh, which has no media
     } catch (const Error&) {
         return std::nullopt;
     }

@@ -78,7 +78,7 @@ void ShownMedium::begin(SimdTarget target) {
     offer<LightModels>(*mModels);
     mPlace = std::make_unique<Place>(*mFrames);
     offer<SweepPlace>(*mPlace);
-    // A layer over a ground is thin: half of the slices or of the light's texels leave 24 dB of its picture
+    // Layers over ground are thin: half the slices or half the light's texels give only 24 dB
     // (docs/measured.md).
     if (mMedium->medium.layers().empty()) {
         mEffort = std::make_unique<Effort>(*mFrames);

@@ -1,5 +1,5 @@
-// A medium that is swept, as a scene to fly around or in. What it is made of (a terrain, a volume) is held by
-// it, and offers through it what it can.
+// A swept medium as a scene to fly around or in. It holds its source (a terrain, a volume) and offers the
+// source's capabilities.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@
 
 namespace stereonav {
 
-// Offers MediumScene, SweptFrames, LightModels, SweepPlace; as they are there, FrameEffort, Animation,
-// TurningLight; and what alsoOffer() was told.
+// Offers MediumScene, SweptFrames, LightModels and SweepPlace; FrameEffort, Animation and TurningLight where
+// they exist; and the capabilities given to alsoOffer().
 class ShownMedium final : public Scene {
 public:
     using MakeFlight = std::function<std::unique_ptr<Flight>()>;
@@ -24,9 +24,9 @@ public:
     ShownMedium() : mMedium(std::make_unique<MediumScene>()) {}
     ~ShownMedium() override;
 
-    // Before begin(), after which nothing of it changes but its look:
+    // Access before begin(), after which nothing but the look changes.
     MediumScene& medium() { return *mMedium; }
-    // What it is made of; lives as long as this.
+    // Keeps the medium's source alive as long as this scene.
     template <typename T>
     T& hold(std::unique_ptr<T> what) {
         T& held = *what;
@@ -38,10 +38,10 @@ public:
         offer<C>(capability);
     }
     void flyAs(MakeFlight make) { mMakeFlight = std::move(make); }
-    void flyFreely();  // without ground or walls: one may enter; from startPose as it is when a flight begins
+    void flyFreely();  // flight without ground or walls, which may enter the medium; begins at startPose
     void alsoDescribe(std::function<Fact()> describe) { mDescribe = std::move(describe); }
     void checkBy(CheckPath check) { mCheckPath = std::move(check); }
-    // Offered where the medium's own light does not turn; held.
+    // Offers `light` where the medium's own light does not turn; held.
     void turnInstead(TurningLight& light) { mOtherLight = &light; }
 
     void begin(SimdTarget target);
@@ -60,18 +60,18 @@ private:
     class Effort;
     class Sun;
 
-    std::vector<std::shared_ptr<void>> mHeld;  // first: the rest refers to it
+    std::vector<std::shared_ptr<void>> mHeld;  // first: the other members refer to it
     std::unique_ptr<MediumScene> mMedium;
     std::unique_ptr<SweptFrames> mFrames;
     std::unique_ptr<LightModels> mModels;
     std::unique_ptr<SweepPlace> mPlace;
     std::unique_ptr<FrameEffort> mEffort;
-    std::unique_ptr<TurningLight> mSun;  // of parallel light; else null
+    std::unique_ptr<TurningLight> mSun;  // for parallel light; else null
     TurningLight* mOtherLight = nullptr;
     Animation mAnimation;
     MakeFlight mMakeFlight;
     CheckPath mCheckPath;
-    std::function<Fact()> mDescribe;  // what it is made of; null: nothing that is a scene itself
+    std::function<Fact()> mDescribe;  // facts of the source; null: it is not a scene
 };
 
 }  // namespace stereonav

@@ -9,11 +9,12 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSeparationShare = 45;  // of the distance: depths span about the half of it
+constexpr double kSeparationShare = 45;  // distance over separation: the depths span half of it
 constexpr float kAmbient = 0.1f;
-constexpr double kWrap = 1;  // half of all views look at sides that the sun does not reach
+constexpr double kWrap = 1;  // half of all views see sides that the sun does not reach
 
-// Clockwise from north (+y), above the horizontal; also from below, for what hangs free.
+// Returns the direction for an azimuth clockwise from north (+y) and an elevation; negative elevations are
+// allowed, for hanging objects.
 glm::dvec3 directionTo(const SunPlace& place) {
     const double level = std::cos(place.elevation);
     return {level * std::sin(place.azimuth), level * std::cos(place.azimuth), std::sin(place.elevation)};

@@ -11,7 +11,7 @@ namespace stereonav {
 // Offers RayCast, const MeshRenderer, SceneBox and a TurningLight.
 class ShownMesh final : public Scene {
 public:
-    // sun: where light comes from.
+    // sun: direction of the light.
     ShownMesh(MeshCaster caster, const SunPlace& sun, SimdTarget target);
 
     FrameMaker& frames() const override { return mFrames; }

@@ -20,7 +20,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kCrossingSeconds = 45.0;  // to cross the terrain at normal speed
+constexpr double kCrossingSeconds = 45.0;  // time to cross the terrain at normal speed
 
 FlightSetting flightSettingOf(const TerrainScene& terrain) {
     const glm::dvec2 held = terrain.ground.spacing(),
@@ -72,7 +72,7 @@ std::optional<glm::dvec2> TerrainSurvey::worldAt(const PlaceOnEarth& place) cons
     return mTerrain.earth->worldAt({place.latitude, place.longitude});
 }
 
-// Along the meridian, to the north and from the south.
+// Returns the azimuth of true north in the world, from a step to the north and one to the south.
 double TerrainSurvey::northAt(const glm::dvec3& world) const {
     constexpr double kStep = 1e-5;  // radians: 64 m
     const std::optional<PlaceOnEarth> place = placeAt(world);
@@ -109,7 +109,7 @@ Facts TerrainSurvey::readPlace(const glm::dvec3& world) const {
     return std::move(list.facts());
 }
 
-// Over baked light.
+// Turns the sun over baked light.
 class ShownTerrain::Sun final : public TurningLight {
 public:
     explicit Sun(GroundColors& colors) : mColors(colors) {}
@@ -123,8 +123,8 @@ private:
     GroundColors& mColors;
 };
 
-// Over ground in its own colours whose light is worked out meanwhile. All is called between frames but
-// changes().
+// Turns the sun over ground in its own colours whose light is computed meanwhile. All functions but changes()
+// are called between frames.
 class ShownTerrain::Daylight final : public TurningLight, public SeenLight {
 public:
     Daylight(TerrainScene& terrain, TerrainRenderer& renderer, GroundColors& colors)
@@ -134,14 +134,14 @@ public:
     void turnTo(const SunPlace& to) override {
         std::unique_ptr<LitGround> better = mBaker.take();
         const bool turned = to != place(), fresh = better != nullptr;
-        if (fresh) std::swap(better, mShown);  // the one before goes when it is not shown any more
+        if (fresh) std::swap(better, mShown);  // the earlier light is freed when it is no longer shown
         if (turned && mShown && !mColors.painted())
             moveSun(mTerrain, to.azimuth, to.elevation);
         else if (turned)
-            mColors.turnSun(to);  // the plain sun's light until there is better
+            mColors.turnSun(to);  // plain sunlight until better light is there
         show(fresh);
     }
-    // The ground has other colours.
+    // Shows the light again after the ground's colours have changed.
     void colorsChanged() { show(true); }
 
     void seen(const EyeView&, const EyeImage&) override {
@@ -150,7 +150,7 @@ public:
     std::uint64_t changes() const override { return mBaker.count(); }
 
 private:
-    // fresh: it is not what the ground is shown in.
+    // fresh: whether mShown is not on display yet.
     void show(bool fresh) {
         if (!mShown || mColors.painted()) return;
         const SunPlace sun = place();
@@ -168,7 +168,7 @@ private:
     TerrainDaylight mBaker;
 };
 
-// Pictures that did not wait for tiles are drawn again when these are there.
+// Redraws pictures that did not wait for tiles when these have arrived.
 class ShownTerrain::LateTiles final : public SeenLight, public LateDetail {
 public:
     explicit LateTiles(TerrainRenderer& renderer) : mRenderer(renderer) {}

@@ -20,17 +20,17 @@ namespace stereonav {
 class GroundPainting;
 class GroundSamples;
 
-// Over the ground, as its extent asks for. terrain: lives as long as the flight.
+// Returns a flight over the ground, with a speed that suits its extent. The terrain must outlive it.
 std::unique_ptr<Flight> flightOver(const TerrainScene& terrain);
-// What a terrain says of lens, eyes, start and flight.
+// Sets lens, eyes, start and flight of a terrain.
 void setViews(const TerrainScene& terrain, Scene& scene);
 
-// What a terrain has however its frames are made: a map, a box, its place on the Earth, and what is to be
-// said of a place of it. terrain: lives as long, and does not move.
+// Capabilities of a terrain, whether it is cast or swept: a map, a box, its place on the Earth, and facts of
+// its places. The terrain must outlive this object and not move.
 class TerrainSurvey final : public MapFromAbove, public OnEarth, public PlaceReader, public LineMeasurer {
 public:
     explicit TerrainSurvey(const TerrainScene& terrain);
-    // Calls offer(capability) for each that it has.
+    // Calls offer(capability) for each of them.
     template <typename Offer>
     void offerAll(const Offer& offer) const {
         offer(static_cast<const MapFromAbove&>(*this));
@@ -41,19 +41,20 @@ public:
     }
 
     MapPicture makeMap(int most, Progress& progress) const override;
-    // Of a terrain that says where it lies.
+    // Returns the place on the Earth, for a terrain that has one.
     std::optional<PlaceOnEarth> placeAt(const glm::dvec3& world) const override;
     std::optional<glm::dvec2> worldAt(const PlaceOnEarth& place) const override;
     double northAt(const glm::dvec3& world) const override;
     Facts readPlace(const glm::dvec3& world) const override;
-    // In heights of the file, whatever they are exaggerated by, at the finest samples; terrain_line.cpp. An
-    // area of more than kMostCoarseSamples of ground in tiles is measured at coarser ones, and that is said.
+    // Measures in heights of the file, without exaggeration, at the finest samples (terrain_line.cpp). An
+    // area of more than kMostCoarseSamples of ground in tiles is measured at coarser samples, and a note says
+    // so.
     MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed,
                             Progress& progress) const override;
     Facts sight(const glm::dvec3& from, const glm::dvec3& to, double height) const override;
 
 private:
-    // The finest samples, of which a part has so many; heights of the file.
+    // Returns the finest samples, of which the part to measure has `count`; heights of the file.
     GroundSamples samplesFor(double count) const;
     void addSpacing(const GroundSamples& samples, Facts& facts) const;
 
@@ -61,17 +62,17 @@ private:
     SceneBox mBox;
 };
 
-// Offers RayCast, const TerrainScene, MapFromAbove, SceneBox, PlaceReader, LineMeasurer; as they are there,
-// OnEarth and, with baked light, a TurningLight. A tinted ground under the plain sun also offers light that
-// is worked out while one looks (terrain_daylight.h), and that turns: a TurningLight and a SeenLight.
+// Offers RayCast, const TerrainScene, MapFromAbove, SceneBox, PlaceReader and LineMeasurer; OnEarth where its
+// place is known; with baked light a TurningLight. A tinted ground under the plain sun also offers light that
+// is computed while it is shown (terrain_daylight.h) and can turn: a TurningLight and a SeenLight.
 class ShownTerrain final : public Scene {
 public:
-    // lightsItself: sky light and shadows may be worked out, from the first frame on that somebody shows to
+    // lightsItself: whether sky light and shadows may be computed, from the first frame on that is passed to
     // its SeenLight.
     ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsItself = false);
     ~ShownTerrain() override;
 
-    // Paints the ground in pictures that are shown: before the first. Offers a SurfacePaint that can be
+    // Paints the ground in pictures; to be called before the first. Offers a SurfacePaint that can be
     // exchanged (LivePaint), and a PaintLegend where something is painted now. Throws Error, Cancelled.
     void paintGround(const SceneOptions& options, Progress& progress);
 
@@ -93,11 +94,11 @@ private:
     RayCast mRays;
     mutable CastFrames mFrames;
     SurfacePaint mPaint;
-    std::shared_ptr<const PaintLegend> mLegend;  // of the first paint
+    std::shared_ptr<const PaintLegend> mLegend;  // legend of the first paint
     std::unique_ptr<GroundPainting> mPainting;   // null before paintGround()
-    std::unique_ptr<TurningLight> mSun;          // null: it stands in the colours
+    std::unique_ptr<TurningLight> mSun;          // null: the sun is fixed in the colours
     std::unique_ptr<Daylight> mDaylight;
-    std::unique_ptr<LateTiles> mTiles;  // null: pictures wait for all they need
+    std::unique_ptr<LateTiles> mTiles;  // null: pictures wait for all tiles they need
     std::unique_ptr<CoarseGround> mCoarse;
 };
 

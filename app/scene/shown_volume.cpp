@@ -19,10 +19,10 @@
 namespace stereonav {
 namespace {
 
-constexpr double kIsovalueSteps = 100;  // from the smallest value to the largest
-constexpr double kAirOfCt = -500;       // HU: with smaller values it is taken for CT
-constexpr int kAddedBorder = 1;         // voxels around a volume seen from outside, which are not the study's
-constexpr double kUsualOpacity = 0.95;  // of a translucent wall a millimetre: that of Wan et al. 2004
+constexpr double kIsovalueSteps = 100;  // steps from the smallest value to the largest
+constexpr double kAirOfCt = -500;       // HU: volumes with smaller values are taken for CT
+constexpr int kAddedBorder = 1;         // voxels added around a volume seen from outside
+constexpr double kUsualOpacity = 0.95;  // opacity of a translucent wall per millimetre, as in Wan et al. 2004
 
 void setTransfer(const SurfaceChange& change, const VolumeOptions& first, VolumeOptions& volume) {
     volume.transfer.clear();
@@ -35,7 +35,7 @@ void setTransfer(const SurfaceChange& change, const VolumeOptions& first, Volume
     if (volume.transfer.empty() && !volume.opacity) volume.opacity = kUsualOpacity;
 }
 
-// What has no effect is left out, since it would be refused.
+// Sets the ambient options; those without effect are removed, since they would be refused.
 void setAmbientOptions(const AmbientChoice& to, bool translucent, const VolumeOptions& first,
                        VolumeOptions& volume) {
     const bool modulated = translucent && !to.modulate.empty();
@@ -57,7 +57,7 @@ void setAmbientOptions(const AmbientChoice& to, bool translucent, const VolumeOp
     if (modulated && to.sigma > 0) volume.modulateSigma = to.sigma;
 }
 
-// What may be refused later is what is shown now.
+// Notes the present options as given, for later checks.
 void noteWhatIsShown(const VolumeOptions& volume, GivenOptions& given) {
     const auto note = [&](const char* key, bool is, const std::string& text, double number) {
         given.forget(key);
@@ -82,7 +82,7 @@ void noteWhatIsShown(const VolumeOptions& volume, GivenOptions& given) {
     note("modulate", volume.modulate != Modulation::None, nameOf(volume.modulate), 0);
 }
 
-// Of a colon what lies around the lumen alone: the cache has nothing else.
+// Returns the study's values; for a colon only around the lumen, since the cache has nothing else.
 std::shared_ptr<const StudyValues> valuesOf(const ColonScene& colon) {
     auto values = std::make_shared<StudyValues>();
     values->range = colon.isColon() ? colon.valuesFound : rangeOf(colon.volume.field);
@@ -141,7 +141,7 @@ void ShownVolume::setPaint(std::vector<std::shared_ptr<const EyePainter>> painte
     mPaint.set(mPainters);
 }
 
-// What is painted lies on one surface.
+// Offers paint for an opaque surface: paint lies on one surface.
 void ShownVolume::offerPaint() {
     const ColonInterior* const inside = mWorld->side().interior();
     if (!inside || mRenderer.translucent()) return;
@@ -188,7 +188,7 @@ void ShownVolume::setValues(const ShownValues* before) {
 
 void ShownVolume::setChoices() {
     mChoices.translucent = mRenderer.translucent();
-    mChoices.transfers = {""};  // that of the options, and those that go by names
+    mChoices.transfers = {""};  // the transfer function of the options, then those with names
     for (const TransferPreset& preset : transferPresets()) {
         mChoices.transfers.emplace_back(preset.name);
         if (mMade.volume.transfer == preset.name) mChoices.transfer = preset.name;
@@ -230,7 +230,7 @@ void ShownVolume::setAmbient() {
         to.ambientMethods.push_back(ambient.method);
 }
 
-// What is large and still holds is shared; light that is worked out while one flies goes on.
+// Large data that stay valid are shared; light that is computed during the flight goes on.
 std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progress& progress) const {
     SceneOptions options = mMade;
     applyChange(change, mFirst, options);
@@ -241,7 +241,7 @@ std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progres
         changedScene(mWorld->colon(), colonOptionsOf(options), changing), options);
     ColonScene& colon = made.world->colon();
     made.light = mLighting;
-    made.light.traced = nullptr;  // of pictures
+    made.light.traced = nullptr;  // for pictures only
     applyAmbient(options.volume, &mMade.volume, colon, occluding);
     made.light.modulateSigma =
         applyModulation(options.volume, &mMade.volume, mLighting.modulateSigma, colon, modulating);
@@ -252,7 +252,7 @@ std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progres
     scene->name = name;
     scene->lens = lens;
     scene->setPaint(mPainters);
-    scene->mChoices.ambientMethods = mChoices.ambientMethods;  // one that was given stays among them
+    scene->mChoices.ambientMethods = mChoices.ambientMethods;  // an estimate that was given stays in the list
     if (mLighting.lazy) mLighting.lazy->showSurface(isovalue);
     return scene;
 }

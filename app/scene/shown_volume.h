@@ -16,30 +16,30 @@
 
 namespace stereonav {
 
-// What a volume is lit by beside its look, shared by the scenes that one study is seen as.
+// The light of a volume beside its look, shared by the scenes of one study.
 struct VolumeLighting {
-    std::shared_ptr<LazyLight> lazy;      // worked out while it is shown; else null
-    std::shared_ptr<TracedLight> traced;  // of a picture's every pixel; else null
-    std::shared_ptr<TurningSky> sky;      // over baked transfer, where SceneOptions::skyTurns; else null
-    std::optional<double> modulateSigma;  // of opacity modulation, given or chosen; none: without
+    std::shared_ptr<LazyLight> lazy;      // computed while it is shown; else null
+    std::shared_ptr<TracedLight> traced;  // for every pixel of a picture; else null
+    std::shared_ptr<TurningSky> sky;      // sky over baked transfer, with SceneOptions::skyTurns; else null
+    std::optional<double> modulateSigma;  // given or chosen sigma of opacity modulation; empty: no modulation
 };
 
-// A volume and its light, read as options say, before it is decided how its frames are made.
+// A volume and its light, read from options, before it is decided how frames are made.
 struct LitVolume {
     std::unique_ptr<VolumeWorld> world;
     VolumeLighting light;
 };
 
-// Offers RayCast, SurfaceChoices, ShownValues and what its world has (VolumeWorld::offerAll); as they are
-// there, TurningLight, SeenLight, PictureLight; SurfacePaint and WallToSee of an opaque colon.
+// Offers RayCast, SurfaceChoices, ShownValues and its world's capabilities (VolumeWorld::offerAll);
+// TurningLight, SeenLight and PictureLight where they exist; SurfacePaint and WallToSee for an opaque colon.
 class ShownVolume final : public Scene {
 public:
-    // first: the options that the study was loaded with, made: those that this scene shows; the same at
-    // first. before: of a scene of the same study that this one is made of, null for the first.
+    // first: the options that the study was loaded with; made: the options of this scene, at first the same.
+    // before: the scene of the same study that this one is derived from, null for the first.
     ShownVolume(LitVolume volume, const SceneOptions& first, const SceneOptions& made, SimdTarget target,
                 const ShownValues* before = nullptr);
 
-    // Paints the wall in pictures that are shown: before the first, at most once.
+    // Paints the wall in pictures; to be called before the first, at most once.
     void setPaint(std::vector<std::shared_ptr<const EyePainter>> painters);
 
     FrameMaker& frames() const override;
@@ -63,14 +63,14 @@ private:
     RayCast mRays;
     ShownValues mValues;
     mutable CastFrames mFrames;
-    std::unique_ptr<SeenVolumeLight> mLight;  // that is worked out while one looks, or turns; else null
+    std::unique_ptr<SeenVolumeLight> mLight;  // light that is computed while it is shown, or turns; else null
     SurfaceChoices mChoices;
-    std::vector<std::shared_ptr<const EyePainter>> mPainters;  // by the options, also while translucent
+    std::vector<std::shared_ptr<const EyePainter>> mPainters;  // as the options say, also while translucent
     SurfacePaint mPaint;
-    std::unique_ptr<WallToSee> mWall;  // of a colon; else null
+    std::unique_ptr<WallToSee> mWall;  // for a colon; else null
 };
 
-// What the user changed, into `options`; `first`: those that the study was loaded with.
+// Applies the user's change to `options`; first: the options that the study was loaded with.
 void applyChange(const SurfaceChange& change, const SceneOptions& first, SceneOptions& options);
 
 }  // namespace stereonav

@@ -8,7 +8,7 @@
 namespace stereonav {
 namespace {
 
-// Millilitres: smaller pieces have no words, nor has what lies outside a body.
+// Millilitres below which a piece gets no description; neither does one outside the body.
 constexpr double kWorthWords = 0.02;
 
 AirPieces airOf(const SliceStudy& study, const SegmentationSetting& setting, Progress& progress) {

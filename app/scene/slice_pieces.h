@@ -1,4 +1,4 @@
-// The pieces of air in a study, or of a mask, as its slices show them.
+// Pieces of air in a study, or of a mask, for display in its slices.
 #pragma once
 
 #include "colon/segmentation/segmentation.h"
@@ -6,8 +6,8 @@
 
 namespace stereonav {
 
-// study: its grey values. Of CT the pieces are judged as when the colon was looked for, without choices; of a
-// mask they are what it holds. Throws Cancelled.
+// study: its grey values. Pieces of CT are judged as in the search for the colon, without choices; pieces of
+// a mask are those in the file. Throws Cancelled.
 SlicePieces slicePieces(const SliceStudy& study, const SegmentationSetting& setting, Progress& progress);
 
 }  // namespace stereonav

@@ -16,7 +16,7 @@
 namespace stereonav {
 namespace {
 
-// Of a ground that lies nowhere: the world's own coordinates.
+// Places of ground without a reference system: the world's own coordinates.
 class OwnPlaces final : public ReferencePlaces {
 public:
     std::optional<glm::dvec2> referenceAt(const glm::dvec2& world) const override { return world; }
@@ -44,7 +44,7 @@ SurveyGround generated(const SceneFile& file, Progress& progress) {
     return survey;
 }
 
-// Sets heights, in memory or in tiles, and gives what else is said of them.
+// Reads the heights, in memory or as tiles, and returns the other data of the elevation model.
 DemGrid readHeights(const SceneFile& file, SurveyGround& survey, Progress& progress) {
     if (goesIntoTiles(file, bytesOfSurvey)) {
         GroundInTiles tiled = readGroundInTiles(file, progress);

@@ -1,4 +1,4 @@
-// Lines and areas that a user names, as places of a ground.
+// Lines and areas that a user names, as places on a ground.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -10,25 +10,26 @@
 
 namespace stereonav {
 
-// A line over the ground as it is named: one of the three.
+// A line over the ground in one of three forms.
 struct SurveyLine {
-    std::vector<glm::dvec2> places;  // x, y in the reference system of the elevation model; empty: not given
-    std::string track, path;         // a GPX or GeoJSON file; a recorded flight
+    std::vector<glm::dvec2> places;  // x, y in the elevation model's reference system; empty: not given
+    std::string track, path;         // a GPX or GeoJSON file; a file of a flight
 };
 
 struct WorldLine {
     std::string name;
     bool closed = false;
-    std::vector<glm::dvec2> world;  // two places or more that differ, of areas three
+    std::vector<glm::dvec2> world;  // two or more different places; three or more for areas
 };
 
-// Files that are read, for messages.
+// Returns the files that are read, for messages.
 std::vector<NamedPlace> inputsOf(const SurveyLine& line);
 
-// Throws Error, naming option or file, where a place lies off the ground, or all are the same one.
+// Returns the line. Throws Error that names option or file where a place lies off the ground or all places
+// are equal.
 WorldLine lineOnGround(const SurveyGround& survey, const std::vector<glm::dvec2>& places, bool closed,
                        const char* option);
-// Those of the given one of the three ways.
+// Returns the lines of the form that was given.
 std::vector<WorldLine> linesOnGround(const SurveyGround& survey, const SurveyLine& line);
 
 }  // namespace stereonav

@@ -15,7 +15,7 @@
 namespace stereonav {
 namespace {
 
-// Samples of a level.
+// A rectangle of samples of one level.
 struct Window {
     int level = 0;
     glm::ivec2 low{0}, size{0};
@@ -32,7 +32,8 @@ Window windowAt(const GroundLevels& levels, int level, const glm::dvec2& world, 
     return {level, low, high - low + 1};
 }
 
-// A share of the memory: GDAL, which writes the result, takes some too.
+// Returns the finest window that fits into a share of the memory; GDAL, which writes the result, needs some
+// too.
 Window finestWindow(const GroundLevels& levels, const glm::dvec2& world, double reach) {
     constexpr double kShare = 0.8;
     const double room = kShare * availableMemory();
@@ -44,11 +45,11 @@ Window finestWindow(const GroundLevels& levels, const glm::dvec2& world, double 
     }
 }
 
-// Of the samples of a window; `whole` is that of all finest ones, north up.
+// Returns the grid of a window's samples; `whole` is the grid of all finest samples, north up.
 Georeference gridOf(const Georeference& whole, const Window& window) {
     const double step = 1 << window.level;
     const glm::dvec2 first = step * glm::dvec2(window.low), last = first + step * glm::dvec2(window.size - 1);
-    // Pixels of the finest grid, whose rows count from the north, at which this one's outer corner lies.
+    // Pixels of the finest grid, whose rows count from the north, at the outer corner of this one.
     const glm::dvec2 corner(first.x + 0.5 - 0.5 * step, whole.height - 0.5 - last.y - 0.5 * step);
     Georeference grid;
     grid.wkt = whole.wkt;

@@ -25,7 +25,7 @@ SunPlaceOnGround sunPlaceOf(const SurveyGround& survey) {
     const auto here = survey.earth->placeAt(middle);
     if (!here) fail("its middle has no longitude and latitude");
     SunPlaceOnGround place{*here, 0};
-    // A step of a hundredth of a degree, towards the pole that is farther away.
+    // True north is found by a step of a hundredth of a degree, towards the farther pole.
     EarthPlace beside = *here;
     const double step = (here->latitude > 0 ? -1 : 1) * 0.01 * std::numbers::pi / 180;
     beside.latitude += step;

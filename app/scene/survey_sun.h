@@ -1,4 +1,4 @@
-// The sun over ground that says where it lies.
+// The sun over ground with a known place on the Earth.
 #pragma once
 
 #include <vector>
@@ -13,11 +13,11 @@ struct SunPlaceOnGround {
     EarthPlace earth;
     double north = 0;
 };
-// Throws Error where the ground does not say.
+// Throws Error where the ground's place is not known.
 SunPlaceOnGround sunPlaceOf(const SurveyGround& survey);
 
-// The sun's places in the day that holds the time (seconds since 1970 in UTC), from midnight to midnight of
-// mean solar time at the place. step: seconds.
+// Returns the sun's places on the day of the given time (seconds since 1970 in UTC), from midnight to
+// midnight of local mean solar time. step: seconds.
 std::vector<SunOverGround> sunsOfDay(const SunPlaceOnGround& place, double time, double step);
 
 }  // namespace stereonav

@@ -21,7 +21,8 @@
 namespace stereonav {
 namespace {
 
-// Shadows and the sky at half the directions of a bake into a file, one bounce at half its rays.
+// Returns coarser settings than those of a bake into a file: half the directions for shadows and sky, one
+// bounce with half the rays.
 TerrainLightSettings settingsFor(const Heightfield& ground, double mostSamples) {
     TerrainLightSettings settings;
     settings.order = 3;
@@ -32,7 +33,7 @@ TerrainLightSettings settingsFor(const Heightfield& ground, double mostSamples) 
     return settings;
 }
 
-// What `bake` left for this ground, which is better than all that is worked out here.
+// Returns the light that `bake` made for this ground: it is better than any computed here.
 std::optional<TerrainLight> keptLight(const Heightfield& ground) {
     const std::filesystem::path file = terrainLightCache(ground);
     std::error_code code;
@@ -40,11 +41,11 @@ std::optional<TerrainLight> keptLight(const Heightfield& ground) {
     try {
         return loadTerrainLight(file, &ground);
     } catch (const Error&) {
-        return std::nullopt;  // whoever asks for it by --light auto is told
+        return std::nullopt;  // --light auto reports the error
     }
 }
 
-// Of the plain sun around each baked sample: the mean over the samples that are nearer to it than to others.
+// Returns plain sunlight for each baked sample: the mean over the samples that are nearest to it.
 std::vector<float> plainLight(const Heightfield& ground, const LightGrid& grid, const GroundLight& light) {
     std::vector<float> mean(grid.count(), 1.0f);
     const int half = grid.stride / 2;
@@ -118,13 +119,13 @@ void TerrainDaylight::give(std::unique_ptr<LitGround> lit) {
 
 void TerrainDaylight::work(const std::shared_ptr<const ColorTexture>& plain) {
     stepBehindTheWindow();
-    stepBehindTheWindow();  // and behind the thread that makes frames
+    stepBehindTheWindow();  // and after the thread that makes frames
     loopOnThisThreadAlone();
     interruptLoopsBy(&mStop);
     try {
         const Heightfield& ground = mTerrain.ground;
         const double samples = double(ground.width()) * ground.height();
-        // Three textures at once while one light takes the place of another.
+        // Three textures exist at once while new light replaces old.
         checkMemory("light of the ground", 3 * bytesOfTint(samples), "");
         TerrainLook unlit = mLook;
         unlit.ambient = 1;
@@ -152,7 +153,7 @@ void TerrainDaylight::work(const std::shared_ptr<const ColorTexture>& plain) {
             }
         }
     } catch (const std::exception&) {
-        // Ended with its scene, or no memory for it: the ground stays as it is.
+        // The scene has ended, or memory does not suffice: the ground keeps its light.
     }
     mDone = true;
 }

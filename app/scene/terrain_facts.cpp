@@ -1,4 +1,4 @@
-// A terrain as `info` and the report describe it.
+// Facts of a terrain for `info` and the report.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -29,12 +29,12 @@ std::string orNone(const std::string& text) {
     return text.empty() ? "none" : text;
 }
 
-// Six digits, and whole metres where there are more.
+// Returns a height with six digits, in whole metres where it has more.
 std::string heightText(double metres) {
     return std::abs(metres) < 1e6 ? fmt::format("{:.6g}", metres) : fmt::format("{:.0f}", metres);
 }
 
-// "4151 of 153036 in the file (nodata -32767), 4151 filled"
+// Returns "4151 of 153036 in the file (nodata -32767), 4151 filled".
 std::string missingText(const TerrainReport& report) {
     std::string text =
         report.sourceSamples == 0
@@ -48,7 +48,8 @@ std::string missingText(const TerrainReport& report) {
     return text;
 }
 
-// "EGM96 height, EGM96 geoid; heights in metres". The unit's own line says how long one is that is no metre.
+// Returns "EGM96 height, EGM96 geoid; heights in metres". The length of a unit other than the metre has a
+// line of its own.
 std::string verticalText(const TerrainReport& report) {
     const std::string& unit = report.heightUnit;
     const bool named = unit.find(" m each") != std::string::npos;
@@ -79,7 +80,7 @@ Facts factsOfTerrain(const Scene& scene) {
         return fmt::format("{:.6g} x {:.6g} m", size.x, size.y);
     };
     FactList list;
-    // People are not told of what a file did not need.
+    // Adds empty values for JSON only: people need not read of what the file did not need.
     const auto wherePresent = [&](const char* key, const std::string& value, const char* label) {
         if (value.empty())
             list.json(key, value);

@@ -1,4 +1,4 @@
-// Lines and areas on a terrain that is flown over.
+// Measures lines and areas on a terrain that is shown.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,9 +19,9 @@
 namespace stereonav {
 namespace {
 
-constexpr std::size_t kMostPlaces = 4000;  // of a line as it is drawn
+constexpr std::size_t kMostPlaces = 4000;  // largest number of places of a drawn line
 
-// Evenly thinned, first and last kept.
+// Returns an evenly thinned list with the same first and last elements.
 template <typename T>
 std::vector<T> thinned(const std::vector<T>& all) {
     if (all.size() <= kMostPlaces) return all;
@@ -47,7 +47,7 @@ GroundSamples TerrainSurvey::samplesFor(double count) const {
         .dividedBy(mTerrain.verticalScale);
 }
 
-// Where there are others that are finer or coarser.
+// Adds the sample spacing where the ground has other samples, finer or coarser.
 void TerrainSurvey::addSpacing(const GroundSamples& samples, Facts& facts) const {
     if (!mTerrain.tiled && !mTerrain.standIn) return;
     const glm::dvec2 finest = mTerrain.tiled ? mTerrain.tiled->levels->spacing(0) : mTerrain.standIn->spacing;
@@ -95,7 +95,8 @@ MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bo
     return measured;
 }
 
-// As `viewshed --to` has it; over a round Earth where pictures are (--curvature).
+// Returns the line of sight as `viewshed --to` does, over a round Earth where pictures have one
+// (--curvature).
 Facts TerrainSurvey::sight(const glm::dvec3& from, const glm::dvec3& to, double height) const {
     const GroundSamples ground = samplesFor(0);
     const auto above = [&](const glm::dvec3& place) {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kStandInSide = 1536;  // samples: read and coloured in a second or two
 
-// Options that this terrain would not show.
+// Refuses options without effect on this terrain.
 void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
     if (options.openHoles && scene.builtIn)
         throw Error("--open-holes", "", "the built-in terrain has no holes",
@@ -41,7 +41,7 @@ void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
                     "name one with --image, or leave it out");
 }
 
-// The scene's file with what the options change.
+// Returns the scene file's content with the changes that the options make.
 SceneFile describeTerrain(const SceneOptions& options) {
     SceneFile scene = sceneFileFromName(options.scene);
     if (options.verticalScale) scene.verticalScale = *options.verticalScale;
@@ -66,7 +66,7 @@ SceneFile describeTerrain(const SceneOptions& options) {
     return scene;
 }
 
-// What can only be told once the colours are there.
+// Checks what depends on the colours, which have to be loaded.
 void refuseSunWithoutEffect(const SceneOptions& options, const TerrainScene& terrain) {
     if (!options.sun || shownAs(options).swept || terrain.illumination || terrain.landmarks) return;
     if (terrain.report.colorHoldsSun || terrain.look.specular > 0 || terrain.look.physicalSky) return;
@@ -103,11 +103,11 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
         terrain.path = followedTrack(terrain, options.ground.follow, options.ground.followHeight_m);
         if (!terrain.eyesGiven) terrain.stereo = followedEyes(options.ground.followHeight_m);
     }
-    // Tiled ground has its own detail near the eye.
+    // Tiled ground has its own detail near the eye, and needs none here.
     terrain.detail = options.groundDetail && !shownAs(options).swept && !terrain.tiled && !terrain.standIn;
     terrain.ringsMayBeLate = terrain.tiled && options.detailLater;
     terrain.levelOfDetail = options.levelOfDetail;
-    // Raised heights sink as much more: what hides what stays as it is.
+    // Exaggerated heights sink more by the same factor, so that the same ground stays hidden.
     if (options.curvature) {
         terrain.refraction = options.refraction.value_or(terrain.body.usualRefraction());
         terrain.lens.fall = curvatureFall(*terrain.refraction, terrain.body) * terrain.verticalScale;

@@ -1,4 +1,4 @@
-// A terrain as the commands use it.
+// Terrains for the commands.
 #pragma once
 
 #include "app/scene/scene_loading.h"
@@ -8,12 +8,12 @@ namespace stereonav {
 
 GroundTiles tilesOf(TilesChoice choice);
 
-// The files that a .toml scene names. Throws Error.
+// Returns the files that a .toml scene names. Throws Error.
 std::vector<NamedPlace> filesOfTerrain(const std::string& toml);
 
 // Reads or makes the terrain that the options name. Throws Error, Cancelled.
 TerrainScene terrainOf(const SceneOptions& options, Progress& progress);
-// The same as a scene whose rays are cast.
+// Loads the same terrain as a scene whose rays are cast.
 std::unique_ptr<Scene> loadTerrainScene(const SceneOptions& options, SimdTarget simd, Progress& progress);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// Terrain: elevation models, scenes that name one, and the built-in one.
+// The type of scenes for terrain: elevation models, scene files that name one, and the built-in terrain.
 #include <filesystem>
 
 #include "app/scene/file_glance.h"
@@ -10,7 +10,7 @@
 namespace stereonav {
 namespace {
 
-// Or a folder of elevation files.
+// Accepts any file, and folders of elevation files.
 bool isAnyFile(const std::string& file) {
     std::error_code code;
     return !std::filesystem::is_directory(file, code) || !elevationFilesIn(file).empty();

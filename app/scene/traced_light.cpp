@@ -1,4 +1,4 @@
-// The light is that of `bake`; exposure is chosen from the left picture for both.
+// The light is that of `bake`; the exposure of both pictures is chosen by the left one.
 #include "app/scene/traced_light.h"
 
 #include <fmt/format.h>
@@ -14,15 +14,15 @@
 namespace stereonav {
 namespace {
 
-constexpr int kTracedSamples = 64;  // where nothing is said
+constexpr int kTracedSamples = 64;  // default
 
-// The same light in the words of a bake.
+// Returns the same light as options of a bake.
 BakeOptions asBake(const SceneOptions& options) {
     const TracedOptions traced = options.traced.value_or(TracedOptions{});
     BakeOptions bake;
     bake.scene = options;
     bake.scene.light = {};
-    bake.scene.volume.cache = true;  // of bakes; nothing is kept of a picture
+    bake.scene.volume.cache = true;  // for bakes only; pictures store nothing in the cache
     bake.words = {"--point-light", "--sky"};
     bake.probe = options.sky;
     bake.scene.sky.clear();

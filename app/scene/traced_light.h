@@ -1,4 +1,4 @@
-// A picture of a volume whose every pixel is path traced, in both eyes: what baked light is held against.
+// A picture of a volume whose every pixel is path traced, in both eyes: the reference for baked light.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@
 
 namespace stereonav {
 
-// The way of the right eye: "full" where --light asks for paths, else the one given.
+// Returns the method for the right eye: "full" where --light asks for path tracing, else `method`.
 std::string methodUnderLight(const SceneOptions& options, const std::string& method);
 
 class TracedLight final : public PictureLight {
 public:
-    // scene must outlive this. Lit by --sky (a picture all around, or a colour) and --point-light, or by what
-    // bake takes where nothing is said. Throws Error.
+    // Lights the scene by --sky (a picture all around, or a colour) and --point-light, or by bake's default.
+    // scene must outlive this object. Throws Error.
     TracedLight(const SceneOptions& options, const ColonScene& scene);
 
     void light(const StereoViews& views, EyeImage& left, EyeImage& right, Progress& progress) override;

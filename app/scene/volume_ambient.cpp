@@ -15,7 +15,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kUsualStrength = 1;  // nothing is brighter than its colour
+constexpr double kUsualStrength = 1;  // no place is brighter than its colour
 
 glm::ivec3 voxelsOf(const VolumeFrame& frame, const char* option, double radius) {
     const double largest = largestOcclusionRadius(frame);
@@ -28,7 +28,7 @@ glm::ivec3 voxelsOf(const VolumeFrame& frame, const char* option, double radius)
     return occlusionRadius(frame, radius);
 }
 
-// radiusOption: what gave the radius.
+// radiusOption: the option that the radius comes from.
 ModulationSetting modulationSetting(const VolumeOptions& options, const VolumeFrame& frame,
                                     const char* radiusOption) {
     ModulationSetting setting;
@@ -39,7 +39,7 @@ ModulationSetting modulationSetting(const VolumeOptions& options, const VolumeFr
     return setting;
 }
 
-// What a sigma that is chosen looks at. The isovalue is part of the function of --opacity.
+// Returns the options that a chosen sigma depends on. The isovalue is part of the function of --opacity.
 auto shownBy(const VolumeOptions& o) {
     return std::make_tuple(o.transfer, o.opacity, o.opacity ? o.isovalue : std::nullopt);
 }
@@ -51,7 +51,7 @@ bool modulates(const VolumeOptions& options) {
 }
 
 double modulationRadius(const VolumeOptions& options, const VolumeFrame& frame) {
-    // Ruiz et al. 2010, section 4.2: 10 voxels.
+    // Radius of 10 voxels, as in Ruiz et al. 2010, section 4.2.
     const double usual = 10 * std::min({frame.spacing.x, frame.spacing.y, frame.spacing.z});
     if (options.modulateRadius_mm) return *options.modulateRadius_mm / 1000;
     return options.ambient_mm ? *options.ambient_mm / 1000 : usual;

@@ -1,5 +1,5 @@
-// Ambient light and opacity modulation of a volume by what surrounds each voxel (Ruiz et al. 2010), from
-// options into its look.
+// Ambient light and opacity modulation of a volume by the neighbourhood of each voxel (Ruiz et al. 2010), set
+// in its look from options.
 #pragma once
 
 #include <optional>
@@ -13,17 +13,18 @@
 
 namespace stereonav {
 
-// Whether opacity is modulated.
+// Returns whether opacity is modulated.
 bool modulates(const VolumeOptions& options);
-// Metres that the modulation looks around: as given, or --ambient's, or ten voxels.
+// Returns the radius of the modulation in metres: as given, that of --ambient, or ten voxels.
 double modulationRadius(const VolumeOptions& options, const VolumeFrame& frame);
 
-// Into the scene's look, and that is all that it changes. Opacity modulation looks at the look's transfer
-// function. What the look has already is made again only where the options differ from `made`, those that it
-// was made from; null: nothing is there. Throws Error, Cancelled.
+// Sets ambient light in the scene's look and changes nothing else. Opacity modulation uses the look's
+// transfer function. Parts of the look are computed again only where the options differ from `made`, those of
+// the present look; null: the look has none. Throws Error, Cancelled.
 void applyAmbient(const VolumeOptions& options, const VolumeOptions* made, ColonScene& scene,
                   Progress& progress);
-// Gives the sigma, given or chosen; none: not modulated. sigma: that of what is there.
+// Sets the modulation and returns its sigma, given or chosen; empty: no modulation. sigma: that of the
+// present look.
 std::optional<double> applyModulation(const VolumeOptions& options, const VolumeOptions* made,
                                       const std::optional<double>& sigma, ColonScene& scene,
                                       Progress& progress);

@@ -1,4 +1,4 @@
-// The wall of a colon as one of which it is followed what was on screen.
+// The wall of a colon on which coverage is recorded.
 #pragma once
 
 #include "app/scene/volume_inside.h"
@@ -9,7 +9,7 @@ namespace stereonav {
 
 class VolumeCoverage final : public WallToSee {
 public:
-    // They must outlive it, and all that it begins.
+    // colon, inside and wall must outlive this object and everything it begins.
     VolumeCoverage(const ColonScene& colon, const ColonInterior& inside, const SharedWall& wall)
         : mColon(colon), mInside(inside), mWall(wall) {}
 

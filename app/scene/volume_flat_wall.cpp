@@ -14,7 +14,7 @@
 namespace stereonav {
 namespace {
 
-// None where it is farther.
+// Returns the nearest vertex of the wall; empty where it is farther than `within`.
 std::optional<std::uint32_t> wallNextTo(const WallMesh& mesh, const glm::dvec3& world, double within) {
     const std::uint32_t vertex = nearestVertex(mesh, world);
     if (glm::distance(glm::dvec3(mesh.places[vertex]), world) > within) return std::nullopt;
@@ -67,7 +67,7 @@ private:
     UnfoldedWall mFlat;
 };
 
-// Both strips. What each pixel shows is kept, so that painting casts no rays.
+// Both strips of the panorama. The wall vertex of each pixel is kept, so that painting casts no rays.
 class ColonPanoramaPicture final : public FlatPicture {
 public:
     ColonPanoramaPicture(const ColonScene& colon, std::shared_ptr<const JoinedWall> wall, Progress& placing,
@@ -111,7 +111,7 @@ public:
     std::vector<glm::dvec2> pixelsOf(const glm::dvec3& world, double within) const override {
         const auto vertex = wallNextTo(mWall->mesh, world, within);
         if (!vertex) return {};
-        // Lines of sight end before the wall.
+        // The line of sight ends just before the wall.
         const glm::dvec3 before = glm::dvec3(mWall->mesh.places[*vertex]) +
                                   0.5 * mSight.smallestSpacing() * glm::dvec3(mWall->mesh.normals[*vertex]);
         std::vector<glm::dvec2> pixels;

@@ -1,4 +1,4 @@
-// A colon's wall laid flat, and seen from both ends, for the window.
+// A colon's wall laid flat, and as a panorama from both ends, for the window.
 #pragma once
 
 #include "colon/instruments/shared_wall.h"
@@ -8,7 +8,7 @@ namespace stereonav {
 
 class VolumeFlatWall final : public FlatWall {
 public:
-    // A colon, which must outlive it and its pictures, and its wall.
+    // The colon must outlive this object and its pictures.
     VolumeFlatWall(const ColonScene& colon, const SharedWall& wall) : mColon(colon), mWall(wall) {}
     std::shared_ptr<const FlatPicture> makeFlat(Progress& progress) const override;
     std::shared_ptr<const FlatPicture> makePanorama(Progress& progress) const override;

@@ -12,7 +12,7 @@
 namespace stereonav {
 namespace {
 
-// Places of a flight that are about `step` metres apart.
+// Returns poses of a flight that are about `step` metres apart.
 std::vector<Pose> posesAlong(const RecordedPath& path, double step) {
     double length = 0;
     const std::vector<PathSample>& samples = path.samples();
@@ -22,7 +22,7 @@ std::vector<Pose> posesAlong(const RecordedPath& path, double step) {
     return path.frames(static_cast<int>(std::min(std::ceil(length / step), kMost)) + 1);
 }
 
-// Flown back, looking where it came from.
+// Returns the poses of the way back, looking in the direction of flight.
 std::vector<Pose> backAlong(std::vector<Pose> poses) {
     std::reverse(poses.begin(), poses.end());
     for (Pose& pose : poses)

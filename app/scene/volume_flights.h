@@ -1,4 +1,4 @@
-// The flights through a colon that instruments look along.
+// Flights through a colon for instruments that look along them.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace stereonav {
 
-constexpr double kFlightStep = 0.002;  // metres between poses, where nothing else is said
+constexpr double kFlightStep = 0.002;  // default distance between poses in metres
 
 struct ColonFlights {
     std::vector<Pose> there, back;
 };
 
-// The colon's own, from rectum to caecum and back, or a recorded one (file) and the same backwards; `step`
-// metres between poses. Throws Error naming the file.
+// Returns the colon's own flights, from rectum to caecum and back, or those of a file, and the same
+// backwards; `step` metres between poses. Throws Error that names the file.
 ColonFlights colonFlights(const ColonScene& colon, const std::string& file, double step,
                           const Coverage::FreeDistance& freeDistance, const ColonInterior& inside);
 

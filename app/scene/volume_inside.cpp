@@ -40,7 +40,7 @@ void ColonInterior::expectOutside(const char* option, const std::string& problem
     throw Error(option, "", problem, advice);
 }
 
-// A colon that came from the cache is known near its wall only.
+// Hashes the study near the wall only: a colon from the cache is not known elsewhere.
 std::uint64_t ColonInterior::content(Progress& progress) const {
     const GreyVolume& field = mColon.volume.field;
     TexelChoice wall;
@@ -49,9 +49,7 @@ std::uint64_t ColonInterior::content(Progress& progress) const {
     return contentHashNear(field, *region(), wantedBricks(field, field.frame, wall, progress));
 }
 
-// What is kept has neither fluid nor what is far from the wall: the study is read again, but for a mask,
-// which has no grey values.
-// Rays that are asked no further than so far meet light again.
+// Everything is permitted with --reach: rays of limited length meet light from outside again.
 void ColonInterior::checkLight(const BakeOptions& options, BakeKind kind) const {
     if (options.reach_mm) return;
     const std::string advice =
@@ -72,17 +70,17 @@ void ColonInterior::checkLazyLight(bool transfer, bool sky) const {
                  "leave it out: lazy lights a colon along its centreline");
 }
 
-// Lights that make a wall as far away as the lumen is wide on average as bright as a sky of 1 would.
+// Adds lamps along the centreline. Their intensity lights a wall at the lumen's mean radius like a sky of 1.
 void ColonInterior::addLine(const std::optional<double>& asked, const char* option, LightSetup& setup) const {
     const std::vector<CentrelinePoint>& points = mColon.centreline.points;
     const double radius = meanRadius();
     const auto intensity = static_cast<float>(std::numbers::pi * radius * radius);
     double spacing = asked.value_or(kLightSpacing);
-    if (spacing == kLightSpacing) spacing = std::min(spacing, mColon.centreline.length());  // one at least
-    double along = 0.5 * spacing;  // since the last light
+    if (spacing == kLightSpacing) spacing = std::min(spacing, mColon.centreline.length());  // at least one
+    double along = 0.5 * spacing;  // distance since the last lamp
     for (std::size_t n = 0; n < points.size(); ++n) {
         if (n > 0) along += glm::length(points[n].position - points[n - 1].position);
-        // Where the path crosses tissue there is no room for a light.
+        // Lamps are left out where the centreline crosses tissue.
         if (along < spacing || !(mColon.freeDistanceAt(points[n].position, 1e-3) > 0)) continue;
         refuseUnless(setup.lights.size() < kMostLights, option,
                      fmt::format("the centreline would get more than {} lights", kMostLights),
@@ -104,7 +102,7 @@ void ColonInterior::addUsualLight(const char* option, LightSetup& setup,
                                 1e3 * kLightSpacing));
 }
 
-// A plain tube is open then, and folds and the foot of a polyp are not.
+// Returns the lumen's mean radius: a plain tube then counts as open, folds and the foot of a polyp do not.
 double ColonInterior::usualReach(std::vector<std::string>& notes) const {
     const double reach = meanRadius();
     notes.push_back(fmt::format("open is what meets no wall within {:.1f} mm, the mean radius", 1e3 * reach));
@@ -118,7 +116,7 @@ double ColonInterior::meanRadius() const {
     return radius;
 }
 
-// No more than its flight is to keep clear of the wall.
+// A larger separation would need more room than the flight keeps from the wall.
 double ColonInterior::largestSeparation() const {
     return SeparationControl::Setting{}.largest;
 }
@@ -138,7 +136,7 @@ void ColonInterior::check(const RecordedPath& path, const std::string& file) con
     }
 }
 
-// The nearest point of the centreline, by metres from its start.
+// Returns the nearest point of the centreline, by its distance in metres from the start.
 PlaceOnLine ColonInterior::placeOnLine(const glm::dvec3& world) const {
     PlaceOnLine found;
     double nearest = std::numeric_limits<double>::infinity();

@@ -8,7 +8,7 @@ namespace stereonav {
 
 class ColonInterior final : public VolumeSide, public LineThrough {
 public:
-    // A colon, which must outlive it.
+    // The colon must outlive this object.
     explicit ColonInterior(const ColonScene& colon);
 
     const Centreline& centreline() const { return mColon.centreline; }
@@ -35,11 +35,11 @@ public:
 
     const ColonInterior* interior() const override { return this; }
     PlaceOnLine placeOnLine(const glm::dvec3& world) const override;
-    // The centreline as a person who faces the patient sees it: the patient's left is on the right.
+    // Returns the centreline as seen by a person who faces the patient: the patient's left is on the right.
     const LineOnMap& lineOnMap() const { return mLine; }
 
 private:
-    double meanRadius() const;  // of the lumen, metres
+    double meanRadius() const;  // mean radius of the lumen in metres
 
     const ColonScene& mColon;
     LineOnMap mLine;

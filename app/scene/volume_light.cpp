@@ -1,5 +1,5 @@
-// Baked light is read and, if it is transfer, dotted with the sky. The other models are those of Wyman et al.
-// 2006, fig. 9: Lambert and Phong under one lamp beside the start pose, with and without hard shadows,
+// Baked light is read; transfer is multiplied with the sky's harmonics. The other models are those of Wyman
+// et al. 2006, fig. 9: Lambert and Phong under one lamp beside the start pose, with and without hard shadows,
 // ambient light that varies with the normal, fog.
 #include "app/scene/volume_light.h"
 
@@ -22,9 +22,9 @@ namespace stereonav {
 namespace {
 
 constexpr float kMeanShown =
-    0.45f;  // radiance of white at the mean of the known texels, where nothing is said
+    0.45f;  // default radiance of white at the mean of the known texels, without --exposure
 
-// Of white, over the texels that are known; 0 where none is.
+// Returns the mean light on white over the known texels; 0 where none is known.
 double meanLight(const IlluminationVolume& light) {
     double sum = 0, weight = 0;
     const glm::ivec3 size = light.frame.size;
@@ -61,7 +61,7 @@ std::shared_ptr<TurningSky> applyBaked(const SceneOptions& options, ColonScene& 
                         "leave it out");
         look.use = BakedLook::Use::Openness;
     } else {
-        // In double: light and exposure may be far from 1, their product is not.
+        // The product is formed in double: light and exposure may be far from 1, their product is not.
         const auto unit = static_cast<double>(baked.unit);
         look.exposure = static_cast<float>(
             static_cast<double>(exposureOf(options.volume, meanLight(*light) * unit)) * unit);
@@ -74,7 +74,7 @@ std::shared_ptr<TurningSky> applyBaked(const SceneOptions& options, ColonScene& 
                                         skyTurnOf(options), std::move(beyond));
 }
 
-// Up and to the left behind the one who looks, as far away as what is looked at is large.
+// Places the lamp above and to the left behind the viewer, at a distance of the size of the object.
 void putLampAside(ColonScene& scene) {
     const VolumeFrame& frame = scene.volume.cells.frame;
     const glm::dvec3 extent = glm::dvec3(frame.size - 1) * frame.spacing;

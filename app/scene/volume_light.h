@@ -1,4 +1,4 @@
-// How a volume is lit, from options: baked light, or one of the models it is compared with.
+// Light of a volume from options: baked light, or one of the models that it is compared with.
 #pragma once
 
 #include <memory>
@@ -12,19 +12,19 @@
 
 namespace stereonav {
 
-// --light, --sky, --turn, --exposure and --shading into the scene's look (--ambient and --modulate: see
-// volume_ambient.h). Gives the sky, where it is one that turns and options.skyTurns; else null. Throws Error,
+// Sets --light, --sky, --turn, --exposure and --shading in the scene's look (--ambient and --modulate: see
+// volume_ambient.h). Returns the sky where it can turn and options.skyTurns is set; else null. Throws Error,
 // Cancelled.
 std::shared_ptr<TurningSky> applyVolumeLight(const SceneOptions& options, ColonScene& scene,
                                              Progress& progress);
 
-// The harmonics of --sky, or of an overcast one, before they are turned. Throws Error.
+// Returns the harmonics of --sky, or of an overcast sky, before they are turned. Throws Error.
 std::vector<glm::vec3> skyHarmonics(const SceneOptions& options, int order);
-// --turn.
+// Returns the turn of the sky given by --turn.
 SkyTurn skyTurnOf(const SceneOptions& options);
 
-// Factor on light whose mean over what is known (of white) is this: --exposure, else such that the mean is
-// shown well; 1 where there is no light.
+// Returns the factor on light of this mean over the known texels, on white: --exposure, or the one that shows
+// the mean well; 1 where there is no light.
 float exposureOf(const VolumeOptions& options, double meanLight);
 
 }  // namespace stereonav

@@ -10,7 +10,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kLookAlong = 0.02;  // metres of the line that say which way it goes
+constexpr double kLookAlong = 0.02;  // metres of the line that give its direction
 
 class ColonMatch final : public LineMatch {
 public:

@@ -1,4 +1,4 @@
-// A colon's centreline matched with that of another study.
+// Match of a colon's centreline with that of another study.
 #pragma once
 
 #include "colon/scene/colon_scene.h"
@@ -8,7 +8,7 @@ namespace stereonav {
 
 class VolumeLine final : public MatchingLine {
 public:
-    // A colon, which must outlive it.
+    // The colon must outlive this object.
     explicit VolumeLine(const ColonScene& colon) : mColon(colon) {}
     std::shared_ptr<const LineMatch> matchWith(const Scene& other) const override;
     Pose poseOnLine(double along, bool back) const override;

@@ -14,10 +14,10 @@
 namespace stereonav {
 namespace {
 
-constexpr double kIntoLumen = 1.5;  // of the smallest spacing, from the wall, where fluid is looked for
-constexpr double kDry = -200;       // HU: more is fluid where the lumen is
+constexpr double kIntoLumen = 1.5;  // smallest spacings from the wall at which fluid is looked for
+constexpr double kDry = -200;       // HU: larger values in the lumen are fluid
 
-// By vertex: 1 where the flight did not show the wall.
+// Returns 1 for each vertex that the flight did not show, 0 for others.
 std::vector<float> unseenOf(const VolumeWorld& world, const ColonInterior& inside, const JoinedWall& wall,
                             const std::string& which, double verticalFov, Progress& progress) {
     const ColonScene& colon = world.colon();
@@ -36,7 +36,7 @@ std::vector<float> unseenOf(const VolumeWorld& world, const ColonInterior& insid
     return unseenMarks(coverage.seen());
 }
 
-// By vertex: 1 where the study has more than air just before the wall, in what is now lumen.
+// Returns 1 for each vertex where the study has more than air just before the wall, in the present lumen.
 std::vector<float> fluidOf(const ColonScene& colon, const WallMesh& wall) {
     if (colon.study.empty())
         throw Error("--fluid tinted", "", "a mask tells nothing of fluid",

@@ -1,4 +1,4 @@
-// What the options paint on a colon's wall.
+// Paint on a colon's wall as the options ask for it.
 #pragma once
 
 #include <memory>
@@ -11,11 +11,11 @@
 
 namespace stereonav {
 
-// Whether what is asked for needs the study's own values (ColonScene::study).
+// Returns whether the paint needs the study's own values (ColonScene::study).
 bool paintNeedsStudy(const SceneOptions& options);
 
-// One over the other; none where nothing is asked for. verticalFov: of the pictures, radians. Says in the
-// colon's notes how much is painted. Throws Error (no colon; no study), Cancelled.
+// Returns the painters in their order; none where nothing is asked for. verticalFov: of the pictures,
+// radians. Adds to the colon's notes how much is painted. Throws Error (no colon; no study), Cancelled.
 std::vector<std::shared_ptr<const EyePainter>> wallPainters(VolumeWorld& world, const SceneOptions& options,
                                                             double verticalFov, Progress& progress);
 

@@ -1,4 +1,4 @@
-// A volume seen from outside: nothing of it stands in the way of light, eyes or flight.
+// A volume seen from outside: it limits neither light nor eyes nor flight.
 #include "app/scene/volume_side.h"
 
 #include <limits>
@@ -41,7 +41,7 @@ public:
     double largestSeparation() const override { return std::numeric_limits<double>::infinity(); }
     bool narrows() const override { return false; }
     double crossingSeconds() const override { return kOutsideSeconds; }
-    void check(const RecordedPath&, const std::string&) const override {}  // any path goes around it
+    void check(const RecordedPath&, const std::string&) const override {}  // any path goes around the volume
 
 private:
     const ColonScene& mVolume;

@@ -1,4 +1,4 @@
-// CT studies, and the built-in colon.
+// The type of scenes for volumes: CT studies, and the built-in colon.
 #include "app/scene/colon_loading.h"
 #include "app/scene/file_glance.h"
 #include "app/scene/medium_of.h"

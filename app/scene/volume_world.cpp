@@ -16,14 +16,14 @@
 namespace stereonav {
 namespace {
 
-constexpr double kAirSeen = -500;                   // a study with smaller values is taken for CT in HU
-constexpr double kCtWidth = 1500, kCtLevel = -200;  // a window that shows air, fat, tissue and bone
+constexpr double kAirSeen = -500;                   // HU: a study with smaller values is taken for CT
+constexpr double kCtWidth = 1500, kCtLevel = -200;  // window that shows air, fat, tissue and bone
 
 FreeDistance freeDistanceOf(const ColonScene& colon) {
     return [&colon](const glm::dvec3& world, double upTo) { return colon.freeDistanceAt(world, upTo); };
 }
 
-// Limits of the eyes' distance: such as suit the scene. most: by themselves, metres.
+// Returns the limits of the eyes' separation that suit the scene. most: largest automatic separation, metres.
 SeparationControl::Setting limitsOf(const StereoSetting& own, double most, double asked) {
     SeparationControl::Setting setting;
     setting.largest = std::max(std::min(2 * own.separation, most), asked);
@@ -33,7 +33,7 @@ SeparationControl::Setting limitsOf(const StereoSetting& own, double most, doubl
     return setting;
 }
 
-// Around the outermost voxels' centres.
+// Returns the box around the centres of the outermost voxels.
 SceneBox boxOf(const VolumeFrame& frame) {
     SceneBox box{glm::dvec3(std::numeric_limits<double>::infinity()),
                  glm::dvec3(-std::numeric_limits<double>::infinity())};
@@ -49,11 +49,12 @@ SceneBox boxOf(const VolumeFrame& frame) {
 GreyVolume greyOf(const MaskVolume& mask) {
     GreyVolume grey(mask.frame);
     for (std::size_t n = 0; n < mask.frame.count(); ++n)
-        if (mask.values[n] != 0) grey.values[n] = 1;  // zeros are there already, and cost no memory
+        if (mask.values[n] != 0) grey.values[n] = 1;  // zeros are there already, and occupy no memory
     return grey;
 }
 
-// "L 12.3  P 4.5  S 100.2 mm": towards the patient's left (or right), back (or front) and head (or feet).
+// Returns "L 12.3  P 4.5  S 100.2 mm": towards the patient's left (or right), back (or front) and head (or
+// feet).
 std::string patientText(const glm::dvec3& world) {
     const auto part = [](double metres, char towards, char away) {
         return fmt::format("{} {:.1f}", metres < 0 ? away : towards, std::abs(1000 * metres));
@@ -99,7 +100,7 @@ std::unique_ptr<Flight> VolumeWorld::makeFlight() const {
 StereoFollower VolumeWorld::makeFollower(const StereoSetting& from) const {
     SeparationControl control(mLimits, from.separation, from.zeroParallax);
     return [control](double free, double depth, double dt) mutable {
-        // As far as a flight looks there is no wall: that tells nothing of what is behind it.
+        // Without a wall within the range of a flight's search nothing is known of what lies behind.
         if (free >= ColonFlight::kFarthestClearance) free = std::numeric_limits<double>::infinity();
         control.step(free, depth, dt);
         return StereoSetting{control.separation(), control.zeroParallax()};
@@ -117,7 +118,7 @@ std::shared_ptr<const SliceStudy> VolumeWorld::readSlices(Progress& progress) co
         slices->grey = builtInColon(mOptions.builtIn, reading).grey;
     } else {
         StudyOptions asked = mOptions.reading;
-        asked.key = 0;  // not asked for
+        asked.key = 0;  // 0: not asked for
         Study study = readStudy(mOptions.study, asked, reading);
         slices->ofMask = study.isMask;
         slices->grey = study.isMask ? greyOf(study.mask) : std::move(study.grey);

@@ -1,5 +1,5 @@
-// A volume to fly in or around, however its frames are made: the study, the room that it leaves around the
-// eyes, the way through it and the slices that it came from.
+// A volume to fly in or around, cast or swept: the study, the room that it leaves for the eyes, the way
+// through it, and its slices.
 #pragma once
 
 #include <memory>
@@ -24,19 +24,20 @@ namespace stereonav {
 
 class VolumeWorld final : public RoomAround, public SliceSource, public PlaceReader {
 public:
-    // options: that it was loaded with.
+    // options: those that the volume was loaded with.
     VolumeWorld(ColonScene colon, const SceneOptions& options);
 
-    // Lens, eyes, start and flight, with what the options change; before setRoom().
+    // Sets lens, eyes, start and flight, with the changes of the options; to be called before setWall().
     void setViews(const SceneOptions& options, Scene& scene);
-    // wall: casts this volume; null: nothing tells pictures of the room. Lives as long as this.
+    // wall: the renderer of this volume; null: pictures do not measure the room. Lives as long as this
+    // object.
     void setWall(const EyeRenderer* wall) { mWall = wall; }
 
     ColonScene& colon() { return mColon; }
     const ColonScene& colon() const { return mColon; }
-    const SharedWall& wall() const { return mSharedWall; }  // where it is a colon
+    const SharedWall& wall() const { return mSharedWall; }  // only for a colon
     const VolumeSide& side() const { return *mSide; }
-    // Calls offer(capability) for each that it has, however its frames are made.
+    // Calls offer(capability) for each capability, whether the volume is cast or swept.
     template <typename Offer>
     void offerAll(const Offer& offer) {
         offer(static_cast<RoomAround&>(*this));
@@ -54,9 +55,9 @@ public:
         offer(static_cast<SurfaceFindings&>(mFindings));
     }
     std::unique_ptr<Flight> makeFlight() const;
-    // Throws Error naming `file` where a pose lies where no flight can be.
+    // Throws Error that names `file` where a pose lies outside the permitted space.
     void check(const RecordedPath& path, const std::string& file) const { mSide->check(path, file); }
-    // Whether eyes come together where it is narrow: the options don't say where they are.
+    // Returns whether the eyes come together in narrow places: the options set no separation.
     bool eyesFollow() const { return mFollows && mSide->narrows(); }
 
     StereoFollower makeFollower(const StereoSetting& from) const override;
@@ -74,12 +75,12 @@ public:
 private:
     ColonScene mColon;
     ColonOptions mOptions;
-    std::unique_ptr<const VolumeSide> mSide;  // of mColon
-    SeparationControl::Setting mLimits;       // of the eyes
+    std::unique_ptr<const VolumeSide> mSide;  // side of mColon
+    SeparationControl::Setting mLimits;       // limits of the eyes' separation
     bool mFollows = false;
     const EyeRenderer* mWall = nullptr;
     SceneBox mBox;
-    // Where it is a colon:
+    // Only for a colon:
     SharedWall mSharedWall{mColon};
     ColonFindings mFindings{mColon, mSharedWall, mOptions};
     VolumeFlatWall mFlatWall{mColon, mSharedWall};
