@@ -1,4 +1,4 @@
-// FFmpeg's objects with owners, and its failures as exceptions.
+// Owners of FFmpeg's objects, and exceptions for its failures.
 #pragma once
 
 extern "C" {
@@ -19,12 +19,13 @@ struct AvFree {
 template <typename T>
 using AvOwned = std::unique_ptr<T, AvFree>;
 
-// What FFmpeg and its codecs say is kept, not printed: it becomes the program's own lines.
+// Keeps the messages of FFmpeg and its codecs instead of printing them: they become part of the program's
+// own.
 void keepAvMessages();
-void forgetAvMessages();  // before a call whose failure is told
+void forgetAvMessages();  // to be called before a call whose failure is reported
 
-// While one lives, what x264 prints on standard error is kept in the same way: it tells of an allocation that
-// failed there alone. All else that is printed passes.
+// Keeps, while one exists, also what x264 prints on standard error: only there it reports a failed
+// allocation. All other output passes.
 class PrintedMessages {
 public:
     PrintedMessages();
@@ -33,11 +34,11 @@ public:
     PrintedMessages& operator=(const PrintedMessages&) = delete;
 };
 
-// Throws bad_alloc where an allocation failed, as the code or the codec's own message says; else Error naming
-// `name`, with `problem` and what was said.
+// Throws bad_alloc where an allocation failed, by the code or the codec's message; otherwise Error that names
+// `name`, with `problem` and the message.
 [[noreturn]] void throwAvFailure(int code, const std::string& name, const std::string& problem);
 
-// A pointer that only a lack of memory makes null.
+// Returns the pointer; throws bad_alloc where it is null, which only a lack of memory can cause.
 template <typename T>
 T* allocated(T* pointer) {
     if (!pointer) throw std::bad_alloc();

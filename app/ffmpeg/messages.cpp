@@ -1,4 +1,4 @@
-// FFmpeg's log: the last error is kept, since codecs tell there what their result does not.
+// FFmpeg's log. The last error is kept, since codecs report reasons there that their results do not have.
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace stereonav {
 namespace {
 
 std::mutex messageMutex;  // encoders have threads of their own
-char lastMessage[256];    // no memory is asked for here: there may be none
+char lastMessage[256];    // fixed size, as there may be no memory to allocate
 
 void keepMessage(void*, int level, const char* format, std::va_list values) {
     if (level > AV_LOG_ERROR) return;
@@ -24,7 +24,8 @@ void keepMessage(void*, int level, const char* format, std::va_list values) {
     lastMessage[std::strcspn(lastMessage, "\n")] = '\0';
 }
 
-// A stream in the place of standard error. x264 prints its name and then the message, a call each.
+// Write function of a stream that replaces standard error. x264 prints its name and then the message in
+// separate calls.
 ssize_t takePrinted(void*, const char* text, std::size_t bytes) {
     static bool ofX264 = false;
     constexpr std::string_view kName = "x264 [";
@@ -50,7 +51,7 @@ std::FILE* printedStream() {
     return stream;
 }
 
-std::FILE* standardError = nullptr;  // while another stream is in its place
+std::FILE* standardError = nullptr;  // set while another stream replaces it
 
 }  // namespace
 
@@ -81,7 +82,7 @@ void throwAvFailure(int code, const std::string& name, const std::string& proble
         const std::lock_guard lock(messageMutex);
         said = lastMessage;
     }
-    // x264 gives up with a general error, and says the reason alone: "malloc of size N failed".
+    // x264 fails with a general error code; only its message has the reason: "malloc of size N failed".
     const bool noMemory = code == AVERROR(ENOMEM) || said.find("malloc") != std::string::npos;
     if (noMemory) throw std::bad_alloc();
     if (said.empty()) {

@@ -16,17 +16,17 @@ namespace stereonav {
 namespace {
 
 constexpr int kH264Slices = 4;
-constexpr int kH264Lookahead = 10;  // frames; the default of 40 holds 2.2 bytes a pixel of each
-constexpr int kJpegQuality = 2;     // FFmpeg's scale, 2 to 31: the best that all decoders take
+constexpr int kH264Lookahead = 10;  // frames; each holds 2.2 bytes a pixel, and the default is 40
+constexpr int kJpegQuality = 2;     // on FFmpeg's scale, 2 to 31: the best that all decoders accept
 
 int evenUp(int size) {
     return size + size % 2;
 }
 
-// FFmpeg's decoder (5.1) shows slices of one column or row as black.
+// Least rows or columns of a slice: FFmpeg's decoder (5.1) shows slices of one as black.
 constexpr int kLeastFfv1 = 2;
 
-// FFV1 cuts a frame into n x n slices, each of at most 3.7 million pixels.
+// Returns n for n x n slices of a frame, each with at most 3.7 million pixels.
 int ffv1Side(int width, int height) {
     constexpr double kMostOfSlice = 8.0 * (1 << 24) / (9 * 4);
     int side = std::min(width, height) >= 2 * kLeastFfv1 ? 2 : 1;
@@ -42,8 +42,8 @@ void setOption(AVCodecContext& codec, const char* name, const std::string& value
         throwAvFailure(code, file, fmt::format("can not be written as a video: {} {}", name, value));
 }
 
-// Slices, and not frames at once, are shared among threads: that takes no frames more, and four of them
-// always, whatever the machine has, since what is written depends on their number.
+// Threads share the slices of one frame, which takes no additional frames. There are always four, on every
+// machine, since the output depends on their number.
 void setH264(AVCodecContext& codec, const VideoOrder& order) {
     codec.width = evenUp(order.width);
     codec.height = evenUp(order.height);
@@ -74,8 +74,8 @@ void setJpeg(AVCodecContext& codec, const VideoOrder& order) {
     codec.qmin = kJpegQuality;
 }
 
-// Slices are coded apart, so that their number alone makes the bytes and any number of threads may do it.
-// Every frame stands for itself: a player may begin at any.
+// Slices are encoded independently: the output depends on their number only, and any number of threads can be
+// used. Every frame is a key frame: a player can begin at any.
 void setFfv1(AVCodecContext& codec, const VideoOrder& order) {
     codec.width = std::max(order.width, kLeastFfv1);
     codec.height = std::max(order.height, kLeastFfv1);
@@ -123,7 +123,7 @@ VideoEncoder::VideoEncoder(const VideoOrder& order, bool globalHeader) : mOrder(
     mPacket.reset(allocated(av_packet_alloc()));
     mCodec->framerate = av_d2q(order.framesPerSecond, 1'000'000);
     mCodec->time_base = av_inv_q(mCodec->framerate);
-    mCodec->flags |= AV_CODEC_FLAG_BITEXACT;  // the same bytes again
+    mCodec->flags |= AV_CODEC_FLAG_BITEXACT;  // the same bytes in every run
     if (globalHeader) mCodec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     switch (order.kind) {
         case VideoKind::Mp4:
@@ -164,7 +164,7 @@ void VideoEncoder::fill(const Plane<PackedColor>& picture) {
 
 void VideoEncoder::send(const Plane<PackedColor>& picture) {
     forgetAvMessages();
-    int code = av_frame_make_writable(mFrame.get());  // the codec may still hold the last one
+    int code = av_frame_make_writable(mFrame.get());  // the codec may still hold the last frame
     if (code < 0) throwAvFailure(code, mOrder.name, "can not be coded");
     fill(picture);
     mFrame->pts = mSent++;
@@ -181,7 +181,7 @@ void VideoEncoder::sendEnd() {
 }
 
 AVPacket* VideoEncoder::receive() {
-    const PrintedMessages printed;  // a frame sent may be coded here
+    const PrintedMessages printed;  // frames may be encoded during this call
     const int code = avcodec_receive_packet(mCodec.get(), mPacket.get());
     if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return nullptr;
     if (code < 0) throwAvFailure(code, mOrder.name, "can not be coded");

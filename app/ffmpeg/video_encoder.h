@@ -1,4 +1,4 @@
-// The codec of one kind of video, with the frame that it is given.
+// The codec of one kind of video, and the frame that is passed to it.
 #pragma once
 
 #include "app/ffmpeg/handles.h"
@@ -8,13 +8,13 @@ namespace stereonav {
 
 class VideoEncoder {
 public:
-    // globalHeader: what a player needs first goes before the frames and not into them. Throws Error.
+    // globalHeader: the codec's header precedes the frames instead of being part of them. Throws Error.
     VideoEncoder(const VideoOrder& order, bool globalHeader);
 
     const AVCodecContext& context() const { return *mCodec; }
     void send(const Plane<PackedColor>& picture);
     void sendEnd();
-    // Null where the next one needs more frames, or after the end. Valid until the next call.
+    // Returns null where the next packet needs more frames, or after the end. Valid until the next call.
     AVPacket* receive();
 
 private:
@@ -27,7 +27,7 @@ private:
     std::int64_t mSent = 0;
 };
 
-// The codec that writes this kind here. Throws Error naming `name` where there is none.
+// Returns the codec for this kind of video. Throws Error that names `name` where there is none.
 const AVCodec& videoCodec(const std::string& name, VideoKind kind);
 
 }  // namespace stereonav

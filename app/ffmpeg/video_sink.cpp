@@ -15,7 +15,7 @@ extern "C" {
 namespace stereonav {
 namespace {
 
-// What follows the name is a path, whatever it looks like.
+// Returns the file as a URL; the prefix makes FFmpeg take any name as a path.
 std::string urlOf(const std::filesystem::path& file) {
     return "file:" + file.string();
 }
@@ -56,7 +56,7 @@ public:
         if (code < 0) throwAvFailure(code, order.name, "can not be written as a video");
         AVDictionary* options = nullptr;
         code = 0;
-        // The index goes to the front, so that a player can begin before it has all of the file.
+        // The index goes to the beginning, so that a player can begin before it has the whole file.
         if (order.kind == VideoKind::Mp4) code = av_dict_set(&options, "movflags", "+faststart", 0);
         if (hasStandIn()) code = av_dict_set(&options, "write_crc", "0", 0);
         if (code >= 0) code = avformat_write_header(mMuxer.get(), &options);
@@ -68,12 +68,12 @@ public:
         mEncoder.send(frame);
         writePackets();
         ++mAdded;
-        if (!mWritten)  // the rest would be made for nothing
+        if (!mWritten)  // the remaining packets would be encoded for nothing
             throw Error(mOrder.name, "", "can not be written: not all of it arrived",
                         "check that the disk has room");
     }
 
-    // What was written is counted: as packets, not decoded.
+    // Compares the packets that were written with the frames that were added, without decoding.
     bool close() override {
         mEncoder.sendEnd();
         writePackets();
@@ -95,8 +95,8 @@ private:
         const int code = avformat_alloc_output_context2(&muxer, nullptr, containerOf(order.kind),
                                                         urlOf(order.file).c_str());
         if (code < 0) throwAvFailure(code, order.name, "can not be written as a video");
-        muxer->flags |= AVFMT_FLAG_BITEXACT;  // no random numbers, no times: the same bytes again
-        muxer->strict_std_compliance = FF_COMPLIANCE_UNOFFICIAL;  // without it MP4 gets no st3d
+        muxer->flags |= AVFMT_FLAG_BITEXACT;  // neither random numbers nor times: the same bytes in every run
+        muxer->strict_std_compliance = FF_COMPLIANCE_UNOFFICIAL;  // for st3d in MP4
         return muxer;
     }
 
@@ -118,7 +118,7 @@ private:
         said->type = kTypes[stereo.st3d];
     }
 
-    // After the first write that fails none is made.
+    // Writes the packets; after the first failed write none is written.
     void writePackets() {
         while (AVPacket* packet = mEncoder.receive()) {
             throwIfStopped();
@@ -148,7 +148,7 @@ private:
     VideoOrder mOrder;
     std::unique_ptr<AVFormatContext, MuxerFree> mMuxer;
     VideoEncoder mEncoder;
-    AVStream* mStream = nullptr;  // the muxer's
+    AVStream* mStream = nullptr;  // owned by the muxer
     long long mAdded = 0;
     bool mWritten = true;
 };

@@ -1,5 +1,4 @@
-// What a command tells of what it did: lines for people, or with --json one document, or with --quiet
-// nothing.
+// The output of a command: lines of text, or with --json one document, or with --quiet nothing.
 #pragma once
 
 #include <cstdio>
@@ -16,24 +15,24 @@ namespace stereonav {
 
 class CommandResult {
 public:
-    // outputs: where the command's files go; lines go to standard error where one of them is standard output.
-    // Throws Error where two go to the same place, the document among them.
+    // outputs: the command's files; lines of text go to standard error where one of them is standard output.
+    // Throws Error where two outputs, or an output and the document, go to the same place.
     CommandResult(const char* command, const Telling& telling, const std::vector<NamedPlace>& outputs);
 
-    // A line for people, with its end.
+    // Prints a line of text, which has to end with a newline.
     void say(std::string_view line) const;
-    // A line of what was asked to be printed: for people also where they want no notes.
+    // Prints a line that the user has asked for, even with --quiet.
     void answer(std::string_view line) const;
 
-    // A field of the document: its name ends with its unit. No number is null.
+    // Adds a field to the document; the name ends with the unit. NaN becomes null.
     void add(std::string key, FactValue value);
-    // The scene by its name alone (handed_name.h): documents are handed on.
+    // Adds the scene's name without its folder (handed_name.h): documents are passed on.
     void addScene(const std::string& scene);
-    // A file that was written, or a folder; of a stream its size is null.
+    // Adds a file or folder that was written; the size of a stream is null.
     void addFile(const std::string& key, const std::filesystem::path& file);
-    // Prints the document, once.
+    // Prints the document; to be called once.
     void finish() const;
-    // Writes it into a file, whatever --json says of standard output. Throws Error.
+    // Writes the document into a file, independent of --json. Throws Error.
     void writeTo(const std::filesystem::path& file) const;
 
 private:
@@ -42,7 +41,7 @@ private:
     Facts mFacts;
 };
 
-// The document on standard output.
+// Prints the document on standard output.
 void printJson(const Facts& facts);
 
 }  // namespace stereonav

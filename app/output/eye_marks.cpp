@@ -7,16 +7,15 @@
 namespace stereonav {
 namespace {
 
-// Of its depth: so much behind what is seen a point is still not hidden. A pixel's depth is that of its
-// middle.
+// Share of its depth that a point may lie behind the visible surface without being hidden: a pixel's depth is
+// that of its middle.
 constexpr double kBehind = 0.01;
 
 bool isInside(const EyeView& view, const glm::dvec2& place) {
     return place.x >= 0 && place.y >= 0 && place.x < view.width && place.y < view.height;
 }
 
-// A pixel of a plane of depths, which may have fewer of them than the view, and its middle in pixels of the
-// view.
+// A pixel of a depth plane, which may have fewer pixels than the view, and its middle in pixels of the view.
 struct DepthPixel {
     double depth = std::nan("");  // NaN where the plane has no such pixel
     glm::dvec2 middle{0.0};
@@ -37,8 +36,8 @@ double depthAt(const EyeView& view, const Plane<float>& viewDepth, const glm::iv
     return pixelAt(view, viewDepth, guard, place).depth;
 }
 
-// Whether the pixel there and all beside it show what is nearer. Ground that is seen at a low angle has other
-// depths within a pixel: what stands on it is not hidden by it.
+// Returns whether this pixel and all its neighbours show something nearer. At grazing angles depths differ
+// within a pixel: objects that stand on the ground must not be hidden by it.
 bool isHidden(const EyeView& view, const Plane<float>& viewDepth, const glm::ivec2& guard,
               const glm::dvec2& place, double depth) {
     const glm::dvec2 pixel(static_cast<double>(view.width) / std::max(1, viewDepth.width() - 2 * guard.x),
@@ -75,7 +74,7 @@ std::optional<glm::dvec3> worldUnder(const StereoViews& views, const Plane<float
 
 std::optional<PointMark> markOf(const StereoViews& views, const Plane<float>& viewDepth,
                                 const glm::dvec3& world, const glm::ivec2& guard) {
-    const glm::dvec3 seenAt = views.left.bend().apparent(world);  // both eyes have one head
+    const glm::dvec3 seenAt = views.left.bend().apparent(world);  // both eyes belong to one head
     const glm::dvec3 left = views.left.project(seenAt), right = views.right.project(seenAt);
     if (!(left.z >= views.left.nearDepth && std::isfinite(left.z))) return std::nullopt;
     const PointMark point{{glm::dvec2(left), glm::dvec2(right)}, left.z};

@@ -1,4 +1,4 @@
-// What a file is called in documents that are handed on: where it lies on this machine is nobody's business.
+// Names of files in documents that are passed on: without the folders of this machine.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace stereonav {
 
-// The name alone, of a file, of a folder ("study/" too), or of what is built in.
+// Returns the last part of the path of a file or folder ("study/" too), or a built-in name.
 inline std::string handedName(const std::string& path) {
     const std::filesystem::path whole = std::filesystem::path(path).lexically_normal();
     const std::filesystem::path name =

@@ -10,8 +10,8 @@
 namespace stereonav {
 namespace {
 
-constexpr std::size_t kMostLabels = 40, kLongestLabel = 32;  // letters of a label
-constexpr double kNearest = -0.03;  // parallax, shares of the width: before the screen is less than 0
+constexpr std::size_t kMostLabels = 40, kLongestLabel = 32;  // labels, and letters of one
+constexpr double kNearest = -0.03;  // parallax, share of the width: nearer labels are left out
 
 struct Box {
     glm::dvec2 low, high;
@@ -24,7 +24,8 @@ bool isTaken(const std::vector<Box>& taken, const Box& box) {
     return std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return other.meets(box); });
 }
 
-// The text's corner from the mark: above it, or below where there is no room, and aside as both eyes need it.
+// Returns the text's corner relative to the mark: above the mark, or below where there is no room, and
+// shifted sideways so that both eyes show the whole text.
 std::optional<glm::dvec2> placed(const EyeMark& mark, const glm::dvec2& size, const glm::dvec2& picture,
                                  double margin) {
     const double from = std::min(mark.left.x, mark.right.x), to = std::max(mark.left.x, mark.right.x);
@@ -52,7 +53,7 @@ std::vector<PlaceLabel> labelsInView(const StereoViews& views, const Plane<float
     }
     std::stable_sort(seen.begin(), seen.end(),
                      [](const auto& a, const auto& b) { return a.first.depth < b.first.depth; });
-    std::array<std::vector<Box>, 2> taken;  // in each eye
+    std::array<std::vector<Box>, 2> taken;  // boxes of the labels so far in each eye
     for (const auto& [point, place] : seen) {
         if (labels.size() == kMostLabels) break;
         PlaceLabel label{point.mark, firstLetters(place->name, kLongestLabel), {}};

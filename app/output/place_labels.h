@@ -1,4 +1,4 @@
-// The names of places that are in view, as labels over both eyes' pictures.
+// Names of visible places, as labels over both eyes' pictures.
 #pragma once
 
 #include <functional>
@@ -16,16 +16,17 @@ struct LabelledPlace {
 };
 
 struct PlaceLabel {
-    EyeMark mark;          // the place
-    std::string text;      // its name, cut where it is long
-    glm::dvec2 textAt{0};  // the text's top left corner, pixels from the mark: the same for both eyes
+    EyeMark mark;          // mark of the place
+    std::string text;      // name, shortened where it is long
+    glm::dvec2 textAt{0};  // top left corner of the text, pixels from the mark: the same for both eyes
 };
 
-// Of a text as it will be drawn, pixels.
+// Returns the size of a text as it will be drawn, in pixels.
 using TextSize = std::function<glm::dvec2(const std::string&)>;
 
-// Nearest first; none that would lie over another one, or that has no room in the picture. Places that would
-// stand far before the screen have none: one is nearly there. margin: pixels kept around texts.
+// Returns labels, nearest first. A place has none where it would cover another label, does not fit into the
+// picture, or would stand far in front of the screen, as the viewer has nearly reached it. margin: pixels
+// kept around texts.
 std::vector<PlaceLabel> labelsInView(const StereoViews& views, const Plane<float>& viewDepth,
                                      const std::vector<LabelledPlace>& places, const TextSize& sizeOf,
                                      double margin, const glm::ivec2& guard = glm::ivec2(0));

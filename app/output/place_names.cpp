@@ -9,9 +9,10 @@
 namespace stereonav {
 namespace {
 
-// As in the window: of letters' heights, but for the mark, which is as large in every picture.
+// Sizes as in the window, in heights of letters; the clearance of the mark is in pixels, as marks have the
+// same size in every picture.
 constexpr double kNameMargin = 0.3, kNamePlate = 0.25, kNameRound = 0.2, kMarkClear_px = 4;
-constexpr unsigned kPlateShare = 170;  // of black, in 255
+constexpr unsigned kPlateShare = 170;  // opacity of the black plate, of 255
 
 std::vector<LabelledPlace> namedAmong(const std::vector<PaintedPlace>& places) {
     std::vector<LabelledPlace> named;

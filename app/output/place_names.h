@@ -1,6 +1,6 @@
-// The names of the places that a scene's paint marks (engine/render/paint_legend.h), drawn over both finished
-// eyes of pictures and videos: never warped, each eye by its own projection. The window draws its own, by
-// OpenGL (engine/display/eye_overlay.h).
+// Names of the places that a scene's paint marks (engine/render/paint_legend.h), drawn over both finished
+// eyes of pictures and videos: never warped, but projected for each eye. The window draws them by OpenGL
+// (engine/display/eye_overlay.h).
 #pragma once
 
 #include <optional>
@@ -15,15 +15,15 @@ namespace stereonav {
 
 class PlaceNames {
 public:
-    // Pixels of letters in a picture so high: a fortieth, within the bounds of Letters.
+    // Returns the height of letters in pixels: a fortieth of the picture's, within the limits of Letters.
     static int letterHeight(int pictureHeight);
 
-    // frame: both eyes of these views, with the left one's depths. Which names are drawn and where they stand
-    // is labelsInView's to say (app/output/place_labels.h). Nothing is made where no place has a name.
+    // Draws the names that labelsInView() chooses (app/output/place_labels.h), where it puts them. frame:
+    // both eyes of these views, with the depths of the left one. Does nothing where no place has a name.
     void draw(const std::vector<PaintedPlace>& places, const StereoViews& views, EyePair& frame);
 
 private:
-    std::optional<Letters> mLetters;  // of the last picture's size
+    std::optional<Letters> mLetters;  // letters for the size of the last picture
 };
 
 }  // namespace stereonav

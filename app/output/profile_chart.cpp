@@ -52,7 +52,7 @@ std::string gridLines(const ProfileFrame& frame) {
     return text;
 }
 
-// Pieces between holes.
+// Returns the curve, interrupted at holes.
 std::string curve(const ProfileFrame& frame, const std::vector<LinePoint>& points) {
     std::string path;
     bool open = true;

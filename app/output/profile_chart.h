@@ -1,4 +1,4 @@
-// A profile as a drawing of its own: height over distance, as SVG.
+// A profile as a drawing in SVG: height over distance.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// points: two or more; where a height is not known the line is open.
+// points: two or more; the curve is interrupted where a height is not known.
 std::string profileChart(const std::vector<LinePoint>& points, const std::string& title);
 
 }  // namespace stereonav

@@ -15,10 +15,10 @@
 namespace stereonav {
 namespace {
 
-constexpr double kRedraw_ms = 80.0;           // often enough to look alive, rare enough to cost nothing
-constexpr double kLineInterval_ms = 10000.0;  // where the lines stay
+constexpr double kRedraw_ms = 80.0;           // often enough to look alive, and without noticeable cost
+constexpr double kLineInterval_ms = 10000.0;  // for output that is not a terminal
 
-// Of such lines: what the environment asks for, for a program that reads them.
+// Returns the interval of lines that the environment sets for programs that read them, or the default.
 double lineInterval_ms() {
     const char* const asked = std::getenv("STEREONAV_PROGRESS_SECONDS");
     const double seconds = asked ? std::atof(asked) : 0;
@@ -61,7 +61,7 @@ void ProgressBar::show(double fraction, const std::string& what) {
     if (now >= mNext_ms) draw(now);
 }
 
-// Each note once, however often a file is read.
+// Prints each note once, however often a file is read.
 void ProgressBar::tell(const std::string& note) {
     if (!mShown) return;
     const std::lock_guard lock(mMutex);
@@ -71,7 +71,7 @@ void ProgressBar::tell(const std::string& note) {
     printNote(note);
 }
 
-// By the first thread alone.
+// Redraws the bar; called by the first thread only.
 void ProgressBar::showAgain(double share) {
     const double now = mSinceStart.elapsed_ms();
     if (share < mLoopShare) mLoopStart_ms = now;
@@ -81,9 +81,9 @@ void ProgressBar::showAgain(double share) {
     if (lock) draw(now);
 }
 
-// Under the mutex.
+// Draws the bar; the mutex has to be held.
 void ProgressBar::draw(double now_ms) {
-    constexpr double kLong_ms = 2000;  // of one report, or one loop, from which on its time or share is told
+    constexpr double kLong_ms = 2000;  // duration of a report or loop from which on it is shown
     mNext_ms = now_ms + (mTerminal ? kRedraw_ms : mLineInterval_ms);
     const double since_ms = now_ms - mReported_ms;
     std::string what = mWhat;

@@ -1,6 +1,6 @@
-// A progress bar on stderr: redrawn in place on a terminal; elsewhere one line every ten seconds, so
-// that logs stay short and short jobs say nothing. Between reports it says how long the present work takes,
-// and of a long loop how much of it is done. What the work has to note goes there too, in lines that stay.
+// A progress bar on stderr: redrawn in place on a terminal; elsewhere one line every ten seconds, so that
+// logs stay short and short jobs print nothing. Between reports it shows how long the present work has taken,
+// and the share of a long loop that is done. Notes of the work are printed on lines that stay.
 #pragma once
 
 #include <atomic>
@@ -15,27 +15,27 @@ namespace stereonav {
 
 class ProgressBar {
 public:
-    // shown: else it says nothing.
+    // shown: false: the bar prints nothing.
     explicit ProgressBar(bool shown = true);
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
     Progress& progress() { return mProgress; }
-    // Takes the bar off the terminal, so that other lines can follow.
+    // Removes the bar from the terminal, so that other lines can follow.
     void clear();
 
 private:
     void show(double fraction, const std::string& what);
     void tell(const std::string& note);
-    void showAgain(double share);  // while a loop runs that reports nothing
+    void showAgain(double share);  // called during loops that report nothing
     void draw(double now_ms);
 
     std::mutex mMutex;  // reports come from any thread
     Stopwatch mSinceStart;
     std::atomic<double> mNext_ms;
-    double mFraction = 0, mReported_ms = 0;    // the last report
-    double mLoopShare = 0, mLoopStart_ms = 0;  // of the loop looked at last
+    double mFraction = 0, mReported_ms = 0;    // last report
+    double mLoopShare = 0, mLoopStart_ms = 0;  // the loop that was seen last
     double mLineInterval_ms = 0;
     std::string mWhat;
     std::set<std::string> mTold;
@@ -43,7 +43,7 @@ private:
     Progress mProgress;
 };
 
-// "[=====>    ]  52 % what", as wide as asked.
+// Returns "[=====>    ]  52 % what" with a bar of this width.
 std::string progressLine(double fraction, const std::string& what, int barWidth);
 
 }  // namespace stereonav

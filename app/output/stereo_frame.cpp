@@ -10,7 +10,7 @@
 namespace stereonav {
 namespace {
 
-// Of several frames that make one picture. Of the warps the last one's figures but for its times.
+// Adds the times of several frames that make one picture. Other figures of warps are those of the last frame.
 FrameTimings plus(const FrameTimings& sum, const FrameTimings& frame) {
     FrameTimings all = frame;
     all.both_ms += sum.both_ms;
@@ -30,7 +30,7 @@ StereoFrame::StereoFrame(const Scene& scene, const std::string& method)
 
 void StereoFrame::refine(const SceneOptions& options, const RayOptions& rays, Progress& progress) {
     mRays = rays;
-    // What is to be as near to the truth as that is no warped picture.
+    // Warped pictures can not come as close to the truth as `until_db` asks for.
     if (rays.until_db && mMethod == "auto") mWay.method = mScene.frames().exactMethod();
     const EdgeSetting edges = edgesOf(options, mScene, rays);
     mWay.edges = edges;
@@ -42,7 +42,7 @@ void StereoFrame::refine(const SceneOptions& options, const RayOptions& rays, Pr
     const Lens& whole = mScene.lens;
     mLens.width = std::max(1, static_cast<int>(std::lround(plan->scale * whole.width)));
     mLens.height = std::max(1, static_cast<int>(std::lround(plan->scale * whole.height)));
-    // the same frustum, whatever was rounded
+    // The aspect keeps the frustum exactly as it was before rounding.
     mLens.pixelAspect =
         whole.pixelAspect * whole.width * mLens.height / (static_cast<double>(whole.height) * mLens.width);
 }
@@ -69,7 +69,7 @@ void StereoFrame::paint() {
 }
 
 void StereoFrame::makeMany(const StereoViews& views, double time, EyePair& made) {
-    // Looked at now and then: it takes as long as a warp.
+    // The error is computed only now and then: it takes as long as a warp.
     const auto enough = [this] {
         const int rays = mRefined.count();
         if (!mRays.until_db) return rays >= mRays.rays;

@@ -1,4 +1,4 @@
-// One frame of the pipeline without a window: left eye, right eye, one picture for the display.
+// One frame of the pipeline without a window: left eye, right eye, and one picture composed of them.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace stereonav {
 
-// The pixels of a plane, without what pads its rows.
+// Returns the pixels of a plane without the padding of its rows.
 template <typename T>
 void hashPlane(Hash& hash, const Plane<T>& plane) {
     for (int y = 0; y < plane.height(); ++y)
@@ -20,42 +20,44 @@ void hashPlane(Hash& hash, const Plane<T>& plane) {
 
 class StereoFrame {
 public:
-    // method: one of the scene's FrameMaker, or "auto" for its default.
+    // method: a method of the scene's FrameMaker, or "auto" for its default.
     StereoFrame(const Scene& scene, const std::string& method);
-    // How the right eye is made, which warped pixels are cast as well, and where more rays than one go
-    // through a pixel, from options; measures the scene where they ask for it.
+    // Chooses from options how the right eye is made, which warped pixels are cast in addition, and which
+    // pixels get more than one ray; measures the scene where the options require it.
     void refine(const SceneOptions& options, const RayOptions& rays, Progress& progress);
 
-    // Both eyes at one pose, as far apart as suits the room there (NarrowedEyes). time: seconds, of what
-    // moves by itself; no less than before.
+    // Makes both eyes at a pose, with a separation that suits the room (NarrowedEyes). time: seconds, for
+    // moving parts of the scene; not less than in the last call.
     void render(const Pose& head, double time = 0);
-    // Flies past without a picture: eyes come together as they would have with one.
+    // Moves on without a picture: the eyes come together as they would have with one.
     void passBy(const Pose& head, double time) { mStereo = mEyes.at(head, time); }
-    // What the scene's surfaces are painted with (engine/scene/surface_paint.h), over the last picture, and
-    // the names of places that it marks; once.
+    // Paints the scene's surfaces in the last picture (engine/scene/surface_paint.h), and draws the names of
+    // places; to be called once.
     void paint();
 
-    // Those of the last picture.
+    // Return the views and eyes of the last picture.
     const StereoViews& views() const { return mViews; }
     const StereoSetting& stereo() const { return mStereo; }
-    // Of what is worked out for the two pictures as a whole.
+    // Access for processing of both pictures as a whole.
     EyeImage& left() { return mFrame.left; }
     EyeImage& right() { return mFrame.right; }
     const EyeImage& left() const { return mFrame.left; }
     const EyeImage& right() const { return mFrame.right; }
-    // What refine() chose, "" where nothing was wished; and the size in which eyes are made, to be enlarged.
+    // Returns what refine() chose, "" where the options ask for nothing. madeIn(): the size in which eyes are
+    // made before they are enlarged.
     const std::string& way() const { return mWayName; }
     const Lens& madeIn() const { return mLens; }
     bool isSmaller() const { return mLens.width < mScene.lens.width || mLens.height < mScene.lens.height; }
     const FrameTimings& timings() const { return mFrame.timings; }
-    // Of the last picture: rays a pixel, and how near it is expected to be to one of very many; 0 of one ray.
+    // Returns the rays per pixel of the last picture. expected_db(): PSNR against a picture of very many
+    // rays; 0 with one ray.
     int rays() const { return mRays.many() ? mRefined.count() : 1; }
     double expected_db() const { return mRays.many() ? mRefined.error_db() : 0; }
     Plane<PackedColor> compose(OutputMode mode) const {
         return composeStereo(mFrame.left.color, mFrame.right.color, {mode, false, false});
     }
 
-    // Colour and depth of both eyes, pixels only.
+    // Adds colour and depth of both eyes, without padding.
     void addTo(Hash& hash) const;
 
 private:
@@ -67,11 +69,11 @@ private:
     FrameWay mWay;
     NarrowedEyes mEyes;
     StereoSetting mStereo;
-    StereoViews mViews;  // with the size asked for
+    StereoViews mViews;  // in the size that was asked for
     RayOptions mRays;
     RefinedFrames mRefined;
     PlaceNames mNames;
-    EyePair mFrame, mSmall;  // mSmall: as made, where that is in fewer pixels
+    EyePair mFrame, mSmall;  // mSmall: the eyes as made, where they have fewer pixels
 };
 
 }  // namespace stereonav

@@ -28,7 +28,7 @@ void checkStereoPicture(const std::string& option, const std::filesystem::path& 
 }
 
 PixelBytes pictureBytes(const std::filesystem::path& file) {
-    // Beside what others take: WebP 50 where rays are cast, 28 of a medium; floats and JPEG 2000 less.
+    // Bytes beyond those of other encoders: WebP 50 for cast scenes, 28 for media; floats and JPEG 2000 less.
     constexpr PixelBytes kWholeEncoders{48, 28};
     std::string extension = file.extension().string();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -40,7 +40,7 @@ PixelBytes pictureBytes(const std::filesystem::path& file) {
 
 std::string writeStereoPicture(const std::filesystem::path& file, const StereoFrame& frame, OutputMode mode) {
     if (isMpo(file)) {
-        // off-axis eyes: their axes are parallel
+        // the eyes' axes are parallel: off-axis projection
         writeBytes(file, mpoBytes(frame.left().color, frame.right().color, {frame.stereo().separation, 0}));
         return "2 of " + sizeText(frame.left().color);
     }

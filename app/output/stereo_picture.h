@@ -1,4 +1,4 @@
-// A frame into a picture's file: composed as a display wants it, or as files for 3D viewers have both eyes.
+// Writes a frame into a picture file: composed for a display, or with both eyes for 3D viewers.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,14 @@
 
 namespace stereonav {
 
-// Throws Error naming `option` where the extension is none of a picture that can be written, or the place can
-// not be written.
+// Throws Error that names `option` where no picture can be written with this extension or in this place.
 void checkStereoPicture(const std::string& option, const std::filesystem::path& file);
 
-// What is held for each pixel of an eye while such a file is written.
+// Returns the bytes per pixel of an eye that are held while such a file is written.
 PixelBytes pictureBytes(const std::filesystem::path& file);
 
-// By extension: .jps has both eyes whole, crossed; .mpo has them as two pictures; others are as `mode` says.
-// Gives the size as text, "1280x720" or "2 of 1280x720". Throws Error.
+// Writes by extension: .jps has both whole eyes, crossed; .mpo has two pictures; others are composed by
+// `mode`. Returns the size as text, "1280x720" or "2 of 1280x720". Throws Error.
 std::string writeStereoPicture(const std::filesystem::path& file, const StereoFrame& frame, OutputMode mode);
 
 }  // namespace stereonav

@@ -3,15 +3,15 @@
 namespace stereonav {
 namespace {
 
-// Of a layout with the left eye first, and with the right one.
+// Tags of a layout with the left eye first, and with the right eye first.
 struct LayoutTag {
     OutputLayout layout;
     StereoTag leftFirst, rightFirst;
 };
 
-// Squeezed eyes have pixels twice as wide or high; interleaved ones too, since each has every other column or
-// row. FFmpeg halves what Matroska shows of these layouts (but of a checkerboard), which is right for whole
-// eyes beside each other: the aspect makes up for it where they are not.
+// Squeezed eyes have pixels twice as wide or high; so have interleaved ones, since each has every other
+// column or row. FFmpeg halves Matroska's display size for these layouts (except a checkerboard), which is
+// right for whole eyes side by side: the aspect corrects it for the others.
 constexpr LayoutTag kLayoutTags[] = {
     {OutputLayout::SideBySide, {1, 2, 3}, {11, -1, -1}},
     {OutputLayout::TopBottom, {3, 1, 4}, {2, -1, -1}},
@@ -22,7 +22,7 @@ constexpr LayoutTag kLayoutTags[] = {
 constexpr StereoTag kOneEye{0, 0, -1};
 constexpr StereoTag kRedCyan{10, -1, -1}, kGreenMagenta{12, -1, -1};
 
-// Which glasses Matroska has a value for, the left eye behind the first colour.
+// Returns the tag of the anaglyphs that Matroska has a value for, the left eye behind the first colour.
 StereoTag anaglyphTag(OutputMode mode, bool swapEyes) {
     if (swapEyes) return {};
     if (mode >= OutputMode::RedCyanGray && mode <= OutputMode::RedCyanDubois) return kRedCyan;

@@ -8,7 +8,7 @@
 namespace stereonav {
 namespace {
 
-constexpr std::uint64_t kAviOfOneRiff = 1'000'000'000;  // bytes; a longer one counts in several places
+constexpr std::uint64_t kAviOfOneRiff = 1'000'000'000;  // bytes; longer files have several counts
 
 class Container {
 public:
@@ -20,7 +20,7 @@ public:
 
     std::uint64_t bytes() const { return mBytes; }
 
-    // False beyond the end.
+    // Returns false beyond the end.
     bool go(std::uint64_t to) {
         if (to >= mBytes) return false;
         mIn.clear();
@@ -52,14 +52,14 @@ private:
     std::uint64_t mBytes = 0;
 };
 
-// ISO/IEC 14496-12: boxes one after the other, the index in one of them.
+// Format by ISO/IEC 14496-12: a sequence of boxes, one of which is the index.
 bool isEndedMp4(Container file) {
     bool index = false;
     std::uint64_t at = 0;
     while (file.go(at)) {
         std::uint64_t size = file.big(4);
         const std::string name = file.name();
-        if (size == 1) size = file.big(8);  // a long box
+        if (size == 1) size = file.big(8);  // box with a 64-bit size
         if (!file.good() || size < 8) return false;
         index = index || name == "moov";
         at += size;
@@ -67,7 +67,7 @@ bool isEndedMp4(Container file) {
     return index && at == file.bytes();
 }
 
-// Of the index, an entry of 16 bytes a picture: the size of the largest.
+// Returns the largest size in the index, which has entries of 16 bytes, one per picture.
 std::uint64_t largestPicture(Container& file, std::uint64_t index, std::uint64_t bytes) {
     std::uint64_t largest = 0;
     for (std::uint64_t at = index; at + 16 <= index + bytes; at += 16)
@@ -75,8 +75,8 @@ std::uint64_t largestPicture(Container& file, std::uint64_t index, std::uint64_t
     return largest;
 }
 
-// RIFF: chunks one after the other, in the first one the header with its counts, then pictures and the index.
-// The size of the largest picture is what FFmpeg fills in last.
+// Format by RIFF: a sequence of chunks, of which the first has the header with its counts; then follow
+// pictures and the index. FFmpeg fills in the size of the largest picture last.
 bool isEndedAvi(Container file, long long frames) {
     std::uint64_t at = 0;
     while (file.go(at)) {
@@ -86,7 +86,7 @@ bool isEndedAvi(Container file, long long frames) {
         at += 8 + size;
     }
     if (at != file.bytes() || at == 0) return false;
-    constexpr std::uint64_t kChunks = 12, kFrames = 140, kLargest = 144;  // bytes: in the one stream's header
+    constexpr std::uint64_t kChunks = 12, kFrames = 140, kLargest = 144;  // offsets in the stream's header
     if (!file.go(kFrames) || static_cast<long long>(file.little(4)) != frames) return false;
     if (file.bytes() > kAviOfOneRiff) return true;
     for (at = kChunks; file.go(at);) {
@@ -102,7 +102,7 @@ bool isEndedAvi(Container file, long long frames) {
     return false;
 }
 
-// RFC 8794: a header and a segment, whose size is all ones until it is known.
+// Format by RFC 8794: a header and a segment, whose size has all bits set until it is known.
 bool isEndedMkv(Container file) {
     constexpr std::uint64_t kHeader = 0x1A45DFA3, kSegment = 0x18538067;
     std::uint64_t at = 0;

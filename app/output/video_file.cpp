@@ -16,8 +16,8 @@ namespace stereonav {
 namespace fs = std::filesystem;
 namespace {
 
-// Widths and heights that the codec takes, and the bytes it holds for each pixel of a frame, as measured with
-// 2560x720 and 7680x2160 and rounded up.
+// Sizes that the codec accepts, and the bytes it holds per pixel of a frame, measured with 2560x720 and
+// 7680x2160 and rounded up.
 struct KindFacts {
     const char* extension;
     VideoKind kind;
@@ -29,7 +29,7 @@ constexpr KindFacts kKinds[] = {{".mp4", VideoKind::Mp4, 16384, 72},
                                 {".mkv", VideoKind::Mkv, 65535, 160}};
 constexpr double kMostPixels = 2.5e8;  // FFmpeg's own limit is 2.68e8
 
-// Null where the extension is none of a video that can be written.
+// Returns null where no video can be written with this extension.
 const KindFacts* factsOfVideo(const fs::path& file) {
     const std::string extension = file.extension().string();
     for (const KindFacts& facts : kKinds)
@@ -75,8 +75,8 @@ struct VideoFile::State {
     State(const fs::path& file, int wide, int high) : place(file), pending(file), width(wide), height(high) {}
     fs::path place;
     PendingFile pending;
-    std::unique_ptr<VideoSink> sink;  // before `pending` goes
-    int width, height;                // of a frame as given
+    std::unique_ptr<VideoSink> sink;  // destroyed before `pending`
+    int width, height;                // size of a frame as given
     long long frames = 0;
 };
 

@@ -1,4 +1,4 @@
-// A video written frame by frame beside its place, and renamed into it when complete.
+// A video written frame by frame next to its final place, and renamed when it is complete.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@ namespace stereonav {
 
 class VideoFile {
 public:
-    // By extension: .mp4 (H.264), .avi (Motion JPEG), .mkv (FFV1, lossless). Odd sizes get a repeated last
-    // column or row; of .mkv those of one pixel alone. stereo: what the file says of its eyes, where its
-    // kind can. Throws Error.
+    // The kind follows from the extension: .mp4 (H.264), .avi (Motion JPEG), .mkv (FFV1, lossless). Odd sizes
+    // get a repeated last column or row; in .mkv only those of one pixel. stereo: the stereo tag, for kinds
+    // that have one. Throws Error.
     VideoFile(const std::filesystem::path& file, double framesPerSecond, int width, int height,
               const StereoTag& stereo = {});
-    ~VideoFile();  // what was not finished is removed
+    ~VideoFile();  // removes an unfinished file
 
     void add(const Plane<PackedColor>& frame);
     void finish();
@@ -27,14 +27,14 @@ private:
     std::unique_ptr<State> mState;
 };
 
-// By extension; .mkv for what has none of the above.
+// Returns the kind by extension; .mkv for all other files.
 VideoKind videoKindOf(const std::filesystem::path& file);
 
-// Bytes that writing it takes for each pixel of its frames, beside the frame that is added.
+// Returns the bytes per pixel that writing takes, beside the frame that is added.
 double videoBytesAPixel(VideoKind kind);
 
-// Throws Error naming `option` unless the extension is one of the above, frames of this size can be coded,
-// here and in this kind of file, and the place can be written.
+// Throws Error that names `option` unless the extension is one of the above, frames of this size can be
+// encoded here in this kind of file, and the place can be written.
 void checkVideoFile(const std::string& option, const std::filesystem::path& file, int width, int height);
 
 }  // namespace stereonav

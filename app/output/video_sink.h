@@ -1,4 +1,4 @@
-// What video files ask of the module stereonav_video (FFmpeg); app/ffmpeg has it.
+// The interface of the module stereonav_video (FFmpeg), which app/ffmpeg implements.
 #pragma once
 
 #include <filesystem>
@@ -12,28 +12,28 @@
 namespace stereonav {
 
 struct VideoOrder {
-    std::filesystem::path file;  // that is written
-    std::string name;            // what messages call it
+    std::filesystem::path file;  // file to write
+    std::string name;            // name in messages
     VideoKind kind = VideoKind::Mkv;
     double framesPerSecond = 25;  // 0.001 to 1000
-    int width = 0, height = 0;    // of a frame
+    int width = 0, height = 0;    // size of a frame
     StereoTag stereo;
 };
 
-// A video that is being written, to one thread.
+// A video that is being written; to be used by one thread.
 class VideoSink {
 public:
     virtual ~VideoSink() = default;
-    // Frames of the size that it was opened with. Throws Error.
+    // Adds a frame of the video's size. Throws Error.
     virtual void add(const Plane<PackedColor>& frame) = 0;
-    // Ends the file. False where it does not hold every frame that was added: the disk was full.
+    // Ends the file. Returns false where it does not hold every frame that was added: the disk was full.
     virtual bool close() = 0;
 };
 
-// Throws Error naming `name` where this kind can not be written here, whatever the file.
+// Throws Error that names `name` where this kind of video can not be written here, whatever the file.
 void checkVideoCodec(const std::string& name, VideoKind kind);
-// Throws Error where the file can not be written. Odd sizes get a repeated last column or row; of
-// .mkv those of one pixel alone.
+// Throws Error where the file can not be written. Odd sizes get a repeated last column or row; in .mkv only
+// those of one pixel.
 std::unique_ptr<VideoSink> openVideoSink(const VideoOrder& order);
 
 struct VideoFunctions {
