@@ -1,4 +1,4 @@
-// The program's entry: parses the command line and turns every error into one line and exit status 1.
+// Entry of the program: parses the command line, and turns every error into one line and exit status 1.
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
         stereonav::joinOthers(argc, argv);
         stereonav::setCommands(stereonav::programCommands());
         const int status = stereonav::runCommandLine(argc, argv);
-        // What was printed has arrived, or the run has failed.
+        // A run fails where its output can not be written.
         if (std::fflush(stdout) != 0 || std::ferror(stdout))
             throw stereonav::Error("standard output", "", "can not be written", "is the disk full?");
         stereonav::leaveOthers();

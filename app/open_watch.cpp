@@ -1,6 +1,6 @@
-// The C library's functions that open files, in the program itself: its own code and all libraries find these
-// ones first. Each hands on to the next and notes what was opened to be read (engine/base/files_read.h).
-// GDAL, ITK and GDCM open parts, masks and slices that nobody named; a list by hand would miss some.
+// Replacements for the C library's functions that open files; they precede the library's own for the program
+// and all libraries. Each calls the original and notes files opened for reading (engine/base/files_read.h):
+// GDAL, ITK and GDCM open parts, masks and slices that nobody named, and a list by hand would miss some.
 #include <dlfcn.h>
 #include <fcntl.h>
 
@@ -29,7 +29,7 @@ std::FILE* noted(std::FILE* file, const char* mode) {
     return file;
 }
 
-// What follows the flags counts only where a file may be made.
+// Returns the mode that follows the flags, which has a meaning only where a file may be created.
 mode_t modeAfter(int flags, std::va_list rest) {
     const bool makes = (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE;
     return makes ? va_arg(rest, mode_t) : 0;
@@ -37,7 +37,7 @@ mode_t modeAfter(int flags, std::va_list rest) {
 
 }  // namespace
 
-// Under other names in C++, since headers declare the true ones, some of them with a body.
+// Declares other names in C++, since headers declare the true ones, some of them with a body.
 #define STEREONAV_INSTEAD_OF(name) asm(name) __attribute__((visibility("default"), used))
 
 extern "C" {
@@ -46,7 +46,7 @@ int stereonavOpen(const char* path, int flags, ...) STEREONAV_INSTEAD_OF("open")
 int stereonavOpen64(const char* path, int flags, ...) STEREONAV_INSTEAD_OF("open64");
 int stereonavOpenAt(int folder, const char* path, int flags, ...) STEREONAV_INSTEAD_OF("openat");
 int stereonavOpenAt64(int folder, const char* path, int flags, ...) STEREONAV_INSTEAD_OF("openat64");
-// What a fortified library calls where it gives no mode.
+// Entry that fortified libraries call where they give no mode.
 int stereonavOpen2(const char* path, int flags) STEREONAV_INSTEAD_OF("__open_2");
 int stereonavOpen642(const char* path, int flags) STEREONAV_INSTEAD_OF("__open64_2");
 std::FILE* stereonavFopen(const char* path, const char* mode) STEREONAV_INSTEAD_OF("fopen");

@@ -1,4 +1,4 @@
-// Stands in for the window where the program is built without it: everything that needs it says so.
+// Stand-in for the window in builds without it: what needs the window throws Error.
 #include "app/options/built_without.h"
 #include "app/view/view_command.h"
 #include "engine/display/window.h"
@@ -16,7 +16,7 @@ int runView(const ViewOptions&) {
     without();
 }
 
-// So that the program without a command plays the flight to out/.
+// Returns false, so that the program without a command plays the flight to out/.
 bool hasDisplay() {
     return false;
 }

@@ -1,4 +1,4 @@
-// The command line, through CLI11: a subcommand for each command, its options those of the table.
+// The command line, read with CLI11: a subcommand for each command, with the options of the table.
 #include "app/command/arguments.h"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ const char* nameOfValue(const Option& option) {
 }
 
 void addOption(CLI::App& subcommand, const Option& option, CommandSet which, ParsedOptions& parsed) {
-    // Options are read after the subcommand is known.
+    // Options are read once the subcommand is known.
     const auto chosen = [&parsed, which] {
         if (parsed.given.command != which) chooseCommand(which, parsed);
     };
@@ -50,7 +50,7 @@ void addOption(CLI::App& subcommand, const Option& option, CommandSet which, Par
         };
         added =
             subcommand.add_option(option.name(), takeAll, helpLine(option))->type_name(nameOfValue(option));
-        // the word behind it is the scene's, not another value
+        // The word after the value is the scene, not another value.
         if (option.repeated)
             added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
         added->required(option.required);
@@ -67,13 +67,13 @@ void addCommand(CLI::App& app, const Command& facts, ParsedOptions& parsed) {
     });
 }
 
-// The name of the subcommand that was being parsed, with a blank before it; "" when none.
+// Returns the name of the subcommand that was being parsed, with a blank before it; "" where there is none.
 std::string commandIn(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
     return chosen.empty() ? "" : " " + chosen.front()->get_name();
 }
 
-// The page that was asked for without the word that it has to have behind it; null: none.
+// Returns the page that was asked for without the word that has to follow it; null: none.
 const PageFacts* pageIn(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
     if (chosen.empty() || !chosen.front()->get_subcommands().empty()) return nullptr;
@@ -82,7 +82,7 @@ const PageFacts* pageIn(const CLI::App& app) {
     return nullptr;
 }
 
-// The option that a misspelled one may stand for; "" where none is like it.
+// Returns the option that a misspelled word may mean; "" where none is similar.
 std::string similarOption(const CLI::App& app, const std::string& word) {
     const auto chosen = app.get_subcommands();
     if (chosen.empty() || !word.starts_with("--")) return "";
@@ -91,12 +91,12 @@ std::string similarOption(const CLI::App& app, const std::string& word) {
     for (const CLI::Option* option : chosen.front()->get_options())
         if (!option->get_lnames().empty()) names.push_back("--" + option->get_lnames().front());
     const std::string nearest = nearestWord(name, names);
-    // More would be a guess.
+    // More edits would make it a guess.
     const int mostEdits = std::min(static_cast<int>(name.size() - 2) / 3, 2);
     return editDistance(name, nearest) <= mostEdits ? nearest : "";
 }
 
-// CLI11's refusals in our words: which option or word, what is wrong with it, what to do.
+// Turns CLI11's refusal into our form: which option or word, what is wrong with it, what to do.
 Error refusalOf(const CLI::App& app, const CLI::ParseError& error) {
     const std::string help = "see stereonav" + commandIn(app) + " --help";
     const std::string said = error.what();
@@ -134,7 +134,7 @@ int print(const std::string& text) {
     return 0;
 }
 
-// Commands that tell of the others.
+// Adds the commands that print pages about the others.
 void addPages(CLI::App& app, ParsedOptions& parsed) {
     for (const PageFacts& page : pageFacts()) {
         CLI::App* subcommand = app.add_subcommand(page.name, page.help);
@@ -151,8 +151,8 @@ void addCommands(CLI::App& app, ParsedOptions& parsed) {
     addPages(app, parsed);
 }
 
-// `view --json` alone is `--json=-`: of the window alone it may name a file, which is any word that is no
-// scene and no option; beside --bench any that is no option.
+// Turns `view --json` into `--json=-`. For the window alone a file name may follow, which is any word that is
+// neither a scene nor an option; with --bench any word that is no option.
 void nameJsonFile(std::vector<std::string>& words) {
     if (words.empty() || words.front() != "view") return;
     const bool bench = std::find(words.begin(), words.end(), "--bench") != words.end();
@@ -170,14 +170,15 @@ void nameJsonFile(std::vector<std::string>& words) {
     }
 }
 
-// `help COMMAND` is `COMMAND --help`.
+// Turns `help COMMAND` into `COMMAND --help`.
 void turnHelp(std::vector<std::string>& words) {
     if (words.empty() || words.front() != "help") return;
     words.erase(words.begin());
     words.emplace_back("--help");
 }
 
-// --help stands for the help of what comes before it: of nothing that there is, it would be that of all.
+// Throws Error for an unknown command before --help, which would otherwise print the help of the whole
+// program.
 void checkIsCommand(const CLI::App& app, const std::vector<std::string>& words) {
     const auto word =
         std::find_if(words.begin(), words.end(), [](const auto& w) { return !w.starts_with("-"); });
@@ -189,7 +190,7 @@ void checkIsCommand(const CLI::App& app, const std::vector<std::string>& words) 
 
 void parse(CLI::App& app, std::vector<std::string> words) {
     nameJsonFile(words);
-    std::reverse(words.begin(), words.end());  // as CLI11 takes them
+    std::reverse(words.begin(), words.end());  // the order that CLI11 expects
     try {
         app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
@@ -215,10 +216,10 @@ int runCommandLine(int argc, char** argv) {
         turnHelp(words);
         checkIsCommand(app, words);
         nameJsonFile(words);
-        std::reverse(words.begin(), words.end());  // as CLI11 takes them
+        std::reverse(words.begin(), words.end());  // the order that CLI11 expects
         app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+        if (error.get_exit_code() == 0) return app.exit(error);  // for --help and --version
         throw refusalOf(app, error);
     }
     finishOptions(parsed);

@@ -8,26 +8,26 @@
 
 namespace stereonav {
 
-// What help names the values of options that take numbers: all others are words and files.
+// Name in help of values that are numbers; all other values are words and files.
 constexpr const char* kNumberValue = "NUMBER";
 constexpr const char* kNumbersValue = "NUMBERS";
 
-// Parses and runs one command; returns the exit status. Throws what the command throws.
+// Parses and runs one command; returns the exit status. Throws the command's exceptions.
 int runCommandLine(int argc, char** argv);
 
-// Reads a command line, each option by itself. Throws Error.
+// Reads a command line, each option on its own. Throws Error.
 void checkCommandLine(const std::vector<std::string>& arguments);
-// Also what its scene file says, and whether all that is given goes together. Throws Error.
+// Reads the scene file as well, and checks that all options go together. Throws Error.
 void checkWholeCommandLine(const std::vector<std::string>& arguments);
 
-// Every option of every command that takes a value.
+// An option of a command that takes a value.
 struct OptionFacts {
-    std::string command, name;  // "render", "--fov"; SCENE for what has no dashes
-    bool takesNumbers = false;  // else words and files
+    std::string command, name;  // "render", "--fov"; SCENE for an argument without dashes
+    bool takesNumbers = false;  // otherwise words and files
 };
 std::vector<OptionFacts> optionsOfCommands();
 
-// What these arguments of `render` ask for. Throws Error.
+// Returns the options of `render` for these arguments. Throws Error.
 RenderOptions renderOptionsFrom(const std::vector<std::string>& arguments);
 
 }  // namespace stereonav

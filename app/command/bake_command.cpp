@@ -1,4 +1,4 @@
-// `stereonav bake`: light worked out before it is looked at. Each type of scene has its own.
+// `stereonav bake`: light computed in advance. Each type of scene has its own kind.
 #include <fmt/format.h>
 
 #include "app/command/bake_terrain.h"
@@ -37,13 +37,13 @@ bool isStudyOpenness(const Asked& asked) {
     return isOpenness(asked) && asked.shows(kVolumes);
 }
 
-// Terrains have their light chosen when it is shown.
+// Refuses light for a terrain: it is chosen when the terrain is shown.
 OptionRule chosenWhenShown() {
     return {nullptr, "expected with a CT study, the scene is a terrain",
             "a terrain's sun and sky are chosen when it is shown: --sun, --sky"};
 }
 
-// Lights go with irradiance alone.
+// Refuses lights for kinds other than irradiance.
 std::vector<OptionRule> bakedLightRules() {
     return {{isTransfer, "does not go with transfer, whose light is chosen when it is shown", kLeaveOneOut},
             {isOpenness, "does not go with openness, which is without lights", kLeaveOneOut}};
@@ -58,7 +58,7 @@ OptionRule unlessOpenGround() {
             "leave it out, or bake --what transfer"};
 }
 
-// Terrains take fewer numbers.
+// Refuses a number outside the range for terrains, which is smaller.
 OptionRule unlessFewOnGround(bool (*broken)(const Asked&), const char* range, const char* key) {
     return {broken, fmt::format("expected {} for a terrain, got {{{}}}", range, key),
             "leave it out for the default"};

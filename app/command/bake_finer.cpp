@@ -17,7 +17,8 @@
 namespace stereonav {
 namespace {
 
-// What the others bake by: the first one's light, but for what only pictures need.
+// Returns the light from which all processes bake finer: that of the first one, without the parts for
+// pictures.
 TerrainLight lightToGoOnFrom(std::optional<TerrainLight> light, const TerrainLightSettings& settings,
                              const Heightfield& ground, Peers& peers) {
     TerrainLight kept;
@@ -43,8 +44,8 @@ std::filesystem::path partOf(std::filesystem::path place) {
     return place += ".part";
 }
 
-// Whether the same bake, or a finer one, is there already. Where some of its tiles are damaged it becomes the
-// one that is gone on from.
+// Returns whether the same bake, or a finer one, is there already. One with damaged tiles is renamed, so that
+// the bake goes on from it.
 bool isThere(const std::filesystem::path& place, const FineLightShape& shape) {
     if (!isFineLight(place)) return false;
     try {
@@ -54,7 +55,7 @@ bool isThere(const std::filesystem::path& place, const FineLightShape& shape) {
     } catch (const DiskError&) {
         throw;
     } catch (const Error&) {
-        return false;  // of other light, or cut off: made anew
+        return false;  // of other light, or cut off: it is baked anew
     }
     std::filesystem::rename(place, partOf(place));
     return false;

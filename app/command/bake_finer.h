@@ -1,4 +1,4 @@
-// Light of a terrain at finer samples than those in memory, into a file beside the light of these
+// Light of a terrain at finer samples than those in memory, in a file next to that of the coarser light
 // (terrain/light/fine_bake.h).
 #pragma once
 
@@ -14,16 +14,17 @@
 
 namespace stereonav {
 
-// How many levels finer --resolution asks for; 0: none. Throws Error where the ground has none.
+// Returns the number of levels by which --resolution is finer; 0: none. Throws Error where the ground has no
+// such level.
 int finerLevels(const BakeOptions& options, const TerrainScene& terrain);
 
-// Throws Error where something else is in the way of what would lie beside that file.
+// Throws Error where other files occupy the places next to that file.
 void checkFinerPlace(const std::filesystem::path& light);
-// Once the light with that key lies there: what goes on from another.
+// Removes the finer light of another bake. To be called once the light with `key` is in its place.
 void removeFinerOfOthers(const std::filesystem::path& light, std::uint64_t key);
 
-// By all processes, of which the first has the light that lies in `file`. False where it was stopped; what is
-// done is kept. Throws Error.
+// Bakes with all processes; the first one has the light in `file`. Returns false where it was stopped;
+// finished parts are kept. Throws Error.
 bool bakeFiner(const TerrainScene& terrain, std::optional<TerrainLight> light,
                const TerrainLightSettings& settings, int finer, const std::filesystem::path& file,
                ProgressBar& bar, CommandResult& result);

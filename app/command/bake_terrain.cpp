@@ -1,4 +1,4 @@
-// Bakes a terrain's light into a file: horizons and transfer, or openness alone
+// Bakes a terrain's light into a file: horizons and transfer, or openness only
 // (terrain/light/terrain_light.h).
 #include "app/command/bake_terrain.h"
 
@@ -35,7 +35,7 @@ TerrainLightSettings settingsOf(const BakeOptions& options) {
         options.what == BakeKind::Openness ? TerrainLightKind::Openness : TerrainLightKind::Transfer;
     if (options.resolution)
         settings.stride = std::max(1, static_cast<int>(std::lround(1 / *options.resolution)));
-    // Rays go in packets.
+    // The number of rays is a multiple of a packet's.
     constexpr int kPacket = RayPacket::kSize;
     if (options.samples) settings.rays = (*options.samples + kPacket - 1) / kPacket * kPacket;
     if (options.order) settings.order = *options.order;
@@ -44,7 +44,7 @@ TerrainLightSettings settingsOf(const BakeOptions& options) {
     return settings;
 }
 
-// What the file holds, where it is the same bake.
+// Returns the light in the file, where it is that of the same bake.
 std::optional<TerrainLight> lightBefore(const std::filesystem::path& file, const Heightfield& ground,
                                         const TerrainLightSettings& settings, bool quiet) {
     if (!std::filesystem::exists(file)) return std::nullopt;
@@ -62,7 +62,7 @@ std::optional<TerrainLight> lightBefore(const std::filesystem::path& file, const
     return std::nullopt;
 }
 
-// None where it was stopped and what is done is kept.
+// Returns the light; empty where the bake was stopped and its finished part is kept.
 std::optional<TerrainLight> bakeOrKeep(const Heightfield& ground, const TerrainLightSettings& settings,
                                        ProgressBar& bar) {
     try {
@@ -104,7 +104,7 @@ int bakeTerrain(const BakeOptions& options) {
     const TerrainScene terrain = terrainOf(unlit, bar.progress());
     const Heightfield& ground = terrain.ground;
     const int finer = finerLevels(options, terrain);
-    // Near the eye the finer light is seen: that in memory may be as coarse as it takes to fit.
+    // The finer light is shown near the eye, so the light in memory may be as coarse as memory requires.
     if (finer > 0) settings.stride = asTheFirst(peers, strideWithinMemory(ground, settings).value_or(1));
     const std::filesystem::path file =
         options.out.empty() ? terrainLightCache(ground) : std::filesystem::path(options.out);

@@ -5,8 +5,8 @@
 
 namespace stereonav {
 
-// Into the cache, where `--light auto` looks for the light of the same ground, or into options.out. What is
-// done is kept when it is stopped, and the next run goes on from there. Throws Error, Cancelled.
+// Bakes into the cache, where `--light auto` finds the light of the same ground, or into options.out. When
+// stopped it keeps the finished part, and the next run goes on from there. Throws Error, Cancelled.
 int bakeTerrain(const BakeOptions& options);
 
 }  // namespace stereonav

@@ -1,5 +1,5 @@
-// Goes on from what the file of the same bake holds, or begins; writes the file when done, stopped, and every
-// two minutes between.
+// Bakes a volume's light: goes on from the file of the same bake, or begins; writes the file at the end, when
+// stopped, and every two minutes.
 #include "app/command/bake_volume.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kSamples = 256;  // where nothing is said
+constexpr int kSamples = 256;  // default
 
 BakeGoal goalOf(const BakeOptions& options) {
     BakeGoal goal;
@@ -33,7 +33,7 @@ BakeGoal goalOf(const BakeOptions& options) {
     return goal;
 }
 
-// What the file holds of this bake, or nothing done yet. A file that can not be used is named.
+// Returns the sums in the file of this bake, or empty ones. Names a file that can not be used.
 BakeSums begin(const std::filesystem::path& file, std::uint64_t key, VolumeBakePlan& plan,
                const TexelLighter& lighter, bool tell, ProgressBar& bar) {
     std::string problem;
@@ -56,11 +56,11 @@ double samplesIn(const BakeSums& sums) {
     return all;
 }
 
-// Samples and time of the run, and where they are.
+// Reports samples and time of the run, and the file.
 void tellOf(CommandResult& result, const std::string& scene, const VolumeBakePlan& plan, const BakeSums& sums,
             double done, double seconds, const std::filesystem::path& file) {
     const double each = samplesIn(sums) / std::max<double>(1, static_cast<double>(sums.texels()));
-    // Of a bake that was stopped some texels have more than others.
+    // In a bake that was stopped some texels have more samples than others.
     result.say(fmt::format("{}: {} of {} texels, {:.0f} samples each{}, {}\n", scene,
                            nameOf(sums.shape().kind), sums.texels(), each,
                            each > sums.fewestSamples() ? " on average" : "", errorText(sums.error())));
@@ -98,7 +98,7 @@ int bakeVolume(const BakeOptions& options) {
     VolumeBakePlan plan = planVolumeBake(scene, options, progress);
     const TexelLighter lighter(scene.volume.field, plan.inputs.texels, plan.inputs.light,
                                plan.inputs.sampling);
-    const FinishingWork keepsWhatIsDone;  // a stop is an end like others
+    const FinishingWork keepsWhatIsDone;  // a stop ends the bake like its goal
     if (!peers.first()) {
         BakeSums sums(plan.inputs.texels, std::move(plan.bricks), plan.inputs.shape, lighter.bytesToCome());
         serveBake(sums, sourceOf(lighter), peers);

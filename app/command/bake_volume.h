@@ -5,7 +5,7 @@
 
 namespace stereonav {
 
-// Throws Error. 1 where it was stopped before its end; what is done is kept.
+// Returns 1 where the bake was stopped before its end; finished parts are kept. Throws Error.
 int bakeVolume(const BakeOptions& options);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// `stereonav cache`: what is kept between runs to save time, what it is of, and clearing it.
+// `stereonav cache`: lists what is kept between runs to save time, with its sources, and clears it.
 #include "app/command/cache_command.h"
 
 #include <fmt/chrono.h>
@@ -27,11 +27,11 @@ namespace fs = std::filesystem;
 struct CacheOptions {
     Telling telling;
     bool clear = false;
-    std::optional<double> olderThan_h;  // what was last used so long ago is removed; none: whatever its age
-    std::string of;  // a study or file, or a folder of some: what was made of it is removed; "": of anything
+    std::optional<double> olderThan_h;  // least age of what is removed, since its last use; empty: any age
+    std::string of;  // study, file, or folder of sources whose results are removed; "": any source
 };
 
-// What files are by the beginnings of their names.
+// Kinds of files by the beginnings of their names.
 constexpr std::array<std::pair<const char*, const char*>, 8> kKeptKinds{
     {{"colon-", "colon"},
      {"lumen-", "lumen"},
@@ -62,7 +62,7 @@ std::string timeText(fs::file_time_type time) {
     return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(at.time_since_epoch().count()));
 }
 
-// The file or folder itself, or what lies in it.
+// Returns whether the source is this file or folder, or lies in it.
 bool isOf(const Kept& kept, const fs::path& source) {
     if (kept.source.empty()) return false;
     const auto [end, differs] =
@@ -70,16 +70,16 @@ bool isOf(const Kept& kept, const fs::path& source) {
     return end == source.end();
 }
 
-// The source as noteSource() writes it.
+// Returns the source in the form of noteSource().
 fs::path sourceNamed(const std::string& text) {
     std::error_code code;
     fs::path whole = fs::canonical(text, code);
     if (!code) return whole;
-    whole = fs::absolute(text).lexically_normal();  // gone since, which what is kept of it is not
+    whole = fs::absolute(text).lexically_normal();  // gone, while its results are still kept
     return whole.has_filename() ? whole : whole.parent_path();
 }
 
-// Hours of "12h", "30d" or "4w"; none: it is none of these.
+// Returns the hours of "12h", "30d" or "4w"; empty for any other text.
 std::optional<double> hoursOfAge(const std::string& text) {
     constexpr double kMost = 1e6;
     double number = 0;

@@ -1,4 +1,4 @@
-// What is kept between runs, and what it was made of.
+// Notes on the sources of what is kept between runs.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace stereonav {
 
-// noteSource() (engine/base/cache.h) of a scene as it was named; nothing is noted of what is built in.
+// Calls noteSource() (engine/base/cache.h) with the scene's file; built-in scenes are not noted.
 void noteSceneAsSource(const std::filesystem::path& file, const std::string& scene);
 
 }  // namespace stereonav

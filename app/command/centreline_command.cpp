@@ -1,4 +1,4 @@
-// `stereonav centreline`: the way through a colon as a file for other tools.
+// `stereonav centreline`: writes the way through a colon as a file for other tools.
 #include <fmt/format.h>
 
 #include <algorithm>

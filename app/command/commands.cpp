@@ -1,6 +1,6 @@
 #include "app/command/commands.h"
 
-// A line each, in the order of help; its file has a function `Command NAMECommand()`.
+// The commands in the order of help; the file of each has a function `Command NAMECommand()`.
 #define STEREONAV_COMMANDS(COMMAND) \
     COMMAND(info)                   \
     COMMAND(render)                 \

@@ -7,10 +7,11 @@
 
 namespace stereonav {
 
-// In the order of help.
+// Returns the commands in the order of help.
 std::vector<Command> programCommands();
 
-// No command given: flies the built-in terrain where there is a display, else plays it to out/ and compares.
+// Runs the program without a command: flies over the built-in terrain where there is a display, otherwise
+// plays it to out/ and compares.
 int runDefault();
 
 }  // namespace stereonav

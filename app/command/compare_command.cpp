@@ -1,4 +1,4 @@
-// `stereonav compare`: flies a path with every method and measures time and error.
+// `stereonav compare`: flies along a path with every method and measures time and error.
 #include "app/command/compare_command.h"
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ void checkOptions(const CompareOptions& options) {
     for (const std::string& name : options.methods) checkMethod(options.scene, name, "--methods");
 }
 
-// Each once, in the order of their first naming; "auto" is the scene's default.
+// Returns the methods without repetitions, in the order given; "auto" is the scene's default.
 std::vector<std::string_view> methodsOf(const CompareOptions& options, const Scene& scene) {
     std::vector<std::string_view> methods;
     for (const std::string& name : options.methods) {
@@ -52,15 +52,15 @@ std::vector<std::string_view> methodsOf(const CompareOptions& options, const Sce
 }
 
 struct Shown {
-    const char* name;  // part of the file's
+    const char* name;  // part of the file name
     const EyeImage &exact, &made;
 };
 
-// The pictures of one frame: each eye by itself, and of each method what it made, its holes in red and its
-// difference from the eye by itself.
+// Writes the pictures of one frame: each eye by itself, and for each method its picture, its holes in red,
+// and its difference from the eye by itself.
 void writePictures(const ComparedFrame& frame, int truthRays, const fs::path& folder) {
     const bool rightAlone = !frame.truth.empty();
-    const int factor = rightAlone ? 5 : 20;  // as in fig. 6e of Wan et al. 2004; media differ by less
+    const int factor = rightAlone ? 5 : 20;  // as in fig. 6e of Wan et al. 2004; media differ less
     if (rightAlone) {
         writeColorImage(folder / "left.png", frame.left.color);
         writeColorImage(folder / "full_right.png", frame.right.color);
@@ -85,7 +85,7 @@ void writePictures(const ComparedFrame& frame, int truthRays, const fs::path& fo
     }
 }
 
-// Eyes as render and play have them: together where the room is narrow.
+// Returns the eyes that render and play have: close together where the room is narrow.
 std::vector<StereoSetting> eyesAt(const Scene& scene, const std::vector<TimedPose>& poses) {
     NarrowedEyes eyes(scene);
     std::vector<StereoSetting> all;
@@ -106,7 +106,7 @@ std::vector<MethodFigures> comparedMethods(const CompareOptions& options, const 
     setting.truthFactor = static_cast<int>(std::lround(std::sqrt(options.truthRays)));
     setting.methods = methodsOf(options, scene);
     setting.edges.rays = options.scene.quality.edges.value_or(0);
-    const int shown = static_cast<int>(poses.size()) / 2;  // pictures of the middle of the flight
+    const int shown = static_cast<int>(poses.size()) / 2;  // pictures are of the middle of the flight
     const auto listener = [&](const ComparedFrame& frame) {
         if (options.images.empty() || frame.index != shown) return;
         makeOutputFolder(options.images);
@@ -226,7 +226,7 @@ int runCompare(const CompareOptions& options) {
     constexpr double kNextFrame = 1.0 / 30;  // seconds
     const RecordedPath& flight = flightOf(scene, path, options.path);
     const std::vector<TimedPose> poses = timedFrames(flight, options.frames);
-    // What is asked for is what is measured.
+    // A separation that is asked for is measured unchanged.
     const std::vector<StereoSetting> eyes = options.relativeSeparation
                                                 ? std::vector<StereoSetting>(poses.size(), scene.stereo)
                                                 : eyesAt(scene, poses);

@@ -23,7 +23,7 @@ namespace {
 struct Field {
     const char* name;
     double (*value)(const MethodFigures&);
-    int decimals;  // in the table
+    int decimals;  // digits in the table
 };
 
 // Root mean square error in 8-bit levels; 0 at the cap, which stands for identical pictures.
@@ -60,12 +60,12 @@ constexpr std::array<Field, 25> kFields{{
     {"flat_butteraugli", [](F f) { return f.flat_butteraugli; }, 3},
 }};
 
-// Of its column in the table.
+// Returns the width of the field's column in the table.
 int widthOf(const Field& field) {
     return std::max(13, static_cast<int>(std::strlen(field.name)));
 }
 
-// The figures of a scene, in one line under a plot or a table.
+// Returns the conditions of the measurement in one line, for below a plot or a table.
 std::string captionOf(const ComparisonReport& report) {
     return fmt::format("{}, {}x{}, {} frames, {} thread{}, {}, {}",
                        printable(std::filesystem::path(report.scene).filename().string()), report.width,
@@ -84,7 +84,7 @@ std::string tableOf(const ComparisonReport& report) {
                         ? fmt::format(", {:.4g} m where narrow", report.least)
                         : "");
     table += fmt::format("{:<10}", "method");
-    std::vector<Field> fields;  // that any method has
+    std::vector<Field> fields;  // fields that any method has
     std::copy_if(kFields.begin(), kFields.end(), std::back_inserter(fields), [&](const Field& field) {
         return std::ranges::any_of(report.methods, [&](F f) { return !std::isnan(field.value(f)); });
     });

@@ -1,5 +1,5 @@
-// `stereonav coverage`: which part of a colon's wall a flight shows one way, there and back, and after
-// looking at what is left.
+// `stereonav coverage`: the part of a colon's wall that a flight shows one way, there and back, and after
+// looking at the remaining patches.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,15 +25,15 @@ namespace stereonav {
 namespace {
 
 struct CoverageOptions {
-    SceneOptions scene;  // its field of view is that of the picture
+    SceneOptions scene;  // the pictures have the scene's field of view
     Telling telling;
-    SizeOption size{512, 512};  // of which the shape alone counts
-    std::string path;           // a recorded flight; "": along the centreline
-    double step_mm = 2;         // between poses, > 0
-    double within_mm = 100;     // from the eye, > 0
-    double angle_deg = 85;      // off the wall's normal, in (0, 90]
-    double patch_mm2 = 300;     // the smallest patch that is listed, >= 0
-    std::string out;            // .csv of the patches, or -; "": not written
+    SizeOption size{512, 512};  // only the shape counts
+    std::string path;           // file of a flight; "": along the centreline
+    double step_mm = 2;         // distance between poses, > 0
+    double within_mm = 100;     // distance from the eye, > 0
+    double angle_deg = 85;      // angle to the wall's normal, in (0, 90]
+    double patch_mm2 = 300;     // area of the smallest patch that is listed, >= 0
+    std::string out;            // .csv of the patches, or -; "": none
 };
 
 void checkCoverageOptions(const CoverageOptions& options) {

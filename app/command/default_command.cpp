@@ -1,4 +1,4 @@
-// `stereonav` without a command: the built-in terrain, as well as this machine can show it.
+// `stereonav` without a command: shows the built-in terrain as well as the machine can.
 #include <cstdio>
 
 #include "app/command/commands.h"
@@ -12,7 +12,7 @@
 namespace stereonav {
 namespace {
 
-// The flight as a video and twelve pictures in out/, then the table of compare.
+// Writes the flight as a video and twelve pictures to out/, then prints the table of compare.
 int playAndCompare() {
     checkOutputFolder("out/", "out");
     printLine(stdout, "there is no display: the built-in flight goes to out/");
@@ -29,7 +29,7 @@ int playAndCompare() {
     runPlay(video);
     CompareOptions compare;
     compare.frames = 8;
-    compare.truthRays = 16;  // nobody waits for a table
+    compare.truthRays = 16;  // few rays, so that the table is there soon
     compare.json = "out/compare.json";
     compare.csv = "out/compare.csv";
     compare.plot = "out/error_against_time.png";

@@ -1,4 +1,4 @@
-// `stereonav findings`: what places of a colon's wall measure, as a list, a table, a file to go on with, a
+// `stereonav findings`: measures places of a colon's wall, for a list, a table, a file to go on with, and a
 // page.
 #include <fmt/format.h>
 
@@ -24,13 +24,13 @@ namespace {
 struct FindingsOptions {
     SceneOptions scene;
     Telling telling;
-    bool atTruth = false;                                    // of the built-in colon: where its polyps are
+    bool atTruth = false;                                    // at the polyps of the built-in colon
     std::vector<glm::dvec3> at;                              // LPS, metres
-    std::vector<std::pair<glm::dvec3, glm::dvec3>> between;  // LPS, metres: places whose distance is asked
-    bool candidates = false;                                 // places that look like polyps, too
-    std::optional<std::string> comment;                      // on the one place in `at`
-    std::string file;                                        // .json that findings are kept in; "": none
-    std::string csv, page, sr;                               // .csv, .html, .dcm, or -; "": not written
+    std::vector<std::pair<glm::dvec3, glm::dvec3>> between;  // LPS, metres: pairs, for their distances
+    bool candidates = false;                                 // include places that look like polyps
+    std::optional<std::string> comment;                      // comment on the only place in `at`
+    std::string file;                                        // .json file that findings are kept in; "": none
+    std::string csv, page, sr;                               // .csv, .html, .dcm, or -; "": none
 };
 
 void checkPlace(const char* option, const std::string& file, const char* ending,
@@ -64,7 +64,7 @@ void checkFindingsOptions(const FindingsOptions& options) {
         throw Error("--comment", "", "expected with one --at, whose it is", "give one place at a time");
 }
 
-// What was kept is measured again, each place once.
+// Measures the kept findings again, each place once.
 void addKept(const std::vector<KeptFinding>& list, const FindingTool& tool, Progress& progress,
              std::vector<Finding>& findings) {
     if (list.empty()) return;
@@ -100,7 +100,7 @@ std::vector<Finding> collect(const FindingsOptions& options, const std::vector<K
     return findings;
 }
 
-// Straight, and along the line between the places of it that are next to them.
+// Reports distances in a straight line, and along the centreline between its points nearest to both places.
 void tellDistances(CommandResult& result, const FindingsOptions& options, const ColonScene& colon) {
     std::vector<Facts> list;
     for (const auto& [from, to] : options.between) {

@@ -8,7 +8,7 @@ namespace {
 
 using command::kMeasure, command::kProfile;
 
-// "x,y,x,y,...": two places or more.
+// Returns what is wrong with "x,y,x,y,...": it needs two places or more.
 std::optional<ValueProblem> problemOfPlaces(const std::string& text) {
     const std::vector<double> numbers = numbersFromText(text);
     if (numbers.size() >= 4 && numbers.size() % 2 == 0) return std::nullopt;

@@ -1,4 +1,4 @@
-// What `measure` and `profile` take: a line or an area over the ground, and what is written of it.
+// Options of `measure` and `profile`: a line or an area over the ground, and the files to write.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -15,9 +15,9 @@ struct GroundLineOptions {
     SceneOptions scene;
     Telling telling;
     SurveyLine line;
-    std::vector<glm::dvec2> area;   // corners, as places of the line
-    std::optional<double> plane_m;  // that volumes lie over and under; none: of the area's lowest corner
-    std::string csv, geojson, svg;  // "": not written
+    std::vector<glm::dvec2> area;   // corners, in the coordinates of the line's places
+    std::optional<double> plane_m;  // height that volumes refer to; empty: the area's lowest corner
+    std::string csv, geojson, svg;  // files; "": none
 };
 
 std::vector<Option> groundLineOptions();

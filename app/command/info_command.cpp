@@ -1,4 +1,4 @@
-// `stereonav info`: what was read, the frame plan, and what the program has started for it.
+// `stereonav info`: prints what was read, the frame plan, and what the program has started for it.
 #include <cstdio>
 
 #include "app/command/info_series.h"

@@ -51,7 +51,7 @@ std::string lineOf(const SeriesLook& look, std::size_t number, const std::string
 
 int listSeriesOf(const InfoOptions& options) {
     checkOutputFolder("--series-pictures", options.series);
-    sceneTypeNamed(options.scene.scene);  // throws where there is nothing of this name
+    sceneTypeNamed(options.scene.scene);  // throws where nothing has this name
     if (options.scene.threads > 0) setThreadCount(options.scene.threads);
     const std::vector<SeriesLook> looks = lookAtSeries(options.scene.scene);
     makeOutputFolder(options.series);

@@ -1,4 +1,4 @@
-// `stereonav info FOLDER --series-pictures DIR`: which series a DICOM folder holds, with a picture of each.
+// `stereonav info FOLDER --series-pictures DIR`: lists the series of a DICOM folder, with a picture of each.
 #pragma once
 
 #include "app/options/picture_options.h"

@@ -1,5 +1,5 @@
-// `stereonav measure`: lengths, areas and volumes on the ground, each with what the sample spacing leaves
-// open.
+// `stereonav measure`: lengths, areas and volumes on the ground, each with its uncertainty from the sample
+// spacing.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -40,7 +40,8 @@ void checkMeasureOptions(const GroundLineOptions& options) {
     }
 }
 
-// Longitude and latitude, as the format asks for; of a ground that does not say where it lies its own metres.
+// Returns longitudes and latitudes, as the format requires; for ground without a place on the Earth its own
+// metres.
 nlohmann::ordered_json geometryOf(const SurveyGround& survey, const WorldLine& line) {
     nlohmann::ordered_json places = nlohmann::ordered_json::array();
     const GroundSamples samples = survey.samples();

@@ -1,4 +1,4 @@
-// `stereonav mesh`: the scene's ground as a glTF mesh of chosen error. Landmarks are not part of it.
+// `stereonav mesh`: writes the scene's ground as a glTF mesh of chosen error, without landmarks.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct MeshOptions {
     SceneOptions scene;
     Telling telling;
     std::string out;                // .glb or .gltf
-    std::optional<double> error_m;  // largest vertical error; none: half a sample spacing
+    std::optional<double> error_m;  // largest vertical error; empty: half a sample spacing
 };
 
 void checkMeshOptions(const MeshOptions& options) {

@@ -1,4 +1,4 @@
-// What could not be painted, told once.
+// Notes on paint that could not be drawn, each printed once.
 #pragma once
 
 #include "app/output/command_result.h"

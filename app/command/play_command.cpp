@@ -1,4 +1,4 @@
-// `stereonav play`: a flight into numbered pictures, a video, or one hash of all frames.
+// `stereonav play`: turns a flight into numbered pictures, a video, or one hash of all frames.
 #include "app/command/play_command.h"
 
 #include <fmt/format.h>
@@ -35,14 +35,14 @@ std::pair<int, int> frameSize(const PlayOptions& options) {
     return composedSize(options.mode, options.size.width, options.size.height);
 }
 
-// How far frames may be made beyond the next one to be written: two for each process, so that one that takes
-// long holds nobody up.
+// Returns how many frames may be made ahead of the next one to write: two per process, so that a slow frame
+// delays nobody.
 std::size_t framesAhead(const Peers& peers) {
     return 2 * static_cast<std::size_t>(peers.count());
 }
 
-// A video's codec holds frames as they are composed, in most modes with both eyes in them.
-// The first of several processes holds the frames that wait for their turn.
+// Returns the bytes per pixel. A video's codec holds composed frames, which in most modes contain both eyes.
+// The first of several processes holds frames that wait for their turn.
 PixelBytes bytesOf(const PlayOptions& options) {
     const Peers& peers = peersOfThisRun();
     const auto [width, height] = frameSize(options);
@@ -61,7 +61,7 @@ void checkOptions(const PlayOptions& options) {
     if (options.scene.quality.target_ms && !peersOfThisRun().alone())
         throw Error("--target-ms", "", "does not go with several processes, which do not measure alike",
                     "use --quality");
-    // Others write nothing, and may be where the places are not.
+    // Other processes write nothing, and may run where the output places do not exist.
     const bool writes = peersOfThisRun().first();
     if (writes && !options.out.empty()) checkOutputFolder("--out", options.out);
     if (writes && !options.video.empty()) {
@@ -83,7 +83,7 @@ std::vector<TimedPose> posesOf(const PlayOptions& options, const RecordedPath& p
     return timedFramesAtRate(path, fps);
 }
 
-// First and last of the frames that are made.
+// Returns the first and last frame to make.
 std::pair<std::size_t, std::size_t> partOf(const PlayOptions& options, std::size_t frames) {
     if (!options.part) return {0, frames - 1};
     const auto [first, last] = *options.part;
@@ -95,7 +95,7 @@ std::pair<std::size_t, std::size_t> partOf(const PlayOptions& options, std::size
     return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
 }
 
-// "" where the video's file says how it shows two eyes.
+// Returns a note for videos without a stereo tag; "" where the file has one.
 std::string stereoNote(const PlayOptions& options) {
     if (options.video.empty() || saysStereo(videoKindOf(options.video), options.mode)) return "";
     const bool inMatroska = saysStereo(VideoKind::Mkv, options.mode);
@@ -111,7 +111,7 @@ double medianOf(std::vector<double> values) {
 }
 
 struct FlownPart {
-    std::size_t first = 0, last = 0;  // frames, by their numbers in the whole flight
+    std::size_t first = 0, last = 0;  // numbers of frames in the whole flight
     std::size_t count() const { return last - first + 1; }
 };
 
@@ -127,7 +127,7 @@ void tellOfFlight(CommandResult& result, const PlayOptions& options, const Flown
     result.add("mode", std::string(infoOf(options.mode).shortName));
     if (!options.out.empty()) result.add("folder", options.out);
     if (!options.video.empty()) result.addFile("video", options.video);
-    if (sink.left_ms.back() == 0) {  // made together
+    if (sink.left_ms.back() == 0) {  // both eyes were made together
         result.say(fmt::format("{} frames, median both eyes {:.2f} ms\n", frames, medianOf(sink.both_ms)));
         result.add("median_both_ms", medianOf(sink.both_ms));
     } else {
@@ -151,7 +151,7 @@ void flyAlone(const FlownPart& flight, FlightFrames& frames, FrameSink& sink, Pr
     progress.report(1, "flown");
 }
 
-// Any process makes any frame; this one writes them in their order.
+// Makes frames in all processes; this one writes them in their order.
 void flyWithOthers(const PlayOptions& options, const FlownPart& flight, FlightFrames& frames, FrameSink& sink,
                    Progress& progress) {
     PieceWork work;
@@ -176,7 +176,7 @@ int runPlay(const PlayOptions& options) {
     Peers& peers = peersOfThisRun();
     checkOptions(options);
     checkMethod(options.scene, options.method);
-    // the path first: a bad one should not cost the reading of a large scene
+    // The path is read first: a bad one should not cost the reading of a large scene.
     std::optional<RecordedPath> path;
     if (!options.path.empty()) path = readPath(options.path);
     CommandResult result("play", options.telling, {});

@@ -1,4 +1,4 @@
-// `stereonav play`, which the program without a command runs too.
+// `stereonav play`, which also runs without a command.
 #pragma once
 
 #include "app/options/picture_options.h"

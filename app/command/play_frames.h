@@ -1,5 +1,5 @@
-// The frames of a flight, one after the other, and what of them goes where: made and used in one process, or
-// made in any and handed as bytes to the first (engine/peers).
+// The frames of a flight in their order, and their output: made and used in one process, or made in any
+// process and passed as bytes to the first (engine/peers).
 #pragma once
 
 #include <memory>
@@ -13,7 +13,8 @@
 
 namespace stereonav {
 
-// Frames by ascending numbers. Where eyes come together slowly, what lies between is passed by.
+// Makes frames with ascending numbers. Frames that are skipped still move the eyes, which come together
+// slowly.
 class FlightFrames {
 public:
     FlightFrames(StereoFrame& frame, const std::vector<TimedPose>& poses) : mFrame(frame), mPoses(poses) {}
@@ -25,14 +26,15 @@ private:
     std::size_t mNext = 0;
 };
 
-// Where frames go, and what is told of them; what was not asked for stays unused. All in their order.
+// The output of frames, and their times; what was not asked for stays unused. Frames are added in their
+// order.
 class FrameSink {
 public:
     // Makes the folder and begins the video. Throws Error.
     explicit FrameSink(const PlayOptions& options);
 
     void add(const StereoFrame& frame, std::size_t number);
-    // As packed by another process, or this one.
+    // Adds a frame packed by packedFrame(), in this or another process.
     void add(std::span<const std::byte> packed, std::size_t number);
     void finish();
 
@@ -48,9 +50,10 @@ private:
     Hash mHash;
 };
 
-// What the sink takes of a frame.
+// Returns the data of a frame that the sink needs.
 PeerBytes packedFrame(const StereoFrame& frame, const PlayOptions& options);
-// Bytes of that for each pixel of an eye, at most; `eyes` of them in the composed picture.
+// Returns the largest number of these bytes per pixel of an eye; the composed picture has `eyes` times its
+// pixels.
 double packedBytesAPixel(const PlayOptions& options, double eyes);
 
 }  // namespace stereonav

@@ -36,7 +36,7 @@ int threadsRunning() {
     return static_cast<int>(std::distance(fs::directory_iterator("/proc/self/task", code), {}));
 }
 
-// VmHWM of /proc/self/status, in kB there; 0 where the system does not tell.
+// Returns VmHWM of /proc/self/status, which is in kB there; 0 where the system does not report it.
 std::size_t peakBytes() {
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);)
@@ -44,7 +44,7 @@ std::size_t peakBytes() {
     return 0;
 }
 
-// "gdal" of ".../lib/stereonav/stereonav_gdal.so".
+// Returns "gdal" for ".../lib/stereonav/stereonav_gdal.so".
 std::vector<std::string> modulesAmong(const std::vector<std::string>& libraries) {
     constexpr const char* kPrefix = "stereonav_";
     std::vector<std::string> names;

@@ -1,4 +1,4 @@
-// `stereonav profile`: the ground along a line, a track or a flight, as a table and a chart.
+// `stereonav profile`: heights along a line, a track or a flight, as a table and a chart.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ void checkProfileOptions(const GroundLineOptions& options) {
     }
 }
 
-// Empty where a height is not known.
+// Returns an empty cell where a height is not known.
 std::string heightCell(double height) {
     return std::isfinite(height) ? fmt::format("{:.3f}", height) : "";
 }

@@ -1,4 +1,4 @@
-// `stereonav register`: places of one study of a colon in another one of it.
+// `stereonav register`: finds places of one study of a colon in another study of it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,11 +27,11 @@ struct RegisterOptions {
     SceneOptions scene;
     Telling telling;
     std::string with;            // the other study, or colon
-    double bend_mm = 0;          // of the other one where it is the built-in colon
-    double inflate = 1;          //
+    double bend_mm = 0;          // for the other colon, where it is the built-in one
+    double inflate = 1;          // factor on its radius
     std::vector<glm::dvec3> at;  // LPS, metres, in the first study
-    bool force = false;          // though both do not match
-    std::string out;             // .csv, or -; "": not written
+    bool force = false;          // go on even if the colons do not match
+    std::string out;             // .csv, or -; "": none
 };
 
 constexpr double kTableStep = 0.005;  // metres between rows of the table
@@ -58,7 +58,7 @@ ColonScene colonFrom(const ColonOptions& options, const std::string& name, Progr
     return colon;
 }
 
-// What was chosen in the first study is not of the second one.
+// Returns the options without choices in the first study, which do not apply to the second.
 ColonOptions secondOptions(const RegisterOptions& options) {
     SceneOptions second = options.scene;
     second.scene = options.with;
@@ -87,7 +87,7 @@ void tellPlaces(CommandResult& result, const RegisterOptions& options, const Col
     result.add("places", std::move(list));
 }
 
-// Tells of two generated colons how far along the second line each polyp's place is from the polyp.
+// Reports for two generated colons how far along the second line each polyp's place is from the polyp.
 void tellErrors(CommandResult& result, const ColonScene& first, const ColonScene& second,
                 const LineRegistration& registration) {
     if (first.polyps.empty() || first.polyps.size() != second.polyps.size()) return;
@@ -176,7 +176,7 @@ std::vector<Option> registerOptions() {
          .fallback = "none",
          .commands = command::kView,
          .scenes = scene_type::kSurfaces,
-         .take = [](OptionTargets&, const OptionValue&) {}},  // the window has it among its texts
+         .take = [](OptionTargets&, const OptionValue&) {}},  // read from the texts of options by the window
         {.key = "at",
          .value = numbersValue(seedNumbers()),
          .help = "a place of the first study that is looked for in the other; several are taken",

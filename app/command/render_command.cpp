@@ -1,4 +1,4 @@
-// `stereonav render`: one pose of a scene into a picture.
+// `stereonav render`: makes a picture of a scene from one pose.
 #include <fmt/format.h>
 
 #include "app/command/paint_notes.h"
@@ -20,7 +20,7 @@ namespace stereonav {
 
 namespace {
 
-// Times, holes, and what was done to keep to what was asked for.
+// Reports times, holes, and how a target for quality was met.
 void tellOfEyes(CommandResult& result, const StereoFrame& frame, const std::string& size,
                 const std::string& file) {
     const double pixels = static_cast<double>(frame.madeIn().width) * frame.madeIn().height;
@@ -89,7 +89,7 @@ int runRender(const RenderOptions& options) {
     if (SeenLight* const lit = scene.offered<SeenLight>(); lit && lit->beginsDark()) {
         bar.progress().report(0.95, "lighting what is seen");
         const Stopwatch watch;
-        for (int look = 0; look < 2; ++look)  // at some pixels, then at all
+        for (int look = 0; look < 2; ++look)  // first at some pixels, then at all
             lit->seen(frame.views().left, frame.left());
         lit->waitUntilDone();
         frame.render(head);

@@ -1,4 +1,4 @@
-// `stereonav report`: one page that says what the program's shortcuts cost and save.
+// `stereonav report`: writes one page on what the program's shortcuts cost and save.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,12 +30,12 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Part {
-    const char* id;  // of its section
+    const char* id;  // id of the section
     void (*measure)(ReportRun& run, double seconds);
-    double weight;         // of the time
-    bool surfaces = true;  // measured on scenes whose rays are cast
-    bool media = false;    // ... and on those that are swept
-    bool papers = false;   // of --papers, which load what they need themselves
+    double weight;         // share of the time
+    bool surfaces = true;  // whether it measures scenes whose rays are cast
+    bool media = false;    // whether it measures swept scenes
+    bool papers = false;   // part of --papers, which loads its own scenes
 };
 constexpr Part kParts[] = {{"right-eye", reportRightEye, 4.0},
                            {"felt", reportFelt, 1.5},
@@ -122,7 +122,7 @@ void describeRun(ReportRun& run) {
     if (!noise.empty()) report.warnings.push_back(noise);
 }
 
-// All at the end, each in one go: a report of one process that is stopped leaves nothing.
+// Writes all files at the end, each in one go: a report of one process that is stopped leaves nothing.
 void writeReport(const Report& report, const fs::path& folder) {
     makeOutputFolder(folder);
     writeTextFile(folder / "report.csv", figuresCsv(report));
@@ -131,7 +131,7 @@ void writeReport(const Report& report, const fs::path& folder) {
     writeTextFile(folder / "index.html", pageOf(report));
 }
 
-// Of several processes, where one is lost: hours of theirs are in it.
+// Writes the finished parts where one of several processes is lost: they may have taken hours.
 void keepWhatIsDone(ReportRun& run, const fs::path& folder) {
     Report& report = run.report();
     run.dropPart();
@@ -152,8 +152,8 @@ void tellOf(CommandResult& result, const ReportOptions& options, const Report& r
     result.add("warnings", report.warnings);
 }
 
-// Of a process that is not the first. Times are only true while nobody else computes: the first one takes
-// them, and the others sleep until it wants what none is taken of.
+// Runs a process that is not the first. Times are true only while nobody else computes: the first process
+// takes them, and the others sleep until it needs work that is not timed.
 int helpWithReport(const ReportOptions& options) {
     const int share = peersOfThisRun().threads();
     if (options.threads > 0 || share > 0) setThreadCount(options.threads > 0 ? options.threads : share);
@@ -171,7 +171,7 @@ int runReport(const ReportOptions& options) {
     const long studies = std::ranges::count_if(options.scenes, isStudy);
     if (options.up && studies == 0)
         throw Error("--up", "", "expected with a CT study among the scenes", "name one with --scene");
-    // what can not be read is told before minutes are spent
+    // Files that can not be read are reported before minutes are spent.
     if (!options.stability.empty()) stabilitySection(readTextFile(options.stability), options.stability);
     const std::vector<Part> parts = partsOf(options);
     const auto any = [&](bool Part::*what) {
@@ -306,7 +306,7 @@ std::vector<Option> reportOptions() {
 
 }  // namespace
 
-// Exit status 1 where a figure got worse than in the earlier run.
+// The exit status is 1 where a figure is worse than in the earlier run.
 Command reportCommand() {
     return {.name = "report",
             .help = "a page of error against time for every shortcut the program takes; up to 10 minutes",

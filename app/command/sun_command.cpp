@@ -1,4 +1,4 @@
-// `stereonav sun`: where the sun stands over a ground at a time, and how long it shines on it that day.
+// `stereonav sun`: where the sun stands over ground at a time, and how long it shines there that day.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,9 +29,9 @@ struct SunOptions {
     SceneOptions scene;
     Telling telling;
     std::string at;        // "2026-06-21T19:30": UTC
-    double step_min = 20;  // of the hours of sun
-    std::string out;       // GeoTIFF of them, "": not written
-    std::string picture;   // of them
+    double step_min = 20;  // time step for the hours of sun
+    std::string out;       // GeoTIFF of the hours; "": none
+    std::string picture;   // picture of the hours; "": none
 };
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -49,7 +49,7 @@ void checkSunOptions(const SunOptions& options) {
     }
 }
 
-// "2026-06-21 19:30" of seconds since 1970.
+// Returns "2026-06-21 19:30" for seconds since 1970.
 std::string utcText(double seconds) {
     const std::chrono::sys_seconds time{std::chrono::seconds(std::llround(seconds))};
     const auto day = std::chrono::floor<std::chrono::days>(time);
@@ -59,7 +59,7 @@ std::string utcText(double seconds) {
                        unsigned(date.day()), clock.hours().count(), clock.minutes().count());
 }
 
-// From black, no sun, to white, as much as anywhere; no ground is red.
+// Writes hours from black, none, to white, the most of any sample; missing ground is red.
 void writePicture(const std::string& file, const Plane<float>& hours, double most) {
     Plane<PackedColor> picture(hours.width(), hours.height());
     for (int y = 0; y < hours.height(); ++y)

@@ -17,14 +17,15 @@ namespace stereonav {
 namespace {
 
 constexpr std::string_view kSharing[] = {"bake", "coverage", "play", "report"};
-constexpr double kFirstTells_s = 3;  // that others leave the first process to tell what all find alike
+constexpr double kFirstTells_s = 3;  // time for the first process to report an error that all have
 
 bool& joining() {
     static bool is = false;
     return is;
 }
 
-// Before the others can be asked: the launcher ends all where one fails, and asks to stop first.
+// Returns whether the first process reports the error, asked before processes can talk: where one fails the
+// launcher ends all, and first sends a stop.
 bool leftToTheFirst() {
     if (!joining() || launchOfThisProcess().rank == 0) return false;
     Naps naps;
@@ -42,7 +43,7 @@ void joinOthers(int argc, char** argv) {
     std::string words;
     for (int n = 1; n < argc; ++n) words += std::string(argv[n]) + '\n';
     joinRun(words);
-    // The report takes times on one process alone, which then has the machine for itself.
+    // The report takes times on one process only, which then uses the whole machine.
     const int threads = peersOfThisRun().threads();
     if (threads > 0 && std::string_view(argv[1]) != "report") setThreadCount(threads);
     if (!peersOfThisRun().first() && !std::freopen("/dev/null", "w", stdout))

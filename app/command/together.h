@@ -1,21 +1,21 @@
-// The ends of a run of which several processes may be part (engine/peers/peers.h): joining the others before
-// the command line is read, and telling an error once.
+// The beginning and end of a run of several processes (engine/peers/peers.h): joins them before the command
+// line is read, and reports an error once.
 #pragma once
 
 #include <string>
 
 namespace stereonav {
 
-// Where this process was started as one of several and the command is one that shares its work: joins them,
-// and prints nothing on standard output unless it is the first. Throws Error.
+// Joins the other processes where this one was started as one of several and the command shares its work.
+// Only the first prints on standard output. Throws Error.
 void joinOthers(int argc, char** argv);
 
-// At the end of a command: waits for the others, or, after a stop, ends them.
+// Waits for the other processes at the end of a command, or ends them after a stop.
 void leaveOthers();
 
-// Tells a line on standard error, and ends the others too. The exit status: 1.
+// Prints a line on standard error and ends the other processes. Returns the exit status, 1.
 int endWith(const std::string& line);
-// After a stop that the user or the system asked for.
+// Ends after a stop by the user or the system. Returns the exit status.
 int endStopped();
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// `stereonav unfold`: the wall of a colon laid flat, as a picture; places of the colon in it, and back.
+// `stereonav unfold`: lays the wall of a colon flat in a picture; finds places of the colon in it, and back.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,15 +26,15 @@ namespace {
 struct UnfoldOptions {
     SceneOptions scene;
     Telling telling;
-    std::string out, distortion, panorama;  // pictures; but for `out` "": not written
-    double pixel_mm = 0.5;                  // of the wall, > 0
+    std::string out, distortion, panorama;  // pictures; except for `out` "": none
+    double pixel_mm = 0.5;                  // size of a pixel on the wall, > 0
     std::vector<glm::dvec3> at;             // LPS, metres
     std::vector<std::pair<int, int>> pick;  // pixels
-    std::string findings;                   // .json of `findings`, marked; "": none
+    std::string findings;                   // .json file of `findings` to mark; "": none
     bool candidates = false, truth = false;
 };
 
-constexpr double kShownWithin = 0.002;  // metres: a place is shown where the picture shows wall so near
+constexpr double kShownWithin = 0.002;  // metres to the nearest wall of a place that counts as shown
 const glm::vec3 kTruthColor(0.02f, 0.6f, 0.1f), kFindingColor(0.9f, 0.6f, 0.0f),
     kCandidateColor(0.05f, 0.2f, 0.9f);
 
@@ -62,7 +62,7 @@ struct Flattened {
     const UnfoldedWall& flat;
 };
 
-// What is marked, with the heads that marks are made of.
+// The marks of a picture, with the heads of polyps that they are made of.
 struct Marked {
     std::vector<MeasuredPolyp> heads;
     std::vector<glm::vec3> colors;
@@ -78,7 +78,7 @@ struct Marked {
     }
 };
 
-// How the polyps of a generated colon are shown.
+// Reports how well the polyps of a generated colon are shown.
 void tellTruth(CommandResult& result, const Flattened& of, Marked& marked) {
     std::vector<Facts> list;
     int once = 0;

@@ -1,4 +1,4 @@
-// `stereonav view`, whether or not the window is built.
+// `stereonav view`, in builds with and without the window.
 #include "app/view/view_command.h"
 
 #include "app/options/command.h"

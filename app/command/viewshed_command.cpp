@@ -1,4 +1,4 @@
-// `stereonav viewshed`: what of the ground is seen from a place, and lines of sight between two.
+// `stereonav viewshed`: the ground that is seen from a place, and lines of sight between two places.
 #include <fmt/format.h>
 
 #include <glm/geometric.hpp>
@@ -23,7 +23,7 @@
 namespace stereonav {
 namespace {
 
-// A place on the ground: x, y as the elevation model's reference system has them, metres above the ground.
+// A place on the ground: x, y in the elevation model's reference system, and metres above the ground.
 struct SurveyPlace {
     glm::dvec2 reference{0.0};
     std::optional<double> height_m;
@@ -33,15 +33,15 @@ struct ViewshedOptions {
     SceneOptions scene;
     Telling telling;
     SurveyPlace from;
-    std::optional<SurveyPlace> to;  // a line of sight
-    double targetHeight_m = 0;      // of what is looked at, over the samples
-    std::optional<double> reach_m;  // none: all of the ground
+    std::optional<SurveyPlace> to;  // end of a line of sight
+    double targetHeight_m = 0;      // height of the target above the ground
+    std::optional<double> reach_m;  // empty: all of the ground
     bool curvature = false;
-    std::optional<double> refraction;  // share of the curvature; none: the usual one
-    std::string out;                   // GeoTIFF; "": not written
+    std::optional<double> refraction;  // share of the curvature; empty: the default
+    std::string out;                   // GeoTIFF; "": none
 };
 
-constexpr double kUsualEye = 1.7;  // metres: of a person who stands
+constexpr double kUsualEye = 1.7;  // metres: eye height of a standing person
 
 void checkViewshedOptions(const ViewshedOptions& options) {
     if (options.out.empty() && !options.to)
