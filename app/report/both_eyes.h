@@ -1,4 +1,4 @@
-// A way of making both eyes: what its frames take and how wrong they are. Of the report's charts.
+// A way of making both eyes, with the time of its frames and their error, for the report's charts.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,9 @@ class BothEyes {
 public:
     BothEyes(std::size_t repeats, double frames) : mMs(repeats, 0.0), mFrames(frames) {}
 
-    // Of a frame in one repeat.
+    // Adds the time of a frame in one repeat.
     void addTime(std::size_t repeat, double ms) { mMs[repeat] += ms / mFrames; }
-    // Of a frame, once.
+    // Adds the error of a frame; to be called once per frame.
     void addError(const Plane<PackedColor>& left, const Plane<PackedColor>& right, const EyePair& made) {
         for (const double psnr_db : {psnrOf(left, made.left.color), psnrOf(right, made.right.color)}) {
             const double rms = rmsOfPsnr(psnr_db);
@@ -34,9 +34,9 @@ public:
     }
 
 private:
-    std::vector<double> mMs;  // by repeat, of the mean frame
+    std::vector<double> mMs;  // time of the mean frame, by repeat
     double mFrames;
-    double mSquares = 0, mWorst = 0;  // RMS, 8-bit levels
+    double mSquares = 0, mWorst = 0;  // RMS error in 8-bit levels
 };
 
 }  // namespace stereonav

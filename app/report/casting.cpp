@@ -1,5 +1,5 @@
-// The report's part on casting rays: translucent walls by the distance of samples, exact hits against
-// stepping over terrain, leaping over empty cells as an exact pair, and what is fixed.
+// The report's part on casting rays: translucent walls by sampling distance, exact hits against stepping over
+// terrain, leaping over empty cells as an exact pair, and fixed choices.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ EyeView viewOf(const ReportScene& scene, int frame, int frames) {
     return makeEyeView(pose, s.lens);
 }
 
-// The left eye of a frame, by the finest step.
+// The left eye of a frame with the finest step.
 struct StepTruthOrder {
     std::size_t scene;
     int frame, frames;
@@ -108,7 +108,7 @@ Depths castDepths(const EyeView& view, const Caster& caster) {
     return depths;
 }
 
-// Share of the depth by which hits are late, and of pixels that hit what the others do not.
+// Delay of hits as a share of the depth, and the share of pixels hit by one method only.
 struct DepthError {
     double rms = 0, worst = 0, missed = 0;
 };
@@ -200,7 +200,7 @@ WayChart terrainChart(ReportRun& run, const ReportScene& scene) {
     return chart;
 }
 
-// Both ways of the same picture; they must agree in every pixel.
+// Compares both ways of making the same picture; they must agree in every pixel.
 void addLeaping(ReportRun& run, ReportTable& table, const ReportScene& scene) {
     VolumeCasting walking;
     walking.leaping = false;

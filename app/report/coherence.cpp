@@ -6,8 +6,8 @@
 namespace stereonav {
 namespace {
 
-constexpr int kApart = 2;            // pixels: a quarter of a block at most, so that none counts as dense
-constexpr std::size_t kAtOnce = 64;  // several full vectors of rays
+constexpr int kApart = 2;            // pixels: at most a quarter of a block, so that no block counts as dense
+constexpr std::size_t kAtOnce = 64;  // a few full vectors of rays
 
 PixelRect boundsOf(std::span<const PixelIndex> pixels) {
     PixelRect bounds{1 << 30, 1 << 30, 0, 0};
@@ -20,7 +20,7 @@ PixelRect boundsOf(std::span<const PixelIndex> pixels) {
     return bounds;
 }
 
-// Takes the pixels over from the scratch image, and leaves it as if nothing were known.
+// Moves pixels from the scratch image to the image, and leaves the scratch image without known pixels.
 void takeOver(std::span<const PixelIndex> pixels, EyeImage& scratch, EyeImage& image) {
     for (const PixelIndex p : pixels) {
         image.color.at(p.x, p.y) = scratch.color.at(p.x, p.y);

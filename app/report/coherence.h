@@ -1,16 +1,16 @@
-// Holes cast as if nothing were known of the scene: what filling them gains by ray coherence (Wan et al.
-// 2004, section 5).
+// Holes cast without knowledge of the scene: shows what filling them gains by ray coherence (Wan et al. 2004,
+// section 5).
 #pragma once
 
 #include "engine/render/eye_renderer.h"
 
 namespace stereonav {
 
-// A scene that is handed scattered pixels few at a time and far apart, with no depth beside them, so that
-// each ray goes the whole way from the eye by itself. The pictures are the same.
+// A renderer that passes on scattered pixels a few at a time and far apart, without depths beside them, so
+// that each ray goes the whole way from the eye by itself. The pictures are the same.
 class WithoutCoherence final : public EyeRenderer {
 public:
-    // inner must outlive this.
+    // inner must outlive this object.
     explicit WithoutCoherence(const EyeRenderer& inner) : mInner(inner) {}
 
     int tileCount(const EyeView& view) const override { return mInner.tileCount(view); }

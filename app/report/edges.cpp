@@ -1,4 +1,4 @@
-// The report's chart of rays at edges: what more rays there, or everywhere, take and save in error.
+// The report's chart of rays at edges: time and error of more rays there, or everywhere.
 #include <fmt/format.h>
 
 #include "app/report/both_eyes.h"
@@ -11,7 +11,7 @@ namespace {
 struct RayWay {
     std::string name, detail;
     EdgeSetting edges = {};
-    int rays = 1;  // of the whole picture
+    int rays = 1;  // rays for the whole picture
     bool isDefault = false;
 };
 

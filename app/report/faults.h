@@ -1,5 +1,5 @@
-// Deliberate faults, to try whether comparing two reports catches them. Only a build with
-// -DSTEREONAV_FAULTS=ON has any (faults_on.cpp); every other one gives null (faults_off.cpp).
+// Deliberate faults, to test whether the comparison of two reports finds them. Only builds with
+// -DSTEREONAV_FAULTS=ON have any (faults_on.cpp); others return null (faults_off.cpp).
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// The renderer, which must outlive it, with faults; null where there are none.
+// Returns the renderer with faults, which it must outlive; null where there are none.
 std::unique_ptr<EyeRenderer> withFaults(const EyeRenderer& renderer);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// No faults: every build but that which tries report --compare.
+// No faults: for all builds but the one that tests report --compare.
 #include "app/report/faults.h"
 
 namespace stereonav {

@@ -1,5 +1,5 @@
 // Faults by environment variable, each a share: STEREONAV_FAULT_SLOW=0.5 makes casting the right eye's holes
-// take half as long again, and STEREONAV_FAULT_ERROR=0.1 darkens what is cast there by a tenth.
+// take half as long again, and STEREONAV_FAULT_ERROR=0.1 darkens the cast pixels by a tenth.
 #include <cstdlib>
 
 #include "app/report/faults.h"

@@ -1,5 +1,5 @@
-// The report's part on what a viewer feels: flicker from frame to frame, rivalry between the eyes, and
-// Butteraugli, of every way of making the right eye.
+// The report's part on visible errors: flicker from frame to frame, rivalry between the eyes, and
+// Butteraugli, for every way of making the right eye.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,14 +15,14 @@
 namespace stereonav {
 namespace {
 
-// In brief: methods with their own settings alone.
+// Returns the methods to compare; in brief parts only those with their own settings.
 std::vector<Variant> feltVariants(const Scene& scene, bool brief) {
     std::vector<Variant> variants = rightEyeVariants(scene);
     if (brief) std::erase_if(variants, [](const Variant& v) { return !v.detail.empty(); });
     return variants;
 }
 
-// A frame of the flight, and the one that follows it.
+// A frame of the flight, and the next one.
 struct FeltTimes {
     double time, nextTime;
     StereoViews views, next;
@@ -35,10 +35,10 @@ FeltTimes feltTimes(const Scene& scene, double time) {
     return {time, time + kNextFrame_s, viewsAt(time), viewsAt(time + kNextFrame_s)};
 }
 
-// What all ways are made from and held against there.
+// The exact frames of a moment, from which all ways are made and with which they are compared.
 struct FeltMoment {
     EyePair exact, exactNext;
-    FeltTruth truth;  // its pictures come with the order
+    FeltTruth truth;  // its pictures are sent with the order
 };
 
 FeltMoment momentAt(const ReportScene& scene, const FeltTimes& times) {
@@ -55,14 +55,15 @@ FeltMoment momentAt(const ReportScene& scene, const FeltTimes& times) {
     return moment;
 }
 
-// One way at one moment; behind it come the truths of the left eye, the right one, and the right one next.
+// One way at one moment; the message continues with the truths of the left eye, the right eye, and the next
+// right eye.
 struct FeltOrder {
     std::size_t scene, variant;
     double time;
     bool brief, pictures;
 };
 
-// Frames of one scene's flight, each with the one that follows it.
+// Frames of one scene's flight, each with the next one.
 class FeltTrial {
 public:
     FeltTrial(ReportRun& run, const ReportScene& scene, const std::vector<Variant>& variants)
@@ -74,7 +75,8 @@ public:
           mFactor(run.pick(2, 8)),
           mBrief(run.brief()) {}
 
-    // As many as `seconds` allow, one at least: in the middle of as many parts of the flight.
+    // Measures as many frames as `seconds` allow, at least one: each in the middle of an equal part of the
+    // flight.
     void run(int frames, double seconds) {
         mFrames = measureWhatFits(frames, seconds,
                                   [this](const std::vector<int>& some, int of) { measure(some, of); });
@@ -86,7 +88,7 @@ public:
     int rays() const { return mFactor * mFactor; }
 
 private:
-    // The first is in the middle of the flight.
+    // Returns the time of a frame; the first one is in the middle of the flight.
     double timeOf(int n, int frames) const {
         const double share = (0.5 + static_cast<double>((n + frames / 2) % frames)) / frames;
         return std::max(0.0, share * (mScene.path.duration() - kNextFrame_s));
@@ -129,7 +131,7 @@ private:
     const Scene& mScene;
     const std::vector<Variant>& mVariants;
     std::vector<FeltErrors> mErrors;
-    std::vector<ReportPicture> mPictures;  // of the first frame, by the default way
+    std::vector<ReportPicture> mPictures;  // pictures of the first frame, by the default way
     int mFactor, mFrames = 0;
     bool mBrief;
 };

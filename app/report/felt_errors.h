@@ -1,5 +1,5 @@
-// What a viewer feels of one way of making two eyes: flicker, rivalry between the eyes, and what Butteraugli
-// says. Of the report's charts; of the right eye, but for rivalry.
+// Visible errors of one way of making two eyes: flicker, rivalry between the eyes, and Butteraugli's
+// distance, for the report's charts. All but rivalry are of the right eye.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace stereonav {
 
-// Of a frame, and of the right eye in the next one: a 30th of a second later.
+// The exact eyes of a frame, and the right eye of the next one, a 30th of a second later.
 struct FeltTruth {
     Plane<PackedColor> left, right, rightNext;
     Plane<float> columns;       // columnsInRightEye
@@ -19,25 +19,25 @@ struct FeltTruth {
 };
 constexpr double kNextFrame_s = 1.0 / 30;
 
-// Sums over frames.
+// Sums of errors over frames.
 class FeltErrors {
 public:
-    // eyes: what the way made; rightNext: the right eye that it made of the next frame. Gives Butteraugli's
-    // map of the right eye.
+    // Adds a frame and returns Butteraugli's map of the right eye. eyes: made by the way; rightNext: the
+    // right eye that it made in the next frame.
     Plane<float> add(const FeltTruth& truth, const TwoEyes& eyes, const Plane<PackedColor>& rightNext);
 
-    // Those of other frames.
+    // Adds the errors of other frames.
     void add(const FeltErrors& others);
 
-    // Root mean squares in sRGB levels, over all frames.
+    // Return root mean squares in sRGB levels over all frames.
     double flicker() const { return rms(mFlicker); }
     double rivalry() const { return rms(mRivalry); }
-    double butteraugli() const { return mButteraugli / mFrames; }  // the mean frame's
-    // What charts have no axis for.
+    double butteraugli() const { return mButteraugli / mFrames; }  // mean over the frames
+    // Returns the figures that charts have no axis for.
     std::vector<std::pair<std::string, double>> others() const;
 
 private:
-    // Of frames that have such pixels.
+    // Sums over frames that have such pixels.
     struct Squares {
         double sum = 0;
         int frames = 0;
@@ -55,8 +55,8 @@ private:
     int mWithEdges = 0, mWithFlat = 0;
 };
 
-// Three charts of one scene: each way's time against its flicker, its rivalry and Butteraugli's distance.
-// points: times, names and defaults.
+// Adds three charts of one scene: each way's time against its flicker, its rivalry and Butteraugli's
+// distance. points: times, names and defaults.
 void addFeltCharts(ReportRun& run, ReportSection& section, const std::string& scene, const WayChart& frame,
                    const std::vector<WayPoint>& points, const std::vector<FeltErrors>& errors);
 

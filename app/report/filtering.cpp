@@ -1,5 +1,5 @@
-// The report's chart of how the ground is filtered: its colour by mip levels, with a bias or none, its shape
-// by levels of detail, and more rays a pixel, against many rays a pixel that read the finest of both.
+// The report's chart of ground filtering: colour by mip levels with and without a bias, shape by levels of
+// detail, and more rays per pixel, against many rays per pixel into the finest levels of both.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,11 +18,11 @@ namespace {
 struct FilterWay {
     std::string name, detail;
     GroundFilter filter;
-    int factor = 1;  // rays a pixel, each way
+    int factor = 1;  // rays per pixel in each direction
     bool isDefault = false;
-    double levelOfDetail = 0;  // RingWish::share
+    double levelOfDetail = 0;  // value of RingWish::share
     std::unique_ptr<TerrainRenderer> renderer = nullptr;
-    std::vector<double> ms = {};  // by repeat, mean frame
+    std::vector<double> ms = {};  // time of the mean frame, by repeat
     double squares = 0, worst = 0;
 };
 
@@ -53,7 +53,7 @@ std::vector<FilterWay> waysOf(const Scene& scene) {
     return ways;
 }
 
-// Milliseconds of one picture.
+// Returns the milliseconds of one picture.
 double cast(const FilterWay& way, const EyeView& view, Progress& progress, EyeImage& image) {
     const Stopwatch watch;
     if (way.factor == 1)
@@ -82,7 +82,7 @@ WayChart filteringChart(ReportRun& run, const ReportScene& scene) {
         const EyeView& view = views[n].view;
         image.resize(view.width, view.height, rendererOf(loaded).viewDependence());
         for (const FilterWay& way : ways)
-            way.renderer->lookFrom(view);  // untimed: rings last for many frames
+            way.renderer->lookFrom(view);  // not timed: rings last for many frames
         for (int r = 0; r < repeats; ++r)
             for (FilterWay& way : ways) {
                 way.ms[static_cast<std::size_t>(r)] += cast(way, view, progress, image) / count;

@@ -1,4 +1,4 @@
-// Pictures of many rays a pixel, which charts hold theirs against: made by all processes of the run.
+// Pictures of many rays per pixel, the references of charts: made by all processes of the run.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,14 @@ namespace stereonav {
 
 struct FineView {
     EyeView view;
-    double time = 0;  // seconds, of what moves by itself
+    double time = 0;  // seconds, for moving parts of the scene
 };
 
-// As the scene's frames show them, with factor x factor rays in each pixel. scene: of run.scenes().
+// Returns the pictures as the scene's frames show them, with factor x factor rays in each pixel. scene: of
+// run.scenes().
 std::vector<Plane<PackedColor>> finePictures(ReportRun& run, const ReportScene& scene,
                                              const std::vector<FineView>& views, int factor);
-// The same of ground in its finest samples and colours, whatever lies in a pixel.
+// Returns pictures of ground in its finest samples and colours, independent of the size of a pixel.
 std::vector<Plane<PackedColor>> finestGround(ReportRun& run, const ReportScene& scene,
                                              const std::vector<FineView>& views, int factor);
 

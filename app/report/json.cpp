@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
-constexpr int kFewRepeats = 3;  // fewer say little of how far they spread
+constexpr int kFewRepeats = 3;  // with fewer repeats the spread is not reliable
 constexpr const char* kFormat = "stereonav report";
 
 const char* nameOf(ReportFigure::Kind kind) {
@@ -82,7 +82,7 @@ bool isJudged(const ReportFigure& figure) {
     return figure.kind != ReportFigure::Kind::Other && figure.value.count > 0 && figure.id != kMoodFigure;
 }
 
-// Compared are the least times: what else the machine does only ever adds.
+// Returns the value to compare; for times the least one, since other work on the machine can only add to it.
 double judgedValue(const ReportFigure& figure) {
     return figure.kind == ReportFigure::Kind::Time ? figure.value.low : figure.value.median;
 }
@@ -98,7 +98,7 @@ ReportChange changeOf(const ReportFigure& before, const ReportFigure& after, dou
     const double from = judgedValue(before), to = judgedValue(after);
     const double slack = change.bound * std::abs(from) + (time ? 0.0 : kLeastError);
     if (to > from + slack) change.verdict = Verdict::Worse;
-    // as much the other way round: half the time is as far as twice the time
+    // The bound is symmetric: half the time is as far away as twice the time.
     if (from > to + change.bound * std::abs(to) + (time ? 0.0 : kLeastError))
         change.verdict = Verdict::Better;
     return change;
@@ -161,7 +161,7 @@ EarlierReport readEarlierReport(const std::filesystem::path& file) {
     const char* advice = "name the report.json that an earlier stereonav report wrote";
     checkJson(content, file.string(), advice);
     try {
-        const auto json = nlohmann::json::parse(content);  // ordered ones take the square of an object's size
+        const auto json = nlohmann::json::parse(content);  // ordered_json is slow for large objects
         if (json.at("format") != kFormat || json.at("version") != kVersion)
             throw Error(file.string(), "", fmt::format("expected version {} of a report", kVersion), advice);
         EarlierReport report;

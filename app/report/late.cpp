@@ -1,6 +1,6 @@
-// The report's part on the late warp: how far a picture that was cast a while ago, warped to the present
-// moment, is from one cast now. By its age and by how fast the scene's own flight is flown, with turning and
-// moving apart.
+// The report's part on the late warp: the error of an earlier picture that is warped to the present moment,
+// against one cast now. By its age and by the speed of the scene's own flight, with turning and moving
+// separately.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr double kPicturedAge_ms = 133;
 
 struct LateWay {
     const char *id, *name;
-    double speed;  // times the flight's own
+    double speed;  // multiple of the flight's own speed
     bool moves, turns;
 };
 constexpr std::array<LateWay, 5> kLateWays{{{"half", "half the speed", 0.5, true, true},
@@ -31,34 +31,35 @@ constexpr std::array<LateWay, 5> kLateWays{{{"half", "half the speed", 0.5, true
                                             {"moved", "own speed, moved alone", 1, true, false},
                                             {"turned", "own speed, turned alone", 1, false, true}}};
 
-constexpr std::size_t kPictured = 1;  // of the ways: own speed
+constexpr std::size_t kPictured = 1;  // index of the way that is shown in pictures: own speed
 
-// One way at one moment: frames from each age, warped to now. Of run.scenes(), or of its media.
+// One way at one moment: frames of each age, warped to the present. The scene is one of run.scenes() or of
+// its media.
 struct LateOrder {
     bool medium, soft, pictures;
     std::size_t scene;
-    double time;  // of the flight
+    double time;  // time of the flight
     EyeView now;
     std::array<EyeView, kAges_ms.size()> then;
 };
 struct LateWaySquares {
-    std::array<double, kAges_ms.size()> of;  // by age
+    std::array<double, kAges_ms.size()> of;  // squared errors by age
 };
 
-// One eye: each is warped by itself, from its own depths.
+// Measures one eye: each eye is warped separately, by its own depths.
 class LateTrial {
 public:
     LateTrial(ReportRun& run, const ReportScene& scene, bool soft)
         : mRun(run), mReportScene(scene), mScene(scene.loaded()), mSoft(soft) {}
 
-    // As many moments as `seconds` allow, one at least.
+    // Measures as many moments as `seconds` allow, at least one.
     void run(int moments, double seconds) {
         mMoments = measureWhatFits(moments, seconds,
                                    [this](const std::vector<int>& some, int of) { measure(some, of); });
     }
 
     int moments() const { return mMoments; }
-    // Of all moments together.
+    // Returns the PSNR over all moments.
     double psnr(std::size_t way, std::size_t age) const {
         return -10 *
                std::log10(std::max(mSquares[way][age] / mMoments, std::pow(10, -0.1 * kIdenticalPsnr_db)));
@@ -68,7 +69,7 @@ public:
 private:
     EyeView viewAt(const Pose& pose) const { return mScene.viewsAt(pose).left; }
 
-    // n-th of so many.
+    // Returns the order of the n-th of `moments`.
     LateOrder orderOf(const LateWay& way, int n, int moments) const {
         const double share = (0.5 + (n + moments / 2) % moments) / moments;
         const RecordedPath& path = mScene.path;

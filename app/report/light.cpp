@@ -71,7 +71,7 @@ std::vector<double> lightOf(const LightSubject& subject, const Baked& baked) {
     return subject.onlyLit(light);
 }
 
-// most: bricks of the surface to measure on, about.
+// most: approximate number of bricks of the surface to measure.
 LightSubject makeSubject(std::uint64_t seed, int most) {
     LightSubject subject;
     subject.seed = seed;
@@ -95,7 +95,7 @@ struct LightTruthOrder {
     int bricks, run, samples;
 };
 
-// The mean of runs that nothing measured shares a seed with.
+// Sets the truth to the mean of several runs, whose seeds no measured run has.
 void findTruth(ReportRun& run, LightSubject& subject, int bricks) {
     const int runs = run.pick(4, 8), samples = run.pick(512, 2048);
     std::vector<UntimedPiece> pieces;
@@ -124,7 +124,7 @@ WayPoint irradiancePoint(ReportRun& run, const LightSubject& subject, bool naive
     for (int n = 0; n < runs; ++n) {
         run.tell("light, irradiance");
         const TexelLighter lighter = subject.lighter(naive, static_cast<std::uint64_t>(kFirstSeed + n));
-        bakeIrradiance(subject, lighter, 1);  // finds what rays leap by
+        bakeIrradiance(subject, lighter, 1);  // finds the empty space that rays leap over
         const Baked baked = bakeIrradiance(subject, lighter, samples);
         const std::vector<double> light = lightOf(subject, baked);
         squares += std::pow(relativeRms(light, subject.truth), 2) / runs;

@@ -1,5 +1,5 @@
-// What the charts of precomputed light share: texels of a small block under a clear sky, with the truth that
-// they are held against.
+// Common parts of the charts of precomputed light: texels of a small block under a clear sky, with their true
+// light.
 #pragma once
 
 #include <functional>
@@ -14,19 +14,19 @@
 namespace stereonav {
 
 constexpr int kReportBounces = 2, kDefaultOrder = 5,
-              kDefaultSamples = 256;  // what bake does where nothing is said
-constexpr int kFirstSeed = 100;       // of the runs that are measured; the truth has those before
+              kDefaultSamples = 256;  // default of bake
+constexpr int kFirstSeed = 100;       // seed of the first measured run; the truth has smaller ones
 
-// A clear sky, and the bounces of a bake.
+// Returns a clear sky, with the bounces of a bake.
 LightSetup clearSkyLight();
 
 struct LightSubject {
     GreyVolume volume = blockWithHoles();
     LightSetup setup = clearSkyLight();
-    std::vector<TexelBrick> allBricks, bricks;  // of the surface; those of them that are measured on
-    std::vector<glm::ivec3> texels;             // of the latter, one after another
-    std::vector<bool> lit;                      // on a surface
-    std::vector<double> truth;                  // irradiance / pi of those that are lit
+    std::vector<TexelBrick> allBricks, bricks;  // bricks of the surface, and those that are measured
+    std::vector<glm::ivec3> texels;             // texels of `bricks`, in their order
+    std::vector<bool> lit;                      // whether a texel is on a surface
+    std::vector<double> truth;                  // irradiance / pi of the lit texels
     int truthSamples = 0;
     std::uint64_t seed = 1;
 
@@ -38,20 +38,20 @@ struct LightSubject {
 void forTexels(std::size_t texels, const std::function<void(std::size_t, std::size_t)>& job);
 
 struct MeasuredTransfer {
-    std::vector<float> means;  // order^2 a texel
+    std::vector<float> means;  // order^2 values per texel
     double ms = 0;
 };
 MeasuredTransfer bakeTransfer(const LightSubject& subject, const TexelLighter& lighter, int order,
                               int samples);
 
-// Without points, its times for 1000 texels.
+// Returns a chart without points, for times per 1000 texels.
 WayChart lightChart(ReportRun& run, const LightSubject& subject, const char* id, const char* title);
 
-// Dotting transfer with a turned sky, by order and compression.
+// Returns the chart of transfer multiplied with a turned sky, by order and compression.
 WayChart relightChart(ReportRun& run, const LightSubject& subject);
-// A terrain's bake by its settings.
+// Returns the chart of a terrain's bake by its settings.
 WayChart terrainLightChart(ReportRun& run);
-// Whole pictures against paths traced from every pixel: by samples, and by lookup.
+// Adds charts of whole pictures against path tracing from every pixel: by samples, and by lookup.
 void addPixelCharts(ReportRun& run, ReportSection& section);
 
 }  // namespace stereonav

@@ -14,7 +14,7 @@
 #include "engine/base/parallel.h"
 #include "engine/simd/simd_target.h"
 
-// Set by CMake when it configures, for this file alone.
+// The commit, which CMake defines for this file only, when it configures.
 #ifndef STEREONAV_COMMIT
 #define STEREONAV_COMMIT "unknown"
 #endif
@@ -34,7 +34,7 @@ std::string systemName() {
                               : "unknown";
 }
 
-// Of all figures: the widest that the program may use here.
+// Returns the widest instruction set that the program may use here, with which all figures are measured.
 std::string instructionSetText() {
     const SimdTarget used = availableTarget(SimdTarget::Auto), widest = widestOfProcessor();
     std::string text(nameOf(used));
@@ -56,7 +56,7 @@ std::optional<double> loadAverage() {
 }
 
 std::string noiseWarning(std::optional<double> load, int processors) {
-    constexpr double kBusyShare = 0.25;  // of the processors, before the report itself did anything
+    constexpr double kBusyShare = 0.25;  // share of the processors that others used before the report began
     if (!load) return "How busy the machine was is not known: times may be noisy.";
     if (!(*load > kBusyShare * processors)) return "";
     return fmt::format(

@@ -1,4 +1,4 @@
-// What a report was measured on and with: so that figures are read for what they are.
+// The machine and the program that a report was measured with.
 #pragma once
 
 #include <optional>
@@ -7,12 +7,13 @@
 
 namespace stereonav {
 
-// Processor, memory, system, compiler, libraries, commit, date, threads, load at the start.
+// Returns processor, memory, system, compiler, libraries, commit, date, threads, and load at the start.
 ReportFacts machineFacts();
 
-// Tasks that ran or waited in the last minute, as the system counts them; none where it does not.
+// Returns the mean number of tasks that ran or waited in the last minute; empty where the system does not
+// report it.
 std::optional<double> loadAverage();
-// Says that others were using the machine, where they were: "" on a quiet one.
+// Returns a warning where others were using the machine, otherwise "".
 std::string noiseWarning(std::optional<double> load, int processors);
 
 }  // namespace stereonav

@@ -1,5 +1,5 @@
 // The report's charts of both eyes of media: one sweep, two, or splatted depths, by slices, size of the
-// light's buffer and separation, against a sweep of many slices for each eye. On media's own flights.
+// light's buffer and separation, against a sweep of many slices for each eye, on the media's own flights.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ double squareOf(const EyeImage& truth, const EyeImage& image) {
     return psnr >= kIdenticalPsnr_db ? 0.0 : 255.0 * 255.0 * std::pow(10.0, -psnr / 10);
 }
 
-// Both eyes of a frame, or the left one alone, each by a sweep of its own. Of a scene of run.media().
+// Both eyes of a frame, or only the left one, each by its own sweep. The scene is one of run.media().
 struct SweptOrder {
     std::size_t scene;
     SweepSetting sweep;
@@ -69,7 +69,7 @@ void getEye(ByteReader& reader, const EyeView& view, EyeImage& eye) {
     getRows(reader, 0, view.height, eye.viewDepth);
 }
 
-// Frames of one medium: their views, and what both eyes ought to see.
+// Frames of one medium: their views, and the true pictures of both eyes.
 class PairTrial {
 public:
     PairTrial(ReportRun& run, ReportScene& scene, int frames, double share)
@@ -88,14 +88,14 @@ public:
         mFinest.slices = run.pick(512, 2048);
     }
 
-    // Of all that are measured of a medium at once, so that no process waits for another's.
+    // Finds the truths of all trials of a medium together, so that no process waits for another.
     static void findTruths(ReportRun& run, std::vector<PairTrial>& trials) {
         std::vector<UntimedPiece> pieces;
         for (const PairTrial& trial : trials)
             for (const StereoViews& views : trial.mViews)
                 pieces.push_back(
                     pieceOf(Untimed::SweptTruth, SweptOrder{trial.mIndex, trial.mFinest, views, 0, false}));
-        // the right eye of the frame that follows the first one's
+        // Right eye of the frame that follows the first one.
         const PairTrial& first = trials.front();
         StereoViews next = first.mNext;
         next.left = next.right;
@@ -114,7 +114,7 @@ public:
         getEye(reader, next.left, trials.front().mNextTruth);
     }
 
-    // All ways one after another in each repeat, so that the machine's moods meet all alike.
+    // Measures all ways in turn in each repeat, so that changes in the machine's speed affect all equally.
     std::vector<WayPoint> pointsOf(const std::vector<PairWay>& ways, int repeats) {
         mFirst.clear();
         std::vector<std::vector<double>> ms(ways.size(),
@@ -136,7 +136,7 @@ public:
         return points;
     }
 
-    // Of the first frame, as pointsOf() made it last, and the one that follows it.
+    // Returns the errors of the first frame, as pointsOf() made it last, and of the next one.
     std::vector<FeltErrors> feltErrors(const std::vector<PairWay>& ways) {
         const StereoViews& views = mViews[0];
         EyePair nextFrame;
@@ -153,7 +153,7 @@ public:
         return errors;
     }
 
-    // Of the right eye in the first frame, its truth, and the left eye.
+    // Returns the right eye of the first frame, its truth, and the left eye.
     ReportPictures pictures() {
         sweep(mOwn, kSweepMethod, mViews[0], 0, mFrame);
         return {"Pictures, " + mTitle,
@@ -184,7 +184,7 @@ private:
         mScene.offered<MediumScene>()->sweep = mOwn;
     }
 
-    // Squares are summed up in the point's error.
+    // Adds the frame's squares to the point's error.
     void addErrors(std::size_t frame, WayPoint& point) const {
         for (const Eye eye : {&EyePair::left, &EyePair::right}) {
             const double square = squareOf(mTruths[frame].*eye, mFrame.*eye);
@@ -203,13 +203,13 @@ private:
     std::size_t mIndex;
     Scene& mScene;
     std::string mTitle;
-    SweepSetting mOwn, mFinest;  // mFinest: of truths
+    SweepSetting mOwn, mFinest;  // mFinest: for truths
     std::vector<StereoViews> mViews;
-    StereoViews mNext;  // of the frame after the first
+    StereoViews mNext;  // views of the second frame
     EyeImage mNextTruth;
     std::vector<EyePair> mTruths;
     EyePair mFrame;
-    std::vector<Pictures> mFirst;  // of the first frame, by ways
+    std::vector<Pictures> mFirst;  // pictures of the first frame, by ways
 };
 
 WayChart emptyChart(const PairTrial& trial) {
@@ -249,7 +249,7 @@ void addWaysCharts(ReportRun& run, ReportSection& section, const ReportScene& sc
     addFeltCharts(run, section, scene.id, felt, points, trial.feltErrors(ways));
 }
 
-// trials: of these parts of the zero-parallax distance.
+// trials: for these parts of the zero-parallax distance.
 WayChart separationsChart(ReportRun& run, const ReportScene& scene, const std::vector<int>& parts,
                           std::span<PairTrial> trials) {
     WayChart chart = emptyChart(trials.front());

@@ -1,5 +1,5 @@
-// The report's part on volume light: the sweep by slices, size of the light's buffer and cone, against paths
-// traced through the medium and against the same model in many more slices.
+// The report's part on volume light: the sweep by slices, size of the light's buffer and cone, against path
+// tracing through the medium and against the same model in many more slices.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct MediumSubject {
     EyeView view;
 };
 
-// The path tracer knows no surfaces: their weights are taken out.
+// Returns the preset without surfaces, which the path tracer does not know: their weights are 0.
 MediumTransfer withoutSurface(const char* preset) {
     const MediumTransfer transfer = findMediumTransfer(preset);
     std::vector<MediumPoint> points = transfer.points();
@@ -33,7 +33,7 @@ MediumTransfer withoutSurface(const char* preset) {
     return MediumTransfer(points, transfer.referenceLength(), preset);
 }
 
-// Seen whole, lit over the viewer's shoulder.
+// Returns a view of the whole medium, lit over the viewer's shoulder.
 MediumSubject subjectOf(const std::string& name, Medium medium, int size) {
     constexpr double kHeading = 0.6, kPitch = -0.3;
     MediumSubject subject{name, std::move(medium), {}, {}};
@@ -56,7 +56,7 @@ MediumSubject subjectNamed(const std::string& name, int size) {
                            size);
 }
 
-// What pieces of a subject's truths are made from; wax: or cloud.
+// The subject that pieces of truths are made from: wax, or else the cloud.
 struct MediumOrder {
     bool wax;
     int size;
@@ -72,7 +72,7 @@ struct SlicesOrder {
     int slices;
 };
 
-// With what its paths need.
+// A subject with the extinction bounds that its paths need.
 struct TrackedSubject {
     MediumSubject subject;
     ExtinctionBounds bounds;
@@ -88,7 +88,7 @@ std::shared_ptr<TrackedSubject> keptSubject(ReportRun& run, const MediumOrder& o
     });
 }
 
-// Over black.
+// Returns the light as a picture over black.
 Plane<PackedColor> shown(const Plane<glm::vec4>& light) {
     Plane<PackedColor> picture(light.width(), light.height());
     for (int y = 0; y < light.height(); ++y)
@@ -163,7 +163,7 @@ WayChart sweepChart(ReportRun& run, const MediumSubject& subject, const MediumLo
     return chart;
 }
 
-// Of the mean of each pixel, in linear light.
+// Returns the standard error of the mean of a pixel, in linear light.
 double truthNoise(const TrackedPicture& tracked) {
     double sum = 0;
     for (int y = 0; y < tracked.variance.height(); ++y)
@@ -185,9 +185,9 @@ struct MediumTruths {
     Plane<glm::vec4> manySlices;
 };
 
-// All of a subject's at once, so that no process waits for another's.
+// Finds all truths of a subject together, so that no process waits for another.
 MediumTruths truthsOf(ReportRun& run, const MediumSubject& subject) {
-    constexpr int kRows = 4;  // in a piece
+    constexpr int kRows = 4;  // rows of a piece
     const EyeView& view = subject.view;
     const MediumOrder order{subject.name == "wax", view.height};
     MediumTruths truths;
@@ -294,7 +294,7 @@ void reportMedium(ReportRun& run, double) {
     subjects.push_back(subjectNamed("cloud", size));
     if (!run.brief()) subjects.push_back(subjectNamed("wax", size));
     for (const MediumSubject& subject : subjects) {
-        run.checkTime();  // before its truths, which take longest
+        run.checkTime();  // checked before the truths, which take longest
         const MediumTruths truths = truthsOf(run, subject);
         for (const PathTruth& truth : truths.paths) againstPaths(run, section, subject, truth);
         againstManySlices(run, section, subject, truths);

@@ -1,5 +1,5 @@
-// What `report` found, before it becomes a page, JSON or CSV: sections of charts, tables and pictures, and
-// the flat list of every figure, which later runs are compared by.
+// Results of `report`, before they become a page, JSON or CSV: sections of charts, tables and pictures, and
+// the list of all figures, by which later runs are compared.
 #pragma once
 
 #include <string>
@@ -13,33 +13,33 @@
 
 namespace stereonav {
 
-// One number. Two runs' figures of the same id and setting may be compared.
+// One number. Figures of two runs with the same id and setting can be compared.
 struct ReportFigure {
-    enum class Kind { Time, Error, Other };  // Other: told, never judged
+    enum class Kind { Time, Error, Other };  // Other: shown, but not compared
     std::string id, unit, setting;
     Kind kind = Kind::Other;
     Spread value;
 };
 
-// Error against time of one approximation.
+// Error and time of one approximation.
 struct WayPoint {
-    Way way;                // its name also ends the figures' ids
-    std::string detail;     // what is set, in words
-    double worstError = 0;  // of the frames, or of the texels
+    Way way;                // the way's name is also the end of the figures' ids
+    std::string detail;     // settings, in words
+    double worstError = 0;  // worst of the frames, or of the texels
     std::vector<std::pair<std::string, double>>
         others;  // further columns of the table; the same for all points
 };
 struct WayChart {
-    std::string id, title, text;  // text: what was measured, how, and against what
-    std::string setting;          // what figures must share to be compared: "500x400, 4 frames, 2 threads"
+    std::string id, title, text;  // text: what was measured, how, and against which reference
+    std::string setting;          // conditions that comparable figures share: "500x400, 4 frames, 2 threads"
     std::string timeLabel, timeUnit, errorLabel, errorUnit;
     std::vector<WayPoint> points;
     bool front =
-        true;         // these are choices: less is better in both; else points of one choice in several cases
-    std::string why;  // of a default that is not on the front: why it is kept
+        true;         // the points are alternatives: less is better in both; false: cases of a single choice
+    std::string why;  // reason for a default that is not on the front
 };
 
-// Any other chart.
+// A chart of another kind.
 struct LineChart {
     Chart chart;
     std::string text;
@@ -48,8 +48,8 @@ struct ReportTable {
     std::string title, text;
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows;
-    // Of each row, or none at all: what is said below it, once for rows that share it. Such rows' first cells
-    // are drawn once where they are equal, too.
+    // Notes for each row, or none: shown below the row, once for successive rows with the same note. In such
+    // rows equal first cells are shown once, too.
     std::vector<std::string> notes = {};
 };
 struct ReportPicture {
@@ -70,19 +70,19 @@ struct ReportSection {
     std::vector<ReportBlock> blocks;
 };
 
-// Of the run, by name, as the page shows it.
+// Facts of the run by name, in the order of the page.
 using ReportFacts = std::vector<std::pair<std::string, std::string>>;
 
 struct Report {
     bool quick = false;
     ReportFacts machine;
-    std::vector<std::string> warnings;  // shown on top: a noisy machine, what was not measured
+    std::vector<std::string> warnings;  // shown on top: a noisy machine, parts that were not measured
     std::vector<ReportSection> sections;
     std::vector<ReportFigure> figures;
-    std::vector<PaperRow> papers;  // beside the papers' own
+    std::vector<PaperRow> papers;  // our figures beside those of the papers
 };
 
-// Puts a chart with its figures (ID/NAME/time and so on) into the report.
+// Adds a chart and its figures (ID/NAME/time and so on) to the report.
 void addChart(Report& report, ReportSection& section, WayChart chart);
 void addFigure(Report& report, ReportFigure figure);
 

@@ -33,7 +33,7 @@ double fixedWork_ms() {
     for (int run = 0; run < 3; ++run) {
         const Stopwatch watch;
         double x = 0.5;
-        for (int n = 0; n < 500'000; ++n) x = 3.7 * x * (1 - x);  // each step needs the one before
+        for (int n = 0; n < 500'000; ++n) x = 3.7 * x * (1 - x);  // each step depends on the one before
         least = std::min(least, watch.elapsed_ms() + (x < 0 ? 1 : 0));
     }
     return least;

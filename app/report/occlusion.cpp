@@ -22,14 +22,14 @@ struct Texels {
     std::vector<double> truth;  // obscurance
 };
 
-// Of some of the block's texels.
+// Some of the block's texels.
 struct OpennessOrder {
     double radius;
     std::size_t texels, first, end;
 };
 
 Texels tracedTexels(ReportRun& run, const GreyVolume& volume, double radius) {
-    constexpr std::size_t kTexels = 100;  // in a piece
+    constexpr std::size_t kTexels = 100;  // texels of a piece
     Texels texels;
     texels.at = surfaceVoxels(volume, kBlockSurface, static_cast<std::size_t>(run.pick(400, 1500)));
     const std::size_t count = texels.at.size();
@@ -76,7 +76,7 @@ WayPoint estimated(ReportRun& run, const GreyVolume& volume, OcclusionMethod met
     return point;
 }
 
-// Timed on the texels, and scaled to all voxels, as the estimates give them.
+// Measures a directed method on the texels and scales its time to all voxels, which the estimates compute.
 WayPoint directed(ReportRun& run, const GreyVolume& volume, DirectionMethod method, const char* name,
                   double radius, const Texels& texels) {
     std::vector<double> ms, values(texels.at.size());

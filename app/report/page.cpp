@@ -5,7 +5,7 @@
 namespace stereonav {
 namespace {
 
-// Narrow tables scroll by themselves, so that the page never does sideways.
+// Styles of the page. Wide tables scroll on their own, so that the page never scrolls sideways.
 constexpr const char* kStyle = R"css(
 :root{color-scheme:light dark;--page:#fff;--ink:#1c1f24;--soft:#5b6470;--line:#d9dde3;--card:#f6f7f9;
 --front:#2a7d3f;--accent:#c2410c;--s0:#1f5fbf;--s1:#b4540a;--s2:#7a3fb0;--s3:#0f766e;--s4:#b91c4b;--s5:#57606a}
@@ -50,7 +50,7 @@ std::string heading(const std::string& title) {
     return title.empty() ? "" : "<h3>" + escapedXml(title) + "</h3>\n";
 }
 
-// Cells of many letters may be broken into lines.
+// Returns a table cell; long text may be broken into lines.
 std::string cell(const std::string& text, const char* element) {
     constexpr std::size_t kLongCell = 36;
     const char* kind = text.size() > kLongCell ? " class=\"words\"" : text == "FAIL" ? " class=\"fail\"" : "";
@@ -86,7 +86,7 @@ Chart drawingOf(const WayChart& ways) {
     chart.yKind = ChartScale::Kind::Logarithmic;
     ChartSeries series;
     for (const WayPoint& p : ways.points) {
-        const Spread& t = p.way.time;  // the dot at the least, as fronts are judged; a bar to the median
+        const Spread& t = p.way.time;  // the dot is the least time, as for fronts; the bar ends at the median
         series.points.push_back(
             {p.way.name, {t.low, t.low, t.median, t.count}, exactly(p.way.error), p.way.isDefault});
         if (p.worstError > p.way.error && !ways.front) series.points.back().y.high = p.worstError;

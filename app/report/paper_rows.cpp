@@ -24,7 +24,7 @@ ReportFigure figureOf(const PaperRow& row) {
             row.measured, kind, row.ours};
 }
 
-using TableName = std::pair<std::string, std::string>;  // the paper's, and its own
+using TableName = std::pair<std::string, std::string>;  // name of the paper, and of its table
 
 TableName nameOf(const PaperRow& row) {
     return {row.paper, row.table};

@@ -1,5 +1,5 @@
-// The report's part on pictures under baked light: against paths traced from every pixel, by samples,
-// resolution and kind of bake, and by how texels are looked up (Wyman et al. 2006, fig. 6; Y5, Y11 of
+// The report's part on pictures under baked light: against path tracing from every pixel, by samples,
+// resolution and kind of bake, and by lookup of texels (Wyman et al. 2006, fig. 6; Y5, Y11 of
 // docs/ledger.md).
 #include <fmt/format.h>
 
@@ -21,9 +21,9 @@ namespace {
 using Lookup = IlluminationVolume::Lookup;
 using Light = std::shared_ptr<const IlluminationVolume>;
 
-// A look down at the middle hole: its wall, its rim and the plane around it fill the picture.
+// Returns a view down at the middle hole: its wall, its rim and the plane around it fill the picture.
 EyeView closeView(const VolumeFrame& frame, int width, int height) {
-    constexpr double kHalfWidth = 0.22;  // at view depth 1
+    constexpr double kHalfWidth = 0.22;  // half width of the view at depth 1
     const glm::dvec3 middle = frame.worldFromVoxel(0.5 * glm::dvec3(frame.size - 1));
     EyeView view;
     view.eye = view.head = middle + glm::dvec3(0.018, -0.03, 0.08);
@@ -50,7 +50,7 @@ VolumeScene blockScene() {
     return scene;
 }
 
-// Milliseconds.
+// Returns milliseconds.
 double castBlock(const VolumeScene& scene, const EyeView& view, EyeImage& image) {
     const VolumeRenderer renderer(scene);
     image.resize(view.width, view.height, renderer.viewDependence());
@@ -59,7 +59,7 @@ double castBlock(const VolumeScene& scene, const EyeView& view, EyeImage& image)
     return watch.elapsed_ms();
 }
 
-// Luminance at the pixels that show a surface, row by row.
+// Returns the luminance at the pixels that show a surface, row by row.
 template <typename LightAt>
 std::vector<double> overPixels(const Plane<float>& depths, const LightAt& lightAt) {
     std::vector<double> light;
@@ -69,7 +69,7 @@ std::vector<double> overPixels(const Plane<float>& depths, const LightAt& lightA
     return light;
 }
 
-// Paths of a stream from what the pixels show, as luminance; ms: of tracing.
+// Traces paths of a stream from the visible points and returns their luminance; ms: time of tracing.
 std::vector<double> pathLight(const VolumeScene& scene, const LightSetup& setup, std::uint64_t seed,
                               const EyeView& view, const Plane<float>& depths, std::uint32_t stream,
                               int samples, Progress& progress, double& ms) {
@@ -83,7 +83,7 @@ std::vector<double> pathLight(const VolumeScene& scene, const LightSetup& setup,
     return overPixels(depths, [&](int x, int y) { return sums.at(x, y).mean; });
 }
 
-// Of rows of a picture of the block.
+// Rows of a picture of the block.
 struct PixelTruthOrder {
     std::uint64_t seed;
     std::uint32_t stream;
@@ -102,7 +102,7 @@ public:
         mView = closeView(mScene.field.frame, run.pick(64, 96), run.pick(48, 72));
         cast(mImage);
         mTruthSamples = run.pick(512, 2048);
-        // Two halves with noise of their own: their difference is twice the error of their mean.
+        // The halves have independent noise: their difference is twice the error of their mean.
         const std::vector<std::vector<double>> halves = truths();
         const std::vector<double>&a = halves[0], &b = halves[1];
         for (std::size_t n = 0; n < a.size(); ++n) mTruth.push_back(0.5 * (a[n] + b[n]));
@@ -112,10 +112,10 @@ public:
     struct Bake {
         Light light;
         double ms = 0;
-        std::vector<double> relight_ms;  // of transfer: of what is seen
+        std::vector<double> relight_ms;  // times of relighting the visible part, for transfer
         std::size_t texels = 0;
     };
-    // Of the texels that the picture looks up.
+    // Bakes the texels that the picture looks up.
     Bake irradiance(int samples, double perVoxel) const {
         const Made made = make({BakeKind::Irradiance, 0, 1}, samples, perVoxel);
         return {
@@ -135,7 +135,7 @@ public:
         return bake;
     }
 
-    // A frame that looks the bake up.
+    // Measures a frame that looks the bake up.
     WayPoint lookedUp(const Bake& bake, Lookup lookup) {
         mRun.tell("light, pictures");
         mScene.look.baked.light = bake.light;
@@ -147,7 +147,7 @@ public:
         mScene.look.baked = {};
         return pointOf(ms, lightLookedUp(*bake.light, lookup), bake.ms / 1000, bake.texels);
     }
-    // A frame whose pixels are traced.
+    // Measures a frame whose pixels are path traced.
     WayPoint tracedPoint(int samples) {
         std::vector<double> ms, light;
         for (int n = 0; n < mRun.pick(1, 3); ++n) {
@@ -184,9 +184,9 @@ private:
 
     double cast(EyeImage& image) const { return castBlock(mScene, mView, image); }
 
-    // Of both halves, row by row.
+    // Returns both halves of the truth, row by row.
     std::vector<std::vector<double>> truths() const {
-        constexpr int kRows = 6;  // in a piece
+        constexpr int kRows = 6;  // rows of a piece
         std::vector<UntimedPiece> pieces;
         for (const std::uint32_t stream : {kTruthStream, kTruthStream + 1})
             for (int y = 0; y < mView.height; y += kRows)
@@ -203,7 +203,7 @@ private:
         }
         return halves;
     }
-    // Timed.
+    // Traces all pixels; ms: time taken.
     std::vector<double> traced(std::uint32_t stream, int samples, double& ms) const {
         Progress telling([this](double, const std::string&) { mRun.tell("light, paths from every pixel"); });
         return pathLight(mScene, mSetup, mRun.options().seed, mView, mImage.viewDepth, stream, samples,
@@ -255,7 +255,7 @@ private:
     LightSetup mSetup;
     VolumeScene mScene;
     EyeView mView;
-    EyeImage mImage;  // depths
+    EyeImage mImage;  // provides depths
     std::vector<double> mTruth;
     int mTruthSamples = 0;
     double mTruthError = 0;
@@ -295,7 +295,7 @@ PeerBytes makePixelTruth(ReportRun& run, ByteReader& order) {
             castBlock(block.scene, block.view, block.image);
             return block;
         });
-    Plane<float> depths = seen->image.viewDepth;  // of other rows: nothing
+    Plane<float> depths = seen->image.viewDepth;  // other rows have no depth
     for (int y = 0; y < depths.height(); ++y)
         if (y < asked.firstRow || y >= asked.firstRow + asked.rows)
             std::fill_n(depths.row(y), depths.width(), kMissDepth);

@@ -1,5 +1,5 @@
-// The report's part on warping or casting: where one becomes cheaper than the other, what the frame plan
-// chose, and what a wrong choice cost.
+// The report's part on warping or casting: where one becomes cheaper than the other, the choice of the frame
+// plan, and the cost of wrong choices.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,9 +17,9 @@ namespace {
 
 struct Case {
     std::string scene, size, separation;
-    FrameCosts costs;                         // measured by the plan itself
-    RightEyeMethod chosen, warp;              // by the plan; the way it weighs against casting
-    double cast_ms = 1e300, warp_ms = 1e300;  // the least, measured apart from the plan; mean frame
+    FrameCosts costs;                         // as measured by the plan
+    RightEyeMethod chosen, warp;              // the plan's choice; the way that it compares with casting
+    double cast_ms = 1e300, warp_ms = 1e300;  // least times, measured independently of the plan; mean frame
 
     double chosen_ms() const { return chosen == RightEyeMethod::Full ? cast_ms : warp_ms; }
     double regret_ms() const { return chosen_ms() - std::min(cast_ms, warp_ms); }
@@ -71,8 +71,8 @@ Case caseOf(ReportRun& run, const Scene& scene, FrameMaker& frames, const std::s
     return c;
 }
 
-// The same scene cast without vector instructions: rays that cost more, for where the crossing lies. Null for
-// what is not cast by kernels of ours.
+// Returns a renderer of the same scene without vector instructions, whose rays cost more, to show where the
+// crossing lies. Null for scenes that other libraries cast.
 std::unique_ptr<EyeRenderer> plainRenderer(const Scene& scene) {
     if (terrainOf(scene)) return std::make_unique<TerrainRenderer>(*terrainOf(scene), SimdTarget::Plain);
     if (!colonOf(scene)) return nullptr;
@@ -81,8 +81,8 @@ std::unique_ptr<EyeRenderer> plainRenderer(const Scene& scene) {
     return std::make_unique<VolumeRenderer>(colonOf(scene)->volume, casting);
 }
 
-// Nanoseconds a ray at which warping and casting would cost the same, holes' rays staying as many times
-// dearer; infinite where warping never pays.
+// Returns the nanoseconds per ray at which warping and casting cost the same, with the same ratio of costs
+// for rays in holes; infinite where warping never pays.
 double crossing_ns(const FrameCosts& costs) {
     const double dearer = costs.cast_ns > 0 ? costs.holeShare * costs.hole_ns / costs.cast_ns : 0;
     return dearer < 1 ? costs.warp_ns / (1 - dearer) : INFINITY;

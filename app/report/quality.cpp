@@ -1,5 +1,5 @@
-// The report's part on the quality dial: what it picks for a wish among the ways of warping, whether the wish
-// is met on frames that were not measured, what a smaller picture saves, and what more rays at edges give.
+// The report's part on the quality dial: its choice among the ways of warping, whether the target is met on
+// frames that were not measured, the gain of a smaller picture, and of more rays at edges.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kShare = 1.0 / 30;  // of the zero-parallax distance: the eyes' separation
+constexpr double kShare = 1.0 / 30;  // separation as a share of the zero-parallax distance
 
 StereoSetting stereoOf(const Scene& scene) {
     StereoSetting stereo = scene.stereo;
@@ -61,7 +61,7 @@ std::vector<Variant> variantsOf(ReportRun& run, const std::vector<NamedWarp>& wa
     return variants;
 }
 
-// Frames between those that were measured.
+// Measures on frames between those of the calibration.
 WayChart dialChart(ReportRun& run, const ReportScene& scene, double seconds) {
     const std::vector<NamedWarp> warps = warpsWorthTrying(rendererOf(scene.loaded()));
     const MeasuredWarps known = measured(run, scene, warps);
@@ -85,7 +85,7 @@ WayChart dialChart(ReportRun& run, const ReportScene& scene, double seconds) {
     return chart;
 }
 
-// Both eyes made in a share of the sides and enlarged; small: keeps memory between frames of that share.
+// Makes both eyes with smaller sides and enlarges them; small: buffer of this size, kept between frames.
 double makeEyes(const ReportScene& from, const Pose& pose, double scale, EyePair& small, EyePair& eyes) {
     const Scene& scene = from.loaded();
     Lens lens = scene.lens;

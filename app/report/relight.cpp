@@ -1,4 +1,4 @@
-// The report's chart of transfer under a sky that turns: what dotting every texel costs, by order.
+// The report's chart of transfer under a turning sky: the cost of multiplying every texel with it, by order.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace stereonav {
 namespace {
 
-// The first bands of every vector.
+// Returns the first bands of every vector.
 std::vector<float> firstBands(const std::vector<float>& means, int from, int order) {
     const std::size_t all = static_cast<std::size_t>(harmonicsCount(from)),
                       some = static_cast<std::size_t>(harmonicsCount(order));
@@ -21,7 +21,7 @@ std::vector<float> firstBands(const std::vector<float>& means, int from, int ord
     return bands;
 }
 
-// Numbers of `wanted` texels in all, those that are there again and again.
+// Returns numbers for `wanted` texels, by repeating the given ones.
 std::vector<float> repeated(const std::vector<float>& numbers, std::size_t wanted) {
     std::vector<float> more;
     more.reserve(wanted);
@@ -46,7 +46,8 @@ TransferVolume transferOf(const LightSubject& subject, const std::vector<TexelBr
     return volume;
 }
 
-// As the program keeps and relights it: half floats, a pass over all bricks of the surface.
+// Measures transfer as the program stores and relights it: half floats, one pass over all bricks of the
+// surface.
 WayPoint relightPoint(ReportRun& run, const LightSubject& subject, const std::vector<float>& means,
                       int order) {
     const std::vector<glm::vec3> sky = subject.setup.probe->project(order);

@@ -1,4 +1,4 @@
-// What `stereonav report` measures, and where it goes.
+// Options of `stereonav report`.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@ struct ReportOptions {
     Telling telling;
     std::string out = "report";       // folder
     bool quick = false;               // within a minute, with fewer frames and repeats
-    std::vector<std::string> scenes;  // beside the built-in ones
-    std::optional<UpAxis> up;         // as VolumeOptions, of those that are studies
-    bool curvature = false;           // as SceneOptions, of those that are ground
+    std::vector<std::string> scenes;  // scenes beside the built-in ones
+    std::optional<UpAxis> up;         // as in VolumeOptions, for CT studies
+    bool curvature = false;           // as in SceneOptions, for ground
     std::optional<double> refraction;
-    std::string compare;             // an earlier run's report.json; "": none
-    std::string stability;           // rows that the stability tests wrote; "": those of this build, if any
+    std::string compare;             // report.json of an earlier run; "": none
+    std::string stability;           // rows of the stability tests; "": those of this build, if any
     int threads = 0;                 // 0: all
-    std::uint64_t seed = 1;          // of everything random
-    std::optional<double> minutes;   // for all of it
+    std::uint64_t seed = 1;          // seed of all random numbers
+    std::optional<double> minutes;   // for the whole report
     std::vector<std::string> parts;  // sections by id; empty: all
-    bool papers = false;             // the papers' tables beside ours, in the place of the charts
-    std::string data;                // folder with real data for them; "": where tests find it
+    bool papers = false;             // the papers' tables beside ours, instead of the charts
+    std::string data;                // folder with real data for the papers; "": the one of the tests
 };
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// The report's first part: every way of making the right eye, error against time, on every scene.
+// The report's first part: every way of making the right eye, error against time, for every scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ WayChart chartOf(ReportRun& run, const ReportScene& scene, const RightEyeTrial& 
     return chart;
 }
 
-// Pictures of the middle frame by the default way.
+// Returns pictures of the middle frame by the default way.
 ReportPictures picturesOf(const ReportScene& scene, const StereoSetting& stereo) {
     const Scene& s = scene.loaded();
     const std::vector<Pose> poses =
@@ -58,12 +58,12 @@ ReportPictures picturesOf(const ReportScene& scene, const StereoSetting& stereo)
     return pictures;
 }
 
-// The default way with the eyes ever further apart.
+// Measures the default way with increasing separations of the eyes.
 WayChart separationsOf(ReportRun& run, const ReportScene& scene, double seconds) {
     const std::vector<int> parts =
         run.brief() ? std::vector<int>{240, 30, 8} : std::vector<int>{1000, 240, 120, 60, 30, 15, 8, 4};
     WayChart chart;
-    int least = 1 << 30, most = 0;  // frames
+    int least = 1 << 30, most = 0;  // numbers of frames
     for (const int part : parts) {
         StereoSetting stereo = scene.loaded().stereo;
         stereo.separation = stereo.zeroParallax / part;

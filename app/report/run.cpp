@@ -16,8 +16,8 @@
 namespace stereonav {
 namespace {
 
-constexpr int kReportWidth = 500, kReportHeight = 400;  // as Wan et al. 2004
-constexpr double kWallOpacity = 0.95;                   // a millimetre, as theirs
+constexpr int kReportWidth = 500, kReportHeight = 400;  // size in Wan et al. 2004
+constexpr double kWallOpacity = 0.95;                   // per millimetre, as in Wan et al. 2004
 
 void loadOne(ReportRun& run, const std::string& id, const std::string& title, const SceneOptions& options) {
     run.tell("loading " + title);
@@ -52,7 +52,7 @@ bool isOneOf(const std::string& name, SceneSet types) {
     return (sceneTypeNamed(scene).optionsFor(scene) & types) != 0;
 }
 
-// A name's last part, and a number where it was taken.
+// Returns the last part of the name, with a number where another scene has it.
 std::string idOf(const std::string& name, const std::vector<ReportScene>& scenes) {
     const std::filesystem::path path(name);
     const std::string stem =
@@ -137,7 +137,7 @@ bool isStudy(const std::string& name) {
 
 SceneOptions sceneOptionsFor(const ReportOptions& report, const std::string& name) {
     SceneOptions options = sceneOptionsOf(name, sceneTypeOf);
-    options.threads = report.threads;  // the same for all
+    options.threads = report.threads;  // the same for all scenes
     if (report.up && isStudy(name)) options.volume.up = report.up;
     if (report.curvature && isOneOf(name, scene_type::kTerrain) && !shownAs(options).swept) {
         options.curvature = true;

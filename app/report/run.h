@@ -1,5 +1,5 @@
-// One run of `report`: its scenes, its time, and what it has found so far. Each part of the report is a
-// function that measures within its share of the time and adds a section.
+// One run of `report`: its scenes, its time, and its results so far. Each part of the report is a function
+// that measures within its share of the time and adds a section.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@
 
 namespace stereonav {
 
-// Null where the scene is made of something else.
+// Returns the colon or volume; null for scenes of other types.
 inline const ColonScene* colonOf(const Scene& scene) {
     return scene.offered<const ColonScene>();
 }
@@ -27,21 +27,21 @@ inline const TerrainScene* terrainOf(const Scene& scene) {
 }
 
 struct ReportScene {
-    std::string id, title;  // the id is part of figures' ids
+    std::string id, title;  // `id` is part of the figures' ids
     SceneOptions options;
     std::unique_ptr<Scene> scene;
     double load_ms = 0;
-    std::unique_ptr<EyeRenderer> faulty;       // with deliberate faults (faults.h); null: without
-    std::unique_ptr<FrameMaker> faultyFrames;  // ... that are made with it
+    std::unique_ptr<EyeRenderer> faulty;       // renderer with deliberate faults (faults.h); null: none
+    std::unique_ptr<FrameMaker> faultyFrames;  // frames made with `faulty`
 
     const Scene& loaded() const { return *scene; }
-    // What all frames of it are made by.
+    // Returns the maker of all frames of the scene.
     FrameMaker& frames() const { return faultyFrames ? *faultyFrames : scene->frames(); }
-    // ... of which one left eye and many right ones are wanted: of ReportRun::scenes().
+    // Returns the maker of right eyes from one left eye, for scenes of ReportRun::scenes().
     RightFromLeft& rightFromLeft() const { return *frames().rightFromLeft(); }
 };
 
-// The whole time of a run: full 10 minutes, quick 60 s, less what writing and a slow end may take.
+// Time of a whole run in seconds: 10 minutes or 60 s, less a reserve for writing and a slow end.
 constexpr double kFullReport_s = 540, kQuickReport_s = 50;
 
 class ReportRun {
@@ -51,44 +51,44 @@ public:
     const ReportOptions& options() const { return mOptions; }
     bool quick() const { return mOptions.quick; }
     Report& report() { return mReport; }
-    std::vector<ReportScene>& scenes() { return mScenes; }  // whose rays are cast
-    std::vector<ReportScene>& media() { return mMedia; }    // that are swept
+    std::vector<ReportScene>& scenes() { return mScenes; }  // scenes whose rays are cast
+    std::vector<ReportScene>& media() { return mMedia; }    // scenes that are swept
 
-    // By their places in these lists, which all processes of a run have alike: those that do not measure load
-    // theirs once a piece of work needs them.
+    // Return a scene by its index in these lists, which are the same in all processes of a run: processes
+    // that do not measure load a scene once a piece of work needs it.
     ReportScene& castScene(std::size_t index);
     ReportScene& medium(std::size_t index);
     std::size_t indexOf(const ReportScene& scene) const;
 
-    // Less is measured in a quick run, and in parts of a full one that begin behind their time.
+    // Returns whether to measure less: in a quick run, and in parts of a full one that begin late.
     bool brief() const { return quick() || mBehind; }
     int pick(int whenBrief, int whenFull) const { return brief() ? whenBrief : whenFull; }
-    // Begins a part that `seconds` are left for, of `planned`.
+    // Begins a part with `seconds` left, of `planned`.
     void begin(const std::string& part, double seconds, double planned);
-    // Takes back what the part at hand has found, which is not done.
+    // Removes the results of the present part, which is not complete.
     void dropPart();
-    // Between charts: from here on the part is brief where its time is up.
+    // Makes the rest of the part brief where its time is up; to be called between charts.
     void checkTime();
     double elapsed_s() const { return mWatch.elapsed_ms() / 1000; }
 
-    // Seconds that the next part may take: `weight` of what is left, `weights` being that of this part and
-    // all after it.
+    // Returns the seconds that the next part may take: the share `weight` / `weights` of the remaining time,
+    // where `weights` is the sum for this part and all after it.
     double share_s(double weight, double weights) const;
     double whole_s() const;
     const std::vector<std::string>& hurriedParts() const { return mHurried; }
-    // Tells what is done now. Throws Cancelled.
+    // Reports the present work. Throws Cancelled.
     void tell(const std::string& what);
 
-    // What all processes of the run make together.
+    // Returns the work that all processes of the run share.
     UntimedWork& untimed() { return mUntimed; }
 
-    // Does the fixed work that the machine's mood is told by.
+    // Measures the fixed work that shows how steady the machine is.
     void feelMood() { mMood_ms.push_back(fixedWork_ms()); }
     const std::vector<double>& mood_ms() const { return mMood_ms; }
 
-    // "500x400, 2 threads": what all figures of that size share.
+    // Returns "500x400, 2 threads": the setting of all figures of that size.
     std::string settingOf(int width, int height) const;
-    // The same of a scene as the lens shows it, "..., refraction 0.13" where its Earth is round.
+    // Returns the setting for a scene under a lens; with "..., refraction 0.13" for a round Earth.
     std::string settingOf(const Scene& scene, const Lens& lens) const;
     std::string settingOf(const Scene& scene) const { return settingOf(scene, scene.lens); }
 
@@ -99,25 +99,27 @@ private:
     Report mReport;
     std::vector<double> mMood_ms;
     bool mBehind = false;
-    double mPartEnd_s = 0;  // of the part at hand
+    double mPartEnd_s = 0;  // end of the present part
     std::size_t mFiguresBefore = 0, mSectionsBefore = 0;
     std::string mPart;
-    std::vector<std::string> mHurried;  // parts that were behind
+    std::vector<std::string> mHurried;  // parts that began late
     std::vector<ReportScene> mScenes, mMedia;
     UntimedWork mUntimed{*this};
 };
 
-// The built-in scenes and those that were named, each with its colon's wall opaque and translucent; of media
-// the cloud, in a full run, and those that were named. A scene that is named twice, or built in, comes once.
+// Loads the built-in scenes and those that were named, colons with an opaque and a translucent wall; of media
+// the cloud, in a full run, and those that were named. A scene that is named twice, or is built in, is loaded
+// once.
 void loadReportScenes(ReportRun& run, bool surfaces, bool media);
 
-// What a scene of that name is loaded by: as `compare` shows it, but for what the report says of all such.
+// Returns the options for a scene of that name: as `compare` shows it, with the report's options for all
+// scenes of its type.
 SceneOptions sceneOptionsFor(const ReportOptions& report, const std::string& name);
 
-// From files: not the built-in colon. Throws Error for a name of nothing.
+// Returns whether the scene is a study in files: not the built-in colon. Throws Error for an unknown name.
 bool isStudy(const std::string& name);
 
-// The parts, in the order of the page.
+// Measure the parts, in the order of the page.
 void reportRightEye(ReportRun& run, double seconds);
 void reportFelt(ReportRun& run, double seconds);
 void reportLate(ReportRun& run, double seconds);
@@ -130,7 +132,7 @@ void reportPlan(ReportRun& run, double seconds);
 void reportStages(ReportRun& run, double seconds);
 void reportScenes(ReportRun& run, double seconds);
 void reportStability(ReportRun& run, double seconds);
-// Charts that stand in sections of others: of casting, of volume light, and of quality by wish.
+// Return charts for sections of other parts: on casting, volume light, and quality by target.
 WayChart filteringChart(ReportRun& run, const ReportScene& terrain);
 WayChart normalsChart(ReportRun& run);
 WayChart shadingWidthChart(ReportRun& run);

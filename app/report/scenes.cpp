@@ -1,5 +1,5 @@
-// The report's part on what each scene left out: its frame plan, what it holds, and what single features
-// cost; and the stability table.
+// The report's part on the cost of each scene: its frame plan, its memory, and the cost of single features;
+// and the stability table.
 #include <fmt/format.h>
 #include <link.h>
 
@@ -52,7 +52,7 @@ struct Feature {
     VolumeCasting off;
 };
 
-// A frame with a feature and without: left and right eye, what it holds, the right eye's error.
+// Returns a row for frames with and without a feature: left and right eye, memory, and the right eye's error.
 std::vector<std::string> rowOf(ReportRun& run, const ReportScene& scene, const char* name, FrameMaker& frames,
                                ViewDependence dependence) {
     StereoSetting stereo = scene.loaded().stereo;
@@ -77,7 +77,7 @@ std::vector<std::string> rowOf(ReportRun& run, const ReportScene& scene, const c
             fmt::format("{:.1f}", bytes / 1e6)};
 }
 
-// The same scene cast another way.
+// Returns a row for the same scene, cast another way.
 std::vector<std::string> rowOf(ReportRun& run, const ReportScene& scene, const char* name,
                                const VolumeRenderer& renderer) {
     CastFrames frames(renderer);

@@ -1,5 +1,5 @@
-// The report's charts of what shading reads: normals kept at corners of cells against the gradient at each
-// place, and surfaces of media shaded at places that lie apart.
+// The report's charts of normals: those stored at corners of cells against the gradient at each place, and
+// surfaces of media shaded at coarser places.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ glm::dvec3 unit(const glm::dvec3& gradient) {
     return length > 0 ? -gradient / length : glm::dvec3(0, 0, 1);
 }
 
-// Places where the surface is met by rays along i, j and k through its cells.
+// Returns places where rays along i, j and k meet the surface.
 std::vector<glm::dvec3> placesOf(ReportRun& run, const GreyVolume& volume) {
     std::vector<glm::dvec3> places;
     for (const glm::ivec3& cell :
@@ -37,14 +37,14 @@ std::vector<glm::dvec3> placesOf(ReportRun& run, const GreyVolume& volume) {
             low[axis] = cell[axis], high[axis] = cell[axis] + 1.0;
             const double a = plainValue(volume, low) - kBlockSurface,
                          b = plainValue(volume, high) - kBlockSurface;
-            if (a * b >= 0) continue;  // trilinear values change evenly along an axis
+            if (a * b >= 0) continue;  // trilinear values are linear along an axis
             low[axis] += a / (a - b);
             places.push_back(low);
         }
     return places;
 }
 
-// The trilinear function's own gradient, by differences half a voxel to either side.
+// Returns the gradient of the trilinear function, by differences over half a voxel to both sides.
 glm::dvec3 trilinearGradient(const GreyVolume& volume, const glm::dvec3& voxel) {
     glm::dvec3 gradient;
     for (int axis = 0; axis < 3; ++axis) {
@@ -62,7 +62,7 @@ WayChart normalsChart(ReportRun& run) {
     const std::vector<glm::dvec3> places = placesOf(run, volume);
     std::vector<glm::dvec3> truth(places.size());
     for (std::size_t n = 0; n < places.size(); ++n) truth[n] = unit(smoothGradient(volume, places[n]));
-    // what the kernels keep: normals of cells' corners, packed
+    // Normals at the cells' corners, packed as the kernels store them.
     Progress quiet;
     const auto surface = static_cast<float>(kBlockSurface);
     const SurfaceCells cells = findSurfaceCells(volume, {surface, surface, surface, nullptr}, quiet);
@@ -108,7 +108,7 @@ WayChart normalsChart(ReportRun& run) {
         WayPoint point;
         double squares = 0;
         for (std::size_t n = 0; n < places.size(); ++n) {
-            // the chord tells small angles, which the cosine does not
+            // The chord is accurate for small angles, unlike the cosine.
             const double chord = std::min(glm::length(normals[n] - truth[n]), 2.0);
             const double degrees = glm::degrees(2 * std::asin(0.5 * chord));
             squares += degrees * degrees;

@@ -24,7 +24,7 @@ struct Row {
     bool pass = false;
 };
 
-// What is not finite is written as null or as text.
+// Reads a number; those that are not finite are written as null or as text.
 double numberFrom(const Json& value) {
     return value.is_number() ? value.get<double>() : NAN;
 }
@@ -67,7 +67,7 @@ ReportSection emptySection() {
 }  // namespace
 
 ReportSection stabilitySection(std::string_view text, const std::string& source) {
-    std::map<std::string, Row> rows;  // of rows written twice the later one counts
+    std::map<std::string, Row> rows;  // the later of two rows with one name counts
     int number = 0;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find('\n', at), text.size());

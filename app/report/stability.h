@@ -1,5 +1,5 @@
-// The stability table: rows that the tests of tests/stability wrote, one JSON object a line, so that the page
-// can not say what no test showed.
+// The stability table: rows that tests/stability writes, one JSON object per line, so that the page shows
+// only what a test has shown.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,13 @@
 
 namespace stereonav {
 
-// The section of rows in `text`, read from `source` (named in errors with the line). Throws Error for lines
-// that are no rows.
+// Returns the section with the rows in `text`, read from `source` (named in errors with the line). Throws
+// Error for lines that are no rows.
 ReportSection stabilitySection(std::string_view text, const std::string& source);
-// Where there are none: what to do.
+// Returns a section that says how to make the rows, where there are none.
 ReportSection noStabilitySection();
 
-// The rows that lie beside this build's program, "" where there are none.
+// Returns the file with rows next to this build's program, "" where there is none.
 std::filesystem::path stabilityRowsOfThisBuild();
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// The report's part on where the time goes: stages by thread count, speed-up and what limits it.
+// The report's part on stages: time by thread count, speed-up and its limits.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -21,10 +21,10 @@ constexpr std::array<const char*, kStages> kStageNames{"left eye cast",     "rig
                                                        "paper's way: warp", "paper's way: holes"};
 
 struct StageTimes {
-    std::array<Spread, kStages> ms;  // a frame
+    std::array<Spread, kStages> ms;  // times per frame
 };
 
-// 1, 2, 4, ... and all.
+// Returns 1, 2, 4, ... and all.
 std::vector<int> threadCounts(int all) {
     std::vector<int> counts;
     for (int n = 1; n < all; n *= 2) counts.push_back(n);
@@ -64,7 +64,7 @@ private:
 
 using TimesByThreads = std::map<int, StageTimes>;
 
-// Frames one after another, in each all thread counts in turn.
+// Measures one frame after another, each with all thread counts in turn.
 TimesByThreads measureStages(ReportRun& run, const ReportScene& scene, const std::vector<int>& counts,
                              double seconds) {
     const ThreadsBack back;
@@ -73,7 +73,7 @@ TimesByThreads measureStages(ReportRun& run, const ReportScene& scene, const std
                                         : scene.loaded().path.frames(run.pick(2, 5));
     StereoSetting stereo = scene.loaded().stereo;
     stereo.separation = stereo.zeroParallax / 30;
-    std::map<int, std::array<std::vector<double>, kStages>> sums;  // by repeat
+    std::map<int, std::array<std::vector<double>, kStages>> sums;  // sums over the frames, by repeat
     StageTrial trial(scene);
     const Stopwatch watch;
     const int most = run.pick(5, 15);
@@ -96,7 +96,7 @@ TimesByThreads measureStages(ReportRun& run, const ReportScene& scene, const std
     return times;
 }
 
-// Share of the work that is serial, by the least squares fit of t = a + b / threads (Amdahl), 0..1.
+// Returns the serial share of the work, 0..1, by the least squares fit of t = a + b / threads (Amdahl).
 double serialShare(const TimesByThreads& times, std::size_t stage) {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (const auto& [threads, t] : times) {
@@ -109,7 +109,7 @@ double serialShare(const TimesByThreads& times, std::size_t stage) {
     return a + b > 0 ? std::clamp(a / (a + b), 0.0, 1.0) : 0.0;
 }
 
-// The longest of `threads` queues when tiles go to whoever is free, over an even share: 1 is perfect.
+// Returns the longest of `threads` queues, filled by dynamic scheduling, over an equal share: 1 is perfect.
 double imbalanceOf(const std::vector<double>& tiles, int threads) {
     std::vector<double> queues(static_cast<std::size_t>(threads), 0.0);
     double sum = 0;
@@ -120,7 +120,7 @@ double imbalanceOf(const std::vector<double>& tiles, int threads) {
     return sum > 0 ? *std::max_element(queues.begin(), queues.end()) * threads / sum : 1.0;
 }
 
-// Milliseconds of each tile of the left eye, on one thread, the least of three.
+// Returns the milliseconds of each tile of the left eye, on one thread, the least of three.
 std::vector<double> tileTimes(const Scene& scene) {
     const EyeView view = scene.viewsAt(scene.startPose).left;
     EyeImage image;
@@ -135,8 +135,8 @@ std::vector<double> tileTimes(const Scene& scene) {
     return tiles;
 }
 
-// Bytes a pixel that a stage can not avoid moving: of planes read and written. Of the scene's own data
-// nothing is counted.
+// Returns the bytes per pixel that a stage has to move: planes read and written, without the scene's own
+// data.
 double leastBytes(std::size_t stage, ViewDependence dependence) {
     const double again = dependence == ViewDependence::Highlight ? 8
                          : dependence == ViewDependence::Normal  ? 4
@@ -153,7 +153,7 @@ double lastCacheBytes() {
 struct Limits {
     double speedup, serial, imbalance;
     double traffic;  // share of the triad's rate
-    bool inCache;    // what the stage moves fits into the last cache
+    bool inCache;    // whether the stage's data fit into the last cache
 };
 
 std::string limitText(const Limits& limits, int threads) {

@@ -11,8 +11,8 @@
 namespace stereonav {
 namespace {
 
-// One stage of one way on one number of threads: sums over the frames by repeat, and the fastest of each
-// frame.
+// One stage of one way on one number of threads: sums over the frames by repeat, and the fastest repeat of
+// each frame.
 struct PaperStage {
     std::vector<double> sums, fastest;
 

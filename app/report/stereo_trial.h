@@ -1,5 +1,5 @@
-// Ways of making both eyes with their schedules, by threads: what the stereo paper's table of times and its
-// section on partitions are put beside.
+// Ways of making both eyes with their schedules, by threads: figures beside the stereo paper's table of times
+// and its section on partitions.
 #pragma once
 
 #include <map>
@@ -12,10 +12,10 @@
 
 namespace stereonav {
 
-// 1, the paper's 4, 8, 12 and 16 as far as this machine goes, and all of its threads.
+// Returns 1, the paper's 4, 8, 12 and 16 as far as this machine has them, and all of its threads.
 std::vector<int> paperThreads(int all);
 
-// Puts the thread count back, whatever happens.
+// Restores the thread count at the end of its life.
 class ThreadsBack {
 public:
     ~ThreadsBack();
@@ -28,19 +28,19 @@ struct StereoWay {
     std::string name;
     WarpSetting setting;
     Schedule leftSchedule = Schedule::Dynamic;
-    bool coherent = true;  // else holes are cast as if nothing were known
+    bool coherent = true;  // otherwise holes are cast as if nothing were known
 };
 
-// Milliseconds a frame, over repeats; the least is made of each frame's fastest.
+// Milliseconds per frame over the repeats; the least is the sum of each frame's fastest repeat.
 struct StereoTimes {
     Spread left, warp, fill, right;
 };
 
-// Of all frames together.
+// Counts over all frames.
 struct StereoCounts {
-    long long surfacePixels = 0, holePixels = 0;   // as surface_difference.h counts them
-    double rightEnd = 0, middle = 0, leftEnd = 0;  // holes there
-    double squares = 0, compared = 0;              // of the error, over channels and frames
+    long long surfacePixels = 0, holePixels = 0;   // as counted by surface_difference.h
+    double rightEnd = 0, middle = 0, leftEnd = 0;  // holes in these parts of the picture
+    double squares = 0, compared = 0;              // sums of the error over channels and frames
 
     double holesOfWarped_percent() const;
     double psnr_db() const;
@@ -48,10 +48,10 @@ struct StereoCounts {
 
 class StereoTrial {
 public:
-    // scene must outlive this. Eyes are 1/30 of the zero-parallax distance apart.
+    // scene must outlive this object. The separation is 1/30 of the zero-parallax distance.
     StereoTrial(const Scene& scene, std::vector<StereoWay> ways, int frames);
 
-    // By threads, all ways and counts in turn in each repeat; at least `least` repeats.
+    // Measures by threads, with all ways and counts in turn in each repeat; at least `least` repeats.
     void time(ReportRun& run, const std::string& what, const std::vector<int>& threads, int least, int most,
               double seconds);
     const StereoTimes& times(int threads, std::size_t way) const { return mTimes.at(threads)[way]; }

@@ -17,7 +17,7 @@ double rootMeanSquare(const std::vector<double>& values) {
 }  // namespace
 
 GreyVolume blockWithHoles() {
-    constexpr double kNoise = 3, kPerVoxel = 50;  // of the values; how fast they change across the surface
+    constexpr double kNoise = 3, kPerVoxel = 50;  // of the values; their change per voxel at the surface
     VolumeFrame frame;
     frame.size = {72, 96, 56};
     frame.spacing = glm::dvec3(1e-3);
@@ -32,7 +32,7 @@ GreyVolume blockWithHoles() {
                 double inside = -std::max({beyond.x, beyond.y, beyond.z});
                 for (int hole = -1; hole <= 1; ++hole)
                     inside = std::min(inside, std::hypot(p.x, p.y - 26 * hole) - 10);
-                // the sum of twelve even numbers is nearly normal, and the same with every library
+                // The sum of twelve uniform numbers is nearly normal, and equal with every library.
                 double noise = -6;
                 for (int n = 0; n < 12; ++n) noise += static_cast<double>(random()) / 4294967296.0;
                 const double value =

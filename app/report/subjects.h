@@ -1,4 +1,4 @@
-// Small things to measure on where a whole scene would take minutes: made here, the same everywhere.
+// Small subjects to measure where a whole scene would take minutes: generated here, and equal everywhere.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,17 @@
 
 namespace stereonav {
 
-// A block of 72x96x56 voxels of 1 mm with three holes through it, its surface at 100 of 0..200, with noise.
+// Returns a block of 72x96x56 voxels of 1 mm with three holes through it, its surface at 100 of 0..200, with
+// noise.
 GreyVolume blockWithHoles();
 constexpr double kBlockSurface = 100;
 
-// Voxels that lookups at the surface ask for, spread evenly, `most` at most.
+// Returns at most `most` voxels that lookups at the surface need, evenly spread.
 std::vector<glm::ivec3> surfaceVoxels(const GreyVolume& volume, double isovalue, std::size_t most);
 
-// Root of the mean of squares of a - b, as a share of that of b; 0 where b is.
+// Returns the root mean square of a - b as a share of that of b; 0 where b is 0.
 double relativeRms(const std::vector<double>& a, const std::vector<double>& b);
-// The largest |a - b|, as a share of the root of the mean of squares of b.
+// Returns the largest |a - b| as a share of the root mean square of b.
 double relativeWorst(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace stereonav

@@ -18,17 +18,17 @@ namespace stereonav {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kSunAzimuth = 120, kSunElevation = 25;  // degrees: shadows, and light that bounces into them
+constexpr double kSunAzimuth = 120, kSunElevation = 25;  // degrees: gives shadows, and bounced light in them
 
 glm::vec3 skyAbove(const glm::dvec3& direction) {
     return gradientSky(glm::vec3(direction));
 }
 
-// The generated terrain in small, under a sun and a sky.
+// A small generated terrain, under a sun and a sky.
 struct LitGroundSample {
     Heightfield ground;
     SunAndSky light;
-    float scale = 1;  // of the sky's radiance
+    float scale = 1;  // factor on the sky's radiance
 };
 
 LitGroundSample groundSample(int side) {
@@ -46,7 +46,7 @@ LitGroundSample groundSample(int side) {
     return sample;
 }
 
-// On the grid; evenly spread (Roberts 2018).
+// Returns a place on the grid; places are evenly spread (Roberts 2018).
 glm::dvec2 tracedPlace(const Heightfield& ground, int n) {
     const glm::dvec2 last(ground.width() - 1, ground.height() - 1);
     return glm::dvec2(std::fmod(0.5 + n * 0.75487766624669276, 1.0),
@@ -54,7 +54,7 @@ glm::dvec2 tracedPlace(const Heightfield& ground, int n) {
            last;
 }
 
-// Of places of the ground, from `first` on.
+// Places of the ground, from `first` on.
 struct GroundTruthOrder {
     std::uint64_t seed;
     int side, first, count, paths;
@@ -63,7 +63,7 @@ struct TracedPlace {
     double light = 0, variance = 0;
 };
 
-// Path-traced at places all over it.
+// Path-traced light at places all over the ground.
 class GroundSubject {
 public:
     explicit GroundSubject(ReportRun& run) : mRun(run) {
@@ -104,7 +104,7 @@ private:
     int side() const { return mRun.pick(81, 161); }
 
     void trace() {
-        constexpr int kPlaces = 25;  // in a piece
+        constexpr int kPlaces = 25;  // places of a piece
         std::vector<UntimedPiece> pieces;
         const int count = mRun.pick(100, 400);
         for (int n = 0; n < count; n += kPlaces)
@@ -146,7 +146,7 @@ private:
     ReportRun& mRun;
     Heightfield mGround;
     SunAndSky mLight;
-    std::vector<glm::dvec2> mPlaces;  // grid
+    std::vector<glm::dvec2> mPlaces;  // grid coordinates
     std::vector<double> mTruth;
     double mMean = 0, mVariance = 0;
 };

@@ -51,7 +51,7 @@ std::vector<Variant> rightEyeVariants(const Scene& scene) {
 }
 
 StereoSetting chartedEyes(const Scene& scene) {
-    constexpr double kSeparationShare = 1.0 / 30;  // of the zero-parallax distance
+    constexpr double kSeparationShare = 1.0 / 30;  // share of the zero-parallax distance
     StereoSetting stereo = scene.stereo;
     stereo.separation = stereo.zeroParallax * kSeparationShare;
     return stereo;
@@ -65,7 +65,7 @@ int measureWhatFits(int most, double seconds,
                     const std::function<void(const std::vector<int>& some, int of)>& measure) {
     const Stopwatch watch;
     measure({0}, most);
-    // The first one is the same for any number of them.
+    // The first frame is the same for any number of frames.
     const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
     const int count = static_cast<int>(std::clamp(affordable, 1.0, std::max(1.0, double(most))));
     std::vector<int> others;
@@ -92,7 +92,7 @@ void RightEyeTrial::run(ReportRun& run, const std::string& what, int frames, dou
     for (std::size_t n = 0; n < poses.size(); ++n) {
         run.tell(what);
         frame(run, makeStereoViews(poses[n], mScene.lens, mStereo), what);
-        // As many frames as there is time for; the first one is the same for any number of them.
+        // As many frames are measured as there is time for; the first is the same for any number of them.
         const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
         if (n == 0 && affordable < frames) poses = posesOf(std::max(1, static_cast<int>(affordable)));
         if (n == 0) chooseRepeats(watch.elapsed_ms(), poses.size(), seconds);
@@ -111,14 +111,14 @@ std::vector<Pose> RightEyeTrial::posesOf(int frames) const {
     return mScene.path.samples().empty() ? std::vector<Pose>{mScene.startPose} : mScene.path.frames(frames);
 }
 
-// From the first frame, which ran kLeastRepeats times.
+// Chooses the number of repeats by the time of the first frame, which was repeated kLeastRepeats times.
 void RightEyeTrial::chooseRepeats(double first_ms, std::size_t frames, double seconds) {
     const double perRepeat_ms = mTimed_ms / kLeastRepeats,
                  fixed_ms = std::max(0.0, first_ms - mTimed_ms) * static_cast<double>(frames);
     const double affordable =
         (1000 * seconds - fixed_ms) / std::max(perRepeat_ms * static_cast<double>(frames), 1e-3);
     mRepeats = std::clamp(static_cast<int>(affordable), kLeastRepeats, kMostRepeats);
-    // what is left of the first frame's repeats
+    // The remaining repeats of the first frame.
     for (int r = kLeastRepeats; r < mRepeats; ++r) repeat(r);
 }
 

@@ -1,5 +1,5 @@
-// Ways of making the right eye, run over frames of a scene's flight: what each takes and how wrong it is.
-// What the report's charts of the right eye and of the quality dial are made of.
+// Ways of making the right eye, measured over frames of a scene's flight: their time and error, for the
+// report's charts of the right eye and of the quality dial.
 #pragma once
 
 #include <functional>
@@ -17,42 +17,44 @@ struct Variant {
     bool isDefault = false;
 };
 
-// A method with its own settings.
+// Returns a method with its own settings.
 Variant methodVariant(RightEyeMethod method);
-// The same way with one setting changed.
+// Returns the same way with one setting changed.
 Variant tuned(RightEyeMethod method, float WarpSetting::*what, const char* name, float value);
 
-// What the charts of a scene's right eyes compare: its methods, and one with other thresholds.
+// Returns the variants in the charts of a scene's right eyes: its methods, and one with other thresholds.
 std::vector<Variant> rightEyeVariants(const Scene& scene);
-// The scene's eyes as those charts have them: 1/30 of the zero-parallax distance apart.
+// Returns the scene's eyes in those charts: 1/30 of the zero-parallax distance apart.
 StereoSetting chartedEyes(const Scene& scene);
 
-// Root mean square error in 8-bit levels.
+// Returns the root mean square error in 8-bit levels.
 double rmsOfPsnr(double psnr_db);
 
-// Of `most` places of a flight as many as `seconds` allow, one at least, and how many. measure: these of so
-// many. The first is measured for itself, and tells how long one takes.
+// Measures as many of `most` places of a flight as `seconds` allow, at least one, and returns their number.
+// measure: measures these places of so many. The first place is measured alone, and its time decides how many
+// follow.
 int measureWhatFits(int most, double seconds,
                     const std::function<void(const std::vector<int>& some, int of)>& measure);
 
-// Runs variants over frames, one after another in each repeat, so that the machine's moods meet all alike.
+// Measures variants over frames, in turn in each repeat, so that changes in the machine's speed affect all
+// equally.
 class RightEyeTrial {
 public:
     RightEyeTrial(const ReportScene& scene, const StereoSetting& stereo, std::vector<Variant> variants);
 
-    // As many of the frames as `seconds` allow, at least one.
+    // Measures as many of the frames as `seconds` allow, at least one.
     void run(ReportRun& run, const std::string& what, int frames, double seconds);
 
-    // Of variants with a calibration also how often their bound was kept.
+    // Returns the points; for variants with a calibration also how often their bound was kept.
     std::vector<WayPoint> points() const;
     int frames() const { return mFrames; }
     int repeats() const { return mRepeats; }
 
 private:
-    // Sums over the frames of one repeat, and over frames.
+    // Sums over the frames of one repeat, and over all frames.
     struct Sums {
-        std::vector<double> right_ms, warp_ms, fill_ms;  // by repeat, over frames
-        double least_ms = 0;                             // of each frame the fastest repeat, over frames
+        std::vector<double> right_ms, warp_ms, fill_ms;  // sums over frames, by repeat
+        double least_ms = 0;                             // sum of each frame's fastest repeat
         double squares = 0, worst = 0, ssim = 0, holes = 0, kept = 0, bound_db = 0;
     };
 
@@ -71,11 +73,11 @@ private:
     std::vector<Variant> mVariants;
     std::vector<Sums> mSums;
     StereoViews mViews;
-    EyePair mFull;  // each eye cast
+    EyePair mFull;  // both eyes cast
     EyeImage mRight;
     int mRepeats = 0, mFrames = 0;
     double mTimed_ms = 0;
-    std::vector<double> mFastest;  // of the frame at hand, by variant
+    std::vector<double> mFastest;  // fastest times of the present frame, by variant
 };
 
 }  // namespace stereonav

@@ -53,7 +53,7 @@ PeerBytes UntimedWork::make(std::span<const std::byte> piece) {
 std::vector<PeerBytes> UntimedWork::all(const std::vector<UntimedPiece>& pieces) {
     const Stopwatch watch;
     const ThreadsBack back;
-    // Times are taken on all cores; here they are shared with the other processes of this machine.
+    // Timed work uses all cores; this work shares them with the other processes of the machine.
     const int share = peersOfThisRun().threads();
     if (share > 0 && share < threadCount()) setThreadCount(share);
     std::vector<PeerBytes> results(pieces.size());

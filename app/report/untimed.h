@@ -1,5 +1,5 @@
-// Work of the report that no time is taken of: truths above all. All processes of the run make it, piece by
-// piece, while nobody takes a time. What a piece comes to does not depend on who makes it.
+// Work of the report that is not timed, mainly truths. All processes of the run do it, piece by piece, while
+// no time is measured. The result of a piece does not depend on who makes it.
 #pragma once
 
 #include <cstddef>
@@ -32,14 +32,14 @@ enum class Untimed : int {
 
 struct UntimedPiece {
     Untimed what;
-    PeerBytes order;  // all that its maker has to know
+    PeerBytes order;  // everything that its maker needs
 };
 template <typename Order>
 UntimedPiece pieceOf(Untimed what, const Order& order) {
     return {what, ByteWriter().put(order).take()};
 }
 
-// Rows of a plane, from `first` to before `end`.
+// Rows of a plane, from `first` up to but not including `end`.
 template <typename T>
 void putRows(ByteWriter& writer, int first, int end, const Plane<T>& plane) {
     for (int y = first; y < end; ++y)
@@ -51,7 +51,7 @@ void getRows(ByteReader& reader, int first, int end, Plane<T>& plane) {
         reader.getAll(std::span<T>(plane.row(y), static_cast<std::size_t>(plane.width())));
 }
 
-// The makers, each beside what asks for it. order: of its piece.
+// The makers, each defined next to the code that uses its results. order: of the piece.
 PeerBytes makeLightTruth(ReportRun& run, ByteReader& order);
 PeerBytes makePixelTruth(ReportRun& run, ByteReader& order);
 PeerBytes makeGroundTruth(ReportRun& run, ByteReader& order);
@@ -68,15 +68,15 @@ class UntimedWork {
 public:
     explicit UntimedWork(ReportRun& run);
 
-    // What the pieces come to, in their order; by the first process. The others rest before and after. Throws
-    // what makers do, and PeerFailure.
+    // Returns the results of the pieces in their order; for the first process. The others rest before and
+    // after. Throws the makers' exceptions, and PeerFailure.
     std::vector<PeerBytes> all(const std::vector<UntimedPiece>& pieces);
     double taken_s() const { return mTaken_s; }
 
-    // Of the others: makes pieces until the first one is done.
+    // Makes pieces until the first process has finished; for the other processes.
     void serve();
 
-    // What makers need for more than one piece. One thing is kept, the last that was asked for.
+    // Keeps what makers need for more than one piece. Only the last object asked for is kept.
     template <typename T, typename Make>
     std::shared_ptr<T> kept(const std::string& key, const Make& make) {
         if (mKey != key) {
@@ -99,7 +99,7 @@ private:
     PeerBytes make(std::span<const std::byte> piece);
 
     ReportRun& mRun;
-    std::optional<PieceDealer> mDealer;  // of the first process
+    std::optional<PieceDealer> mDealer;  // for the first process only
     double mTaken_s = 0;
     std::string mKey;
     std::shared_ptr<void> mKept;

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The first voxel of the run of `extent` along an axis that holds most of what is bright.
+// Returns the start of the run of `extent` voxels along an axis that has most bright voxels.
 int fullestRun(const GreyVolume& volume, int axis, int extent, int bright) {
     std::vector<std::size_t> counts(static_cast<std::size_t>(volume.frame.size[axis]), 0);
     for (int k = 0; k < volume.frame.size.z; ++k)
@@ -35,7 +35,7 @@ int fullestRun(const GreyVolume& volume, int axis, int extent, int bright) {
 }
 
 GreyVolume engineOf(const fs::path& file) {
-    constexpr int kMetal = 60;  // of 0..255
+    constexpr int kMetal = 60;  // value out of 0..255
     Progress quiet;
     const Study study = readStudy(file, {}, quiet);
     const glm::ivec3 extent = glm::min(glm::ivec3(149, 208, 110), study.grey.frame.size);

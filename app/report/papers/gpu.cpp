@@ -10,7 +10,7 @@ namespace stereonav {
 
 struct PaperGpu::State {
     OffscreenContext context;
-    std::unique_ptr<MediumGpu> sweep;  // in the context
+    std::unique_ptr<MediumGpu> sweep;  // needs the context
     const Medium* medium = nullptr;
     std::vector<MediumPicture> pictures;
 };
@@ -36,7 +36,7 @@ Spread PaperGpu::time(const Medium& medium, const MediumLook& look, const SweepS
     for (int frame = 0; frame <= frames; ++frame) {
         const Stopwatch watch;
         mState->sweep->render(look, setting, eyes, eyes[0].head, 0, mState->pictures);
-        if (frame > 0) ms.push_back(watch.elapsed_ms());  // the first compiles and uploads
+        if (frame > 0) ms.push_back(watch.elapsed_ms());  // the first picture compiles and uploads
     }
     return spreadOf(ms);
 }

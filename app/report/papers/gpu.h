@@ -1,4 +1,4 @@
-// The sweep in GLSL, timed off-screen, into one target split by viewports or into several (row K8 of
+// Times of the sweep in GLSL, off-screen, into one target divided by viewports or into several (row K8 of
 // docs/ledger.md).
 #pragma once
 
@@ -17,15 +17,15 @@ struct SweepSetting;
 
 class PaperGpu {
 public:
-    PaperGpu();  // no error where there is no OpenGL 4.5 or the program is built without it
+    PaperGpu();  // throws nothing where OpenGL 4.5 is missing or the program is built without it
     ~PaperGpu();
 
-    // "": it can be used.
+    // Returns why it can not be used; "" where it can.
     std::string problem() const;
-    // As the driver calls itself: llvmpipe is the software rasteriser.
+    // Returns the driver's name of the renderer: llvmpipe is the software rasteriser.
     std::string renderer() const;
-    // Milliseconds of a picture by the clock, after one that is not counted. medium must outlive this, or be
-    // forgotten first. Throws Error where the medium does not fit.
+    // Returns the milliseconds of a picture in real time, after one that is not counted. medium must outlive
+    // this object, or be forgotten first. Throws Error where the medium does not fit.
     Spread time(const Medium& medium, const MediumLook& look, const SweepSetting& setting,
                 std::span<const EyeView> eyes, int frames);
     void forget();

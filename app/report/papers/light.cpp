@@ -1,5 +1,5 @@
-// Wyman et al. 2006 beside this program: Table 1 (times of baking by samples), fig. 7 (the error of so many
-// samples) and Table 2 (frames and memory).
+// Wyman et al. 2006 beside this program: Table 1 (times of baking by samples), fig. 7 (error by samples) and
+// Table 2 (frames and memory).
 #include "app/report/light.h"
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ PaperRow rowOf(const char* table, const std::string& row, const std::string& col
     return r;
 }
 
-// How much was run, and what it would be on a machine that does nothing else.
+// Returns which share was run, and the time for all of it on a machine that does nothing else.
 std::string rateText(const BakeRate& rate) {
     return (rate.part >= 1 ? "run to its end"
                            : fmt::format("rate of {:.2g} s on {} %, scaled", rate.all_s * rate.part,
@@ -95,7 +95,7 @@ private:
         return s;
     }
 
-    // And seconds that pass before the first texel of a whole texture.
+    // Returns the rate, and the seconds before the first texel of a whole texture.
     std::pair<BakeRate, double> rateOf(std::ptrdiff_t line, int samples, double seconds) const {
         const auto transfer = [&](const std::vector<TexelPiece>& pieces) {
             return transferRate(mLighter, pieces, samples, kPaperOrder, 1, seconds);
@@ -122,7 +122,7 @@ private:
     double mFields_s = 0;
 };
 
-// Two runs with noise of their own: their difference has twice the variance of one.
+// Sums over two runs with independent noise: their difference has twice the variance of one.
 struct NoiseSums {
     double squares = 0, light = 0;
     std::size_t texels = 0;
@@ -137,7 +137,7 @@ struct NoiseSums {
     }
 };
 
-// Light of a piece of texels by one of two seeds; negative where a texel lies on no surface.
+// Returns the light of a piece of texels with one of two seeds; negative for texels that lie on no surface.
 using LightOf = std::function<std::vector<double>(int seed, const TexelPiece& piece)>;
 
 NoiseSums noiseOf(const std::vector<TexelPiece>& pieces, double seconds, const LightOf& lightOf) {
@@ -155,7 +155,7 @@ NoiseSums noiseOf(const std::vector<TexelPiece>& pieces, double seconds, const L
     return sums;
 }
 
-// Fig. 7: the noise of so many samples.
+// Adds fig. 7: noise by number of samples.
 void addNoise(ReportRun& run, const PaperEngine& engine, const EngineView& view, double seconds,
               std::vector<PaperRow>& rows) {
     const EngineView::Seen seen = view.seen(run.quick() ? 100 : 300);
@@ -213,7 +213,7 @@ void addNoise(ReportRun& run, const PaperEngine& engine, const EngineView& view,
             "They show pictures: root of the mean square of the noise, of the mean light. Few texels where "
             "samples "
             "are many.";
-        row.kind = PaperRow::Kind::Other;  // depends on the texels that there was time for
+        row.kind = PaperRow::Kind::Other;  // depends on the number of texels measured in time
         rows.push_back(std::move(row));
     };
     for (const int samples : kPaperSamples)
@@ -257,7 +257,7 @@ void addFrames(ReportRun& run, const PaperEngine& engine, EngineView& view, std:
 }
 
 void addMemory(const PaperEngine& engine, const EngineView& view, std::vector<PaperRow>& rows) {
-    constexpr double kMegabyte = 1 << 20;  // theirs: 9.75 MB are three bytes a texel
+    constexpr double kMegabyte = 1 << 20;  // in their unit: 9.75 MB are three bytes per texel
     const EngineView::Memory held = view.memory();
     const auto texels = static_cast<double>(engine.volume.frame.count());
     const double numbers = harmonicsCount(kPaperOrder);

@@ -1,5 +1,5 @@
-// Kniss et al. 2003 beside this program: rates of the shading models by size (section 4, fig. 14), on the
-// processor and in GLSL, into one target or several (fig. 15; row K8 of docs/ledger.md).
+// Kniss et al. 2003 beside this program: rates of the shading models by size (section 4, fig. 14), on the CPU
+// and in GLSL, into one target or several (fig. 15; row K8 of docs/ledger.md).
 #include <fmt/format.h>
 
 #include <array>
@@ -22,13 +22,13 @@ namespace {
 
 constexpr const char* kKniss = "Kniss et al. 2003";
 constexpr const char* kNoTime = "no time was left";
-constexpr int kLeastSize = 256;  // pixels a side of what is measured whatever the time
+constexpr int kLeastSize = 256;  // side in pixels of the size that is measured even without time
 constexpr std::array<MediumModel, 4> kPaperModels{MediumModel::Emission, MediumModel::Surface,
                                                   MediumModel::Direct, MediumModel::Indirect};
 
 struct MediaSubject {
     std::string title;
-    Medium medium, surface;  // the second shows the surface model: weight 1 everywhere
+    Medium medium, surface;  // `surface` shows the surface model: weight 1 everywhere
     MediumLook look;
 
     const Medium& of(MediumModel model) const { return model == MediumModel::Surface ? surface : medium; }
@@ -54,7 +54,7 @@ MediaSubject subjectOf(const PaperData& data) {
     return {title, mediumOf(field, preset, false), mediumOf(field, preset, true), {}};
 }
 
-// Seen whole, lit over the viewer's shoulder.
+// Returns views of the whole medium, lit over the viewer's shoulder.
 StereoViews viewsOf(MediaSubject& subject, int size) {
     constexpr double kHeading = 0.6, kPitch = -0.3;
     const double whole = glm::length(subject.medium.bounds().high - subject.medium.bounds().low);
@@ -68,7 +68,8 @@ StereoViews viewsOf(MediaSubject& subject, int size) {
     return makeStereoViews(pose, lens, {1.6 * whole / 30, 1.6 * whole});
 }
 
-// Of the unshaded rate; "50 to 60 percent slower than volume rendering with no shading at all".
+// Returns the paper's statement for a model, relative to the unshaded rate: "50 to 60 percent slower than
+// volume rendering with no shading at all".
 std::string saidOf(MediumModel model) {
     if (model == MediumModel::Emission) return "1";
     return model == MediumModel::Surface ? "comparable to volume shading" : "0.4 to 0.5";
@@ -82,14 +83,14 @@ public:
     std::vector<PaperRow> rows(double seconds) {
         const Stopwatch watch;
         const std::vector<int> sizes = mRun.quick() ? std::vector<int>{64} : std::vector<int>{256, 512, 1024};
-        // the shaders of a software rasteriser take longest
+        // The shaders of a software rasteriser take longest.
         for (const int size : sizes) addOnProcessor(size, 0.4 * seconds, watch);
         addOnGpu(std::max(0.0, seconds - watch.elapsed_ms() / 1000));
         return std::move(mRows);
     }
 
 private:
-    using Times = std::array<std::array<Spread, 2>, kPaperModels.size()>;  // by model; one eye, both
+    using Times = std::array<std::array<Spread, 2>, kPaperModels.size()>;  // by model; for one and both eyes
 
     PaperRow& add(const char* table, const std::string& row, const std::string& column, const Spread& ours,
                   const char* unit, const std::string& said, const char* why, const std::string& where) {
@@ -117,8 +118,8 @@ private:
         return ms.count ? Spread{1000 / ms.median, 1000 / ms.high, 1000 / ms.low, ms.count} : Spread{};
     }
 
-    // All models one after another in each repeat, so that the machine's moods meet all alike. The first is
-    // not counted; one more at least, and none where the time is over before.
+    // Measures all models in turn in each repeat, so that changes in the machine's speed affect all equally.
+    // The first repeat is not counted; at least one more is made, unless the time is over before.
     Times measureOnProcessor(int size, double seconds, const Stopwatch& watch) {
         MediumSweep plain(mSubject.medium), shaded(mSubject.surface);
         const StereoViews views = viewsOf(mSubject, size);

@@ -1,5 +1,5 @@
 // Ruiz et al. 2010 beside this program: openness of CT volumes by method and radius (figs. 5 and 6, Table 1),
-// as ambient light (figs. 7 and 8), and the variance that modulates opacity (section 4.2).
+// as ambient light (figs. 7 and 8), and opacity modulated by variance (section 4.2).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 namespace stereonav {
 namespace {
 
-// k of eq. 5 for undirected estimates: half of what surrounds a flat wall is the wall, which is fully lit
-// with it.
+// Factor k of eq. 5 for undirected estimates: half of the surroundings of a flat wall are the wall itself,
+// and with k = 2 it is fully lit.
 constexpr float kFlatWallGain = 2;
 
 constexpr const char* kRuiz = "Ruiz et al. 2010";
@@ -28,7 +28,7 @@ constexpr int kPaperTruthDirections = 256;
 
 struct PaperMethod {
     const char* name;
-    bool directed;  // along 42 directions, else from boxes
+    bool directed;  // along 42 directions; otherwise from boxes
     OcclusionMethod box;
     DirectionMethod directions;
 };
@@ -39,8 +39,8 @@ constexpr std::array<PaperMethod, 5> kPaperMethods{
      {"CDF reconstruction", false, OcclusionMethod::Reconstructed, {}},
      {"Gaussian CDF", false, OcclusionMethod::Gaussian, {}}}};
 
-// Their subjects: times in ms of Table 1 by method (Penner, reconstruction, Gaussian) for radius 5 and 10,
-// and of the variance.
+// The paper's subjects: times in ms of Table 1 by method (Penner, reconstruction, Gaussian) for radius 5 and
+// 10, and the time of the variance.
 struct OcclusionSubject {
     const char* name;
     const char* file;
@@ -63,11 +63,11 @@ const OcclusionSubject kSubjects[] = {{"CT-body",
                                        {{{200, 161, 203}, {268, 205, 270}}},
                                        243}};
 
-// What the maps of one method and radius are like, at voxels of the surface.
+// Figures of the maps of one method and radius, at voxels of the surface.
 struct MapFigures {
-    double error = 0;  // root of the mean square, against obscurance traced by rays
-    double mean = 0;   // of the openness as it is shown
-    double grain = 0;  // mean difference between voxels beside each other
+    double error = 0;  // root mean square error against obscurance traced by rays
+    double mean = 0;   // mean of the openness as shown
+    double grain = 0;  // mean difference between neighbouring voxels
 };
 
 class TracedVolume {
@@ -85,7 +85,7 @@ public:
     const GreyVolume& field() const { return mScene.volume.field; }
     std::size_t texels() const { return mVoxels.size(); }
 
-    // Obscurance at the voxels (eq. 1), which the estimates stand for.
+    // Traces the obscurance at the voxels (eq. 1), which the methods estimate.
     void trace(int radius) {
         mTruth.assign(mVoxels.size(), 0);
         mRun.tell("occlusion, rays");
@@ -95,7 +95,8 @@ public:
         });
     }
 
-    // The openness of all voxels that the surface looks up; `gain`: what a flat wall is fully lit with.
+    // Returns the openness at all voxels that the surface looks up; `gain`: k, with which a flat wall is
+    // fully lit.
     OpennessVolume openness(const PaperMethod& method, int radius) const {
         mRun.tell(fmt::format("occlusion, {}", method.name));
         Progress quiet;
@@ -109,7 +110,7 @@ public:
             for (int n = 0; n < 8; ++n) {
                 const glm::ivec3 v = cell + glm::ivec3(n & 1, n >> 1 & 1, n >> 2);
                 if (openness.at(v)) continue;
-                openness.at(v) = 1;  // is on the list
+                openness.at(v) = 1;  // marks the voxel as one of the list
                 corners.push_back(v);
             }
         parallelFor(static_cast<int>(corners.size()), [&](int n) {
@@ -131,7 +132,7 @@ public:
             const double off = shown(v) - mTruth[n];
             figures.error += off * off;
             figures.mean += shown(v);
-            // corners of one cell that the surface passes: known by every method
+            // Both corners belong to a cell that the surface passes, where every method has values.
             figures.grain += std::abs(shown(v) - shown(v + glm::ivec3(1, 0, 0)));
         }
         const auto count = static_cast<double>(std::max<std::size_t>(mVoxels.size(), 1));
@@ -141,7 +142,7 @@ public:
         return figures;
     }
 
-    // C = k O C_TF (eq. 5), or the colour alone.
+    // Returns the picture of C = k O C_TF (eq. 5), or of the colour only.
     ReportPicture picture(const std::string& title, const PaperMethod* method,
                           const OpennessVolume* openness) {
         mRun.tell("occlusion, pictures");
@@ -149,7 +150,7 @@ public:
         ambient = {};
         if (method) {
             ambient.openness =
-                std::shared_ptr<const OpennessVolume>(std::shared_ptr<void>(), openness);  // lent
+                std::shared_ptr<const OpennessVolume>(std::shared_ptr<void>(), openness);  // not owned
             ambient.strength = gainOf(*method);
         }
         Lens lens = mScene.lens;
@@ -172,7 +173,7 @@ public:
         mBrightness = count > 0 ? sum / static_cast<double>(count) : 0;
         return {title, encodeColorImage(image.color, ".png")};
     }
-    double brightness() const { return mBrightness; }  // of the last picture, where it shows the surface
+    double brightness() const { return mBrightness; }  // last picture of the surface
 
 private:
     static float gainOf(const PaperMethod& method) { return method.directed ? 1.0f : kFlatWallGain; }
@@ -208,7 +209,7 @@ PaperRow rowOf(const OcclusionSubject& subject, const std::string& table, const 
     return r;
 }
 
-// Figs. 5 and 6: maps by method and radius.
+// Adds figs. 5 and 6: maps by method and radius.
 void addMaps(const OcclusionSubject& subject, const std::string& measured, int radius,
              const std::array<MapFigures, kPaperMethods.size()>& all, Found& found) {
     constexpr const char* kWhy =
@@ -221,7 +222,7 @@ void addMaps(const OcclusionSubject& subject, const std::string& measured, int r
     };
     for (std::size_t n = 0; n < kPaperMethods.size(); ++n) {
         const PaperMethod& m = kPaperMethods[n];
-        if (m.directed && !fig5) continue;  // fig. 6 has the boxes alone
+        if (m.directed && !fig5) continue;  // fig. 6 has only the boxes
         const std::string table = "Figs. 5 and 6";
         const std::string at = fmt::format("radius {}", radius);
         const auto add = [&](const std::string& what, double value, const char* unit,
@@ -246,7 +247,7 @@ void addMaps(const OcclusionSubject& subject, const std::string& measured, int r
     }
 }
 
-// Figs. 7 and 8: as ambient light.
+// Adds figs. 7 and 8: openness as ambient light.
 void addLit(TracedVolume& volume, const OcclusionSubject& subject, const std::string& measured,
             const std::array<OpennessVolume, kPaperMethods.size()>& maps, Found& found) {
     ReportPictures pictures{fmt::format("Figs. {} and {}, {}", 5, subject.size.z > 200 ? 7 : 8, subject.name),
@@ -272,7 +273,7 @@ void addLit(TracedVolume& volume, const OcclusionSubject& subject, const std::st
     found.pictures.push_back(std::move(pictures));
 }
 
-// Table 1 and the variance's time: of volumes of their sizes, resampled from the real ones.
+// Adds Table 1 and the time of the variance, for volumes of the paper's sizes, resampled from the real ones.
 void addTimes(ReportRun& run, const OcclusionSubject& subject, const GreyVolume& grey,
               const std::string& title, std::vector<PaperRow>& rows) {
     constexpr const char* kWhy =
@@ -309,7 +310,7 @@ void addTimes(ReportRun& run, const OcclusionSubject& subject, const GreyVolume&
         for (std::size_t m = 2; m < kPaperMethods.size(); ++m)
             add("Table 1", kPaperMethods[m].name, kRadii[r], subject.table1[r][m - 2],
                 timed([&] { estimateOpenness(volume, kPaperMethods[m].box, glm::ivec3(kRadii[r]), quiet); }));
-    constexpr double kSigma = 100;  // does not change the time
+    constexpr double kSigma = 100;  // no influence on the time
     add("Section 4.2", "variance that modulates opacity", 10, subject.variance_ms,
         timed([&] { varianceModulation(volume, glm::ivec3(10), kSigma, quiet); }));
 }

@@ -1,5 +1,5 @@
-// How the program's work grows faster with threads, from one to all that the machine runs, beside the
-// processors of the papers.
+// Speed-up of the program's work with threads, from one to all of the machine, beside the processors of the
+// papers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct Work {
     std::string said;
 };
 
-// 1 to 16 one by one where there are so many, more by powers of two, and all.
+// Returns 1 to 16 one by one, as far as there are so many, then powers of two, and all.
 std::vector<int> allThreads(int all) {
     std::vector<int> counts;
     for (int n = 1; n <= all; n = n < 16 ? n + 1 : 2 * n) counts.push_back(n);
@@ -44,7 +44,7 @@ EyeView wholeView(const Medium& medium, int size) {
     return makeEyeView(poseFromAngles(middle.position - 1.6 * whole * middle.forward(), 0.6, -0.3, 0), lens);
 }
 
-// The least time of each work on each number of threads.
+// Returns the least time of each work on each number of threads.
 std::vector<std::vector<Spread>> measure(ReportRun& run, const std::vector<Work>& works,
                                          const std::vector<int>& counts, double seconds) {
     const ThreadsBack back;
@@ -98,8 +98,8 @@ LineChart speedupChart(const std::vector<Work>& works, const std::vector<int>& c
 void reportPapersScaling(ReportRun& run, double seconds) {
     const std::vector<int> counts = allThreads(threadCount());
     run.tell("scaling");
-    // A terrain and its right eye, a bake, a sweep, openness and the cells of a surface: each stage's own
-    // loop.
+    // The works are a terrain and its right eye, a bake, a sweep, openness and the cells of a surface: each
+    // stage has a loop of its own.
     SceneOptions options;
     options.threads = run.options().threads;
     Progress quiet([&](double, const std::string&) { run.tell("scaling, the terrain"); });

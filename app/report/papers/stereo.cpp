@@ -1,5 +1,5 @@
-// Wan et al. 2004 beside this program: their Tables 1 and 2, the figures of section 5 and the partitions of
-// section 3.
+// Wan et al. 2004 beside this program: Tables 1 and 2, the figures of section 5 and the partitions of section
+// 3.
 #include <fmt/format.h>
 
 #include <array>
@@ -18,11 +18,11 @@ namespace {
 constexpr const char* kWan = "Wan et al. 2004";
 constexpr int kFigureWidth = 500, kFigureHeight = 400;  // figs. 6 and 7
 
-// Theirs by processors, seconds (Table 2).
+// The paper's times in seconds by number of processors (Table 2).
 struct PaperTimes {
     std::string figure;
-    std::array<double, 5> left, right;  // 1, 4, 8, 12, 16
-    double saved_percent;               // section 5
+    std::array<double, 5> left, right;  // with 1, 4, 8, 12 and 16 processors
+    double saved_percent;               // from section 5
 };
 constexpr std::array<int, 5> kProcessors{1, 4, 8, 12, 16};
 const PaperTimes kShaded{
@@ -41,13 +41,13 @@ constexpr const char* kWhyHoles =
 
 enum Way : std::size_t {
     kAsThere,      // the paper's reconstruction and partitions
-    kAlone,        // ... holes without coherence
-    kInterleaved,  // ... rows interleaved instead
+    kAlone,        // the same, with holes without coherence
+    kInterleaved,  // the same, with interleaved rows
     kWarpDynamic,
-    kFillStatic,  // ... holes in static partitions
+    kFillStatic,  // the same, with holes in static partitions
     kFillInterleaved,
     kLeftDynamic,
-    kOwn,  // the program's default
+    kOwn,  // default of the program
 };
 
 StereoWay paperWay(const std::string& name, Schedule left, Schedule warp, Schedule fill) {
@@ -124,7 +124,7 @@ private:
         return mRows.back();
     }
 
-    // Their Table 1 is the serial algorithm, without figures: which of its lines fill how much.
+    // Adds Table 1, the serial algorithm, which has no figures: shares of pixels that its lines fill.
     void addAlgorithm() {
         const auto holes = static_cast<double>(std::max(mAsThere.holePixels, 1ll));
         const std::pair<const char*, double> gaps[] = {
@@ -231,7 +231,7 @@ private:
             pairs.theirs = 10;
     }
 
-    // What each partition takes beside the paper's choice, on all threads.
+    // Adds the cost of each partition relative to the paper's choice, on all threads.
     void addPartitions() {
         constexpr const char* kTable = "Section 3, partitions";
         constexpr const char* kWhy =
@@ -262,7 +262,7 @@ private:
     StereoTrial mTrial;
     std::string mMeasured;
     StereoCounts mAsThere, mOwn;
-    std::deque<PaperRow> mRows;  // what add() gives stays where it is
+    std::deque<PaperRow> mRows;  // deque, since add() returns references to its elements
 };
 
 std::unique_ptr<Scene> load(ReportRun& run, const std::string& what, const SceneOptions& options) {
@@ -277,7 +277,7 @@ std::string groundText(const Scene& scene) {
     return fmt::format("{}x{} samples", terrainOf(scene)->ground.width(), terrainOf(scene)->ground.height());
 }
 
-// Section 6: what McMillan's warp leaves open and shows wrongly.
+// Returns the figures of section 6: what McMillan's warp leaves open and shows wrongly.
 std::vector<PaperRow> mcMillanRows(ReportRun& run, const Scene& scene, const std::string& measured) {
     StereoWay way{"mcmillan", {}, Schedule::Dynamic, true};
     way.setting.method = RightEyeMethod::McMillan;
@@ -303,7 +303,7 @@ std::vector<PaperRow> mcMillanRows(ReportRun& run, const Scene& scene, const std
     return {holes, error};
 }
 
-// Fig. 9: a translucent colon, on 16 processors.
+// Returns the figures of fig. 9: a translucent colon, on 16 processors.
 std::vector<PaperRow> colonRows(ReportRun& run, const PaperData& data, double seconds) {
     SceneOptions options;
     options.threads = run.options().threads;

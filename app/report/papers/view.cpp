@@ -27,7 +27,7 @@ GreyVolume copyOf(const GreyVolume& volume) {
     return copy;
 }
 
-// One way of lighting a frame, with what it draws into.
+// One way of lighting a frame, with its image.
 class Frame {
 public:
     Frame(const VolumeScene& scene, const EyeView& view) : mRenderer(scene), mView(view) {
@@ -54,7 +54,7 @@ struct Transfer {
     std::vector<glm::vec3> sky = std::vector<glm::vec3>(kPaperOrder * kPaperOrder, glm::vec3(0.5f));
 };
 
-// Numbers that mean nothing: dotting them takes as long as any.
+// Returns transfer with arbitrary numbers: the time of the products does not depend on them.
 Transfer madeTransfer(const VolumeScene& scene) {
     const VolumeFrame texels = texelFrame(scene.field.frame, 1);
     const float isovalue = scene.cells.isovalue;

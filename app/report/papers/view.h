@@ -1,4 +1,4 @@
-// One picture of the engine of Wyman et al. 2006: what it shows, what it looks up, and what a frame costs.
+// One picture of the engine of Wyman et al. 2006: what it shows, the texels that it looks up, and its cost.
 #pragma once
 
 #include <memory>
@@ -10,15 +10,15 @@
 
 namespace stereonav {
 
-constexpr int kPaperOrder = 5;  // of the harmonics, as there
+constexpr int kPaperOrder = 5;  // order of the harmonics, as in the paper
 
-// The whole subject from outside, its surface where nothing is said.
+// The whole subject from outside; its surface unless something else is said.
 class EngineView {
 public:
     explicit EngineView(const PaperEngine& engine);
 
-    // Of a picture of `side` pixels square: the texels that it looks up, and the points that its pixels show,
-    // both in small pieces in a random order.
+    // Parts of a picture of `side` x `side` pixels: the texels that it looks up, and the points that its
+    // pixels show, both in small pieces in random order.
     struct Seen {
         std::vector<TexelPiece> texels;
         std::vector<PointPiece> pixels;
@@ -26,14 +26,14 @@ public:
     };
     Seen seen(int side) const;
 
-    // Frames of `side` pixels square by what they are lit with; in turn, so that the machine's moods meet all
-    // alike. Harmonics: dotted anew each frame, of what is in view.
+    // Times of frames of `side` x `side` pixels by their light, measured in turn, so that changes in the
+    // machine's speed affect all equally. Harmonics: multiplied anew in each frame, for the texels in view.
     struct FrameTimes {
         Spread diffuse, shadowed, phongShadowed, irradiance, harmonics;
     };
     FrameTimes frameTimes(ReportRun& run, int side, int frames);
 
-    // Of light kept for the texels around the surface shown.
+    // Memory of light for the texels around the surface.
     struct Memory {
         std::size_t texels = 0, irradianceBytes = 0, harmonicsBytes = 0;
     };

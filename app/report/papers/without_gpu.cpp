@@ -1,4 +1,4 @@
-// Stands in for gpu.cpp in a program without the window, whose report says so in the rows that are drawn.
+// Stand-in for gpu.cpp in builds without the window; the report's rows say so.
 #include "app/options/built_without.h"
 #include "app/report/papers/gpu.h"
 
