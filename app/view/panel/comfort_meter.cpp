@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLowest = ParallaxHistogram::kLowest, kHighest = ParallaxHistogram::kHighest;
 
-// How much of the picture lies at each parallax, by the root, so that what is little shows too.
+// Draws how much of the picture lies at each parallax, as square roots, so that small shares are visible.
 void drawHistogram(const ParallaxHistogram& histogram, ImDrawList& list, const ImVec2& from,
                    const ImVec2& size) {
     const std::int32_t most = *std::max_element(histogram.counts.begin(), histogram.counts.end());

@@ -1,12 +1,13 @@
-// The frame's parallax against what is comfortable.
+// The frame's parallax beside the limits of comfort.
 #pragma once
 
 #include "app/view/view_display.h"
 
 namespace stereonav {
 
-float comfortMeterWidth();  // units of the interface
-// A bar in a line of text: the range of parallax in the middle of the limits, warning where it leaves them.
+float comfortMeterWidth();  // in units of the interface
+// Draws a bar in a line of text: the range of parallax around the middle of the limits, with a warning where
+// it exceeds them.
 void drawComfortMeter(const ViewDisplay& display, const ViewFrame& frame);
 
 }  // namespace stereonav

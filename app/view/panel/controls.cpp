@@ -20,9 +20,9 @@
 namespace stereonav {
 namespace {
 
-constexpr float kTooltipWidth = 26;  // of letters' heights
+constexpr float kTooltipWidth = 26;  // in heights of letters
 
-// What there is to choose from; empty where anything may be written.
+// Returns the choices of an option; empty where any text is accepted.
 std::vector<std::string> choicesOf(const SceneChanges& changes, const Option& option) {
     std::vector<std::string> choices = option.value.words;
     const std::string_view key = option.key;
@@ -40,7 +40,7 @@ std::vector<std::string> choicesOf(const SceneChanges& changes, const Option& op
     return choices;
 }
 
-// As lists show a choice: modes by their long names.
+// Returns a choice as lists show it: modes by their long names.
 std::string shownChoice(const Option& option, const std::string& choice) {
     if (option.key != std::string_view("mode")) return choice;
     const auto mode = outputModeFromName(choice);
@@ -56,7 +56,7 @@ void chooseControl(SceneChanges& changes, const Option& option, const std::vecto
     ImGui::EndCombo();
 }
 
-// A text that is being written stays until it is done.
+// Draws a text field; a text that is being typed is kept until it is finished.
 void textControl(SceneChanges& changes, const Option& option, const std::string& now) {
     static std::map<std::string, std::string> writing;
     const auto kept = writing.find(option.key);
@@ -75,26 +75,26 @@ void textControl(SceneChanges& changes, const Option& option, const std::string&
     }
 }
 
-// Shares of the range, or of the value, that a unit of dragging is.
+// Returns the speed of dragging: a share of the range, or of the value, per unit.
 float dragSpeed(const NumberRange& range, double value) {
     const double width = range.high - range.low;
     if (std::isfinite(width) && width <= 1000) return static_cast<float>(width / 400);
     return static_cast<float>(std::max(std::abs(value), 1e-6) / 100);
 }
 
-// Where nothing is given the number in use is shown; none is known: its default as words.
+// Draws a number field with the number in use; where none is known, the default as words.
 void numberControl(SceneChanges& changes, const Option& option, const std::string& now) {
     const NumberRange& range = option.value.range;
     char* end = nullptr;
     double value = std::strtod(now.c_str(), &end);
     const bool known = end && end != now.c_str() && *end == 0;
-    if (!known) value = std::strtod(option.fallback, nullptr);  // dragged from there; words are 0
+    if (!known) value = std::strtod(option.fallback, nullptr);  // dragging begins there; words count as 0
     const bool whole = option.value.kind == ValueKind::Whole;
-    static std::map<std::string, double> dragged;  // not live: set once it is let go
+    static std::map<std::string, double> dragged;  // not live: set when the drag ends
     const bool live = changes.live(option);
     if (const auto kept = dragged.find(option.key); kept != dragged.end()) value = kept->second;
     const std::string unit = *range.unit ? std::string(" ") + range.unit : "";
-    // A default in words where nothing is known, if there is room for them.
+    // The default is shown in words where no number is known, if there is room.
     const bool dragging = dragged.contains(option.key);
     std::string shown = (whole ? "%.0f" : "%.5g") + unit;
     if (!known && !dragging) {
@@ -164,7 +164,7 @@ void wrappedText(const std::string& text, float width) {
     const auto widthOf = [](std::string_view part) {
         return ImGui::CalcTextSize(part.data(), part.data() + part.size()).x;
     };
-    // A word that is wider is broken where ImGui breaks it.
+    // ImGui breaks words that are wider.
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
     ImGui::TextUnformatted(withLineBreaks(printableLines(text), width, widthOf).c_str());
     ImGui::PopTextWrapPos();
@@ -208,7 +208,7 @@ void optionControl(SceneChanges& changes, const Option& option) {
     const bool isGiven = given != settings.end() && !given->second.empty();
     const std::string now = changes.valueOf(option).value_or(isGiven ? given->second.back() : "");
     ImGui::AlignTextToFramePadding();
-    // What was changed stands out.
+    // Options that were changed are highlighted.
     if (isGiven) ImGui::PushStyleColor(ImGuiCol_Text, accentNow());
     ImGui::TextUnformatted(labelOf(option).c_str());
     if (isGiven) ImGui::PopStyleColor();

@@ -12,27 +12,28 @@ namespace stereonav {
 
 class SceneChanges;
 
-// One option of the table, as its type has it: dragged, typed, chosen; a double click on its name resets it.
-// A tooltip says what it is, what it takes and its key.
+// Draws one option of the table by its type: dragged, typed or chosen; a double click on its name resets it.
+// A tooltip shows its help, its values and its key.
 void optionControl(SceneChanges& changes, const Option& option);
 
-// Words as a person reads them: "zero parallax".
+// Returns the option's name in words: "zero parallax".
 std::string labelOf(const Option& option);
-// The key that does it in the window, "" for none.
+// Returns the key for the option in the window, "" where it has none.
 std::string keyOf(const Option& option);
 
-// In one line, as all of these printable (engine/text/printable.h): names of files may be in it.
+// Draws a text in one line; like the functions below it makes texts printable (engine/text/printable.h),
+// since they may contain names of files.
 void plainText(const std::string& text);
-// Wrapped at blanks, within so many units; 0: within the room that there is.
+// Draws a text wrapped at blanks, within this many units; 0: within the available width.
 void wrappedText(const std::string& text, float width = 0);
-// Text that explains, in one line; wrapped.
+// Draws an explanation, wrapped.
 void quietLine(const std::string& text);
 void quietText(const std::string& text);
 void tooltip(const std::string& text);
-// Their rows, labels beside texts. name: of this panel alone.
+// Draws the rows of facts, labels beside texts. name: unique within the panel.
 void factTable(const char* name, const Facts& facts);
 
-// The interface's colours with a meaning (engine/display/interface_theme.h), as it has them now.
+// Return the interface's colours with a meaning (engine/display/interface_theme.h) in its present theme.
 const ImVec4& accentNow();
 const ImVec4& warningNow();
 const ImVec4& quietNow();

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// True where it is done: while it is dragged nothing is looked at again. `value` is in `unit`s of the
-// scene's.
+// Returns true when a drag ends: coverage is not computed again during it. `value` is divided by `unit` for
+// display.
 bool dragged(const char* label, double& value, double unit, double least, double most, const char* format,
              const char* tip, bool& editing) {
     double shown = value / unit;
@@ -87,7 +87,7 @@ void CoveragePanel::drawUnseen(LiveCoverage& coverage, ViewSession& session, Ask
 void CoveragePanel::draw(LiveCoverage* coverage, ViewSession& session, AskedActions& actions) {
     if (!coverage) return;
     bool on = coverage->on();
-    if (on && !mWasOn) ImGui::SetNextItemOpen(true);  // by its key
+    if (on && !mWasOn) ImGui::SetNextItemOpen(true);  // opened when the key has switched it on
     mWasOn = on;
     if (!ImGui::CollapsingHeader("Coverage")) return;
     if (ImGui::Checkbox("Follow what is seen", &on)) actions.ask({ViewCommand::ToggleCoverage});

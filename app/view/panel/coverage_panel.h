@@ -1,4 +1,4 @@
-// How much of a closed wall was on screen, and the way to what was not.
+// Coverage of a closed wall: the share that was on screen, and the way to the rest.
 #pragma once
 
 #include "app/view/live_coverage.h"
@@ -9,7 +9,7 @@ namespace stereonav {
 
 class CoveragePanel {
 public:
-    // With its heading. coverage: null where the scene has no such wall.
+    // Draws the panel with its heading. coverage: null where the scene has no such wall.
     void draw(LiveCoverage* coverage, ViewSession& session, AskedActions& actions);
 
 private:

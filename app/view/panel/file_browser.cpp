@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kLookLines = 5;
-constexpr std::size_t kMostEntries = 5000;  // of a folder: more are not looked at
+constexpr std::size_t kMostEntries = 5000;  // most entries of a folder that are read
 
 std::string lowerCase(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -140,7 +140,7 @@ void FileBrowser::drawEntries() {
     }
 }
 
-// Of what is named below, where that is there.
+// Draws what the file named below is, where it exists.
 void FileBrowser::drawLook(FileLooks& looks) {
     ImGui::BeginChild("##look", {0, kLookLines * ImGui::GetTextLineHeightWithSpacing()});
     std::error_code code;

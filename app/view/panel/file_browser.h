@@ -1,4 +1,4 @@
-// A folder's content to choose from: for opening what the program reads, and for saving.
+// A folder's content to choose from, for opening and saving files.
 #pragma once
 
 #include <filesystem>
@@ -17,17 +17,17 @@ public:
     void open(For what);
     void close() { mOpen = false; }
     bool isOpen() const { return mOpen; }
-    // What was chosen, once; none mostly.
+    // Returns the file that was chosen in this layout, if any.
     std::optional<std::filesystem::path> draw(FileLooks& looks);
     For purpose() const { return mFor; }
-    // Where the next look begins; "" for the present folder.
+    // Sets the folder that the next look begins in; "": the working folder.
     void startIn(const std::filesystem::path& folder) { mFolder = folder; }
     const std::filesystem::path& folder() const { return mFolder; }
 
 private:
     struct Entry {
         std::string name;
-        bool folder = false, readable = false;  // readable: by its name, of a type that the program knows
+        bool folder = false, readable = false;  // readable: has the name of a type that the program knows
         std::uintmax_t bytes = 0;
     };
     void goTo(const std::filesystem::path& folder);
@@ -43,8 +43,8 @@ private:
     std::string mProblem, mName, mFilter;
 };
 
-// Whether the program reads a file of this name, by its ending.
+// Returns whether the program reads files with this extension.
 bool looksReadable(const std::filesystem::path& file);
-bool looksLikePath(const std::filesystem::path& file);  // of a flight
+bool looksLikePath(const std::filesystem::path& file);  // whether it may be a flight
 
 }  // namespace stereonav

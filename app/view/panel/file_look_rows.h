@@ -1,11 +1,11 @@
-// What a file is, in lines below its name.
+// Facts of a file, in lines below its name.
 #pragma once
 
 #include "app/view/file_looks.h"
 
 namespace stereonav {
 
-// At most so many lines. wrap: of a long one, as ImGui::PushTextWrapPos takes it.
+// Draws at most so many lines. wrap: position at which long lines wrap, as for ImGui::PushTextWrapPos.
 void drawFileLook(const FileLook& look, int mostLines, float wrap = 0);
 
 }  // namespace stereonav

@@ -29,7 +29,7 @@ std::optional<glm::dvec3> FindingsPanel::draw(Instruments& instruments, StudyRea
     quietText(list->maker()->notice());
     if (!list->rows().empty()) {
         list->use();
-        study.wanted(session);  // whose values are told
+        study.wanted(session);  // whose values are shown
     }
     if (list->busy()) {
         const std::string text = fmt::format("{} {:.0f} %", list->doing(), 100 * list->fraction());
@@ -44,7 +44,7 @@ std::optional<glm::dvec3> FindingsPanel::draw(Instruments& instruments, StudyRea
     if (!list->told().empty()) quietText(list->told());
     if (list->rows().empty()) quietText("No findings yet.");
     if (!list->summary().empty()) wrappedText(list->summary());
-    // A copy: what is pressed changes the list.
+    // Copied, since buttons change the list.
     const std::vector<FindingList::Row> rows = list->rows();
     for (std::size_t n = 0; n < rows.size(); ++n) drawRow(session, *list, rows[n], std::to_string(n + 1));
     if (list->canPutBack()) {

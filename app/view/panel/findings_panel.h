@@ -1,4 +1,4 @@
-// Findings on a surface: a list with figures and comments, candidates, a page of them.
+// Findings on a surface: a list with figures and comments, candidates, and a page of them.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -14,9 +14,9 @@ namespace stereonav {
 class FindingsPanel {
 public:
     static bool has(Instruments& instruments) { return instruments.findings() != nullptr; }
-    // Whether there is something to be seen in it without asking.
+    // Returns whether the panel has something to show from the beginning.
     static bool inUse(Instruments& instruments);
-    // A place that the slices are to go to: of a finding that was chosen.
+    // Draws the panel; returns the place of a finding that was chosen, for the slices.
     std::optional<glm::dvec3> draw(Instruments& instruments, StudyReading& study, ViewSession& session,
                                    Notices& notices, const Clipboard& clipboard);
 
@@ -29,8 +29,8 @@ private:
     void drawFiles(const ViewSession& session, Notices& notices, const Clipboard& clipboard,
                    FindingList& list);
 
-    int mCommenting = 0;  // the row whose comment is edited; 0: none
-    bool mFocus = false;  // the field for it was just opened
+    int mCommenting = 0;  // row whose comment is edited; 0: none
+    bool mFocus = false;  // its field was just opened
     std::string mComment, mPage = "findings.html", mReport = "findings.dcm";
     std::optional<glm::dvec3> mChosen;
 };

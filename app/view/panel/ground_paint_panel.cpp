@@ -15,7 +15,8 @@
 namespace stereonav {
 namespace {
 
-// Of the slider: from its left end there are none so far, then intervals from a metre on as a logarithm.
+// Share of the slider at its left end that means no contours; then follow intervals from a metre on, on a
+// logarithmic scale.
 constexpr float kNoneShare = 0.04f;
 constexpr double kMostInterval = 1000;  // metres
 

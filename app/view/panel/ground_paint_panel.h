@@ -1,5 +1,4 @@
-// What is painted on the ground and can be exchanged in the picture: contours that are dragged, what is seen
-// from a place.
+// Paint on the ground that can be exchanged in the picture: contours with a slider, and viewsheds.
 #pragma once
 
 #include "app/view/instruments.h"
@@ -7,10 +6,10 @@
 
 namespace stereonav {
 
-// Nothing where the scene's paint can not be exchanged.
+// Draws nothing where the scene's paint can not be exchanged.
 void drawGroundPaint(SceneChanges& changes, Instruments& instruments, const ViewSession& session);
 
-// --paint hours of a date, "2026-12-21", as a button.
+// Draws a button for --paint hours of a date, "2026-12-21".
 void drawHoursButton(SceneChanges& changes, const std::string& date);
 
 }  // namespace stereonav

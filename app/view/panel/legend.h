@@ -1,11 +1,11 @@
-// What the colours mean that the scene's surfaces are painted in, as rows of a panel.
+// The meaning of the colours that the scene's surfaces are painted in, as rows of a panel.
 #pragma once
 
 #include "engine/scene/scene.h"
 
 namespace stereonav {
 
-// Nothing where the scene offers no PaintLegend.
+// Draws nothing where the scene offers no PaintLegend.
 void drawLegend(const Scene& scene);
 
 }  // namespace stereonav

@@ -7,7 +7,7 @@ namespace stereonav {
 std::string withLineBreaks(std::string_view text, float width,
                            const std::function<float(std::string_view)>& widthOf) {
     std::string broken(text);
-    std::size_t line = 0, lastBlank = 0;  // where the line begins; its last blank, or its beginning
+    std::size_t line = 0, lastBlank = 0;  // beginning of the line; its last blank, or its beginning
     for (std::size_t end = 0; end <= broken.size(); ++end) {
         const bool ends = end == broken.size() || broken[end] == '\n';
         if (!ends && broken[end] != ' ') continue;

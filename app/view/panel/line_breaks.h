@@ -1,4 +1,4 @@
-// Where text that is wrapped goes on in the next line.
+// Line breaks of wrapped text.
 #pragma once
 
 #include <functional>
@@ -7,9 +7,9 @@
 
 namespace stereonav {
 
-// `text` with line ends in place of blanks, so that no line is wider than `width` by `widthOf`. Lines break
-// at blanks alone: numbers stay whole, which ImGui 1.86 breaks behind their point. A word that is wider than
-// a line has one of its own. Line ends of the text stay.
+// Returns `text` with newlines in place of blanks, so that no line is wider than `width` by `widthOf`. Lines
+// break only at blanks: numbers stay whole, which ImGui 1.86 breaks after their point. A word that is wider
+// than a line has a line of its own. Newlines of the text are kept.
 std::string withLineBreaks(std::string_view text, float width,
                            const std::function<float(std::string_view)>& widthOf);
 

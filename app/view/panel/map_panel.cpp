@@ -17,14 +17,14 @@
 namespace stereonav {
 namespace {
 
-constexpr int kMapPixels = 512;   // of the longer side
-constexpr float kTallest = 1.2f;  // of the width
+constexpr int kMapPixels = 512;   // length of the longer side
+constexpr float kTallest = 1.2f;  // greatest height, as a share of the width
 
 ImU32 markColor() {
     return IM_COL32(255, 190, 70, 255);
 }
 
-// The eye: a dot, and the sector that it sees, on a map whose axes are x to the right and y down.
+// Draws the eye: a dot, and the sector in view, on a map whose x axis points right and y axis down.
 void drawEye(const ImVec2& at, double heading, double halfFov) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float font = ImGui::GetFontSize(), reach = 1.6f * font;
@@ -38,7 +38,7 @@ void drawEye(const ImVec2& at, double heading, double halfFov) {
     list.AddCircleFilled(at, 0.22f * font, markColor());
 }
 
-// The nearest handle that the pointer can take.
+// Returns the nearest handle that the pointer can grab.
 std::optional<std::size_t> keyframeUnder(const KeyframeEdit& edit, const ImVec2& pointer,
                                          const std::function<ImVec2(const glm::dvec3&)>& placed) {
     std::optional<std::size_t> nearest;
@@ -70,7 +70,7 @@ void MapPanel::forget() {
     mMap.reset();
     mTexture.reset();
     mScene.reset();
-    mFlownVersion = -1;  // in another scene other walls are in the way
+    mFlownVersion = -1;  // other walls are in the way in another scene
 }
 
 void MapPanel::look(const std::shared_ptr<const OpenScene>& scene) {
@@ -89,7 +89,7 @@ void MapPanel::look(const std::shared_ptr<const OpenScene>& scene) {
         mMap = mMaking.get();
         mTexture.set(mMap->picture, true);
     } catch (const std::exception&) {
-        mMap.reset();  // a panel without a map is still a panel
+        mMap.reset();  // the panel is useful without a map, too
     }
 }
 
@@ -113,7 +113,7 @@ void MapPanel::drawPath(ViewSession& session, KeyframeEdit& edit, const Placed& 
             mFlownVersion = edit.version();
             mFlown = flownThrough(edit.keys(), session.flight());
         } catch (const Error&) {
-            mFlown = {};  // what can not be flown has no line
+            mFlown = {};  // a flight that is not possible has no line
         }
     const auto& samples = edits ? mFlown.path.samples() : session.paths().path().samples();
     for (std::size_t n = 1; n < samples.size(); ++n)
@@ -127,7 +127,7 @@ void MapPanel::drawPath(ViewSession& session, KeyframeEdit& edit, const Placed& 
         list.AddCircleFilled(at, size * font, color);
     };
     for (std::size_t n = 0; n < edit.keys().size(); ++n) handle(n, 0.24f, IM_COL32(255, 255, 255, 255));
-    if (edit.chosen()) handle(*edit.chosen(), 0.34f, markColor());  // over its neighbours
+    if (edit.chosen()) handle(*edit.chosen(), 0.34f, markColor());  // drawn over its neighbours
 }
 
 bool MapPanel::dragKeyframes(ViewSession& session, KeyframeEdit& edit, const Placed& placed,
@@ -144,7 +144,7 @@ bool MapPanel::dragKeyframes(ViewSession& session, KeyframeEdit& edit, const Pla
             edit.dragTo(unplaced(pointer, edit.draggedFrom().position));
         return true;
     }
-    if (mPressedKeyframe) {  // let go in this turn
+    if (mPressedKeyframe) {  // released in this turn
         edit.endDrag();
         mPressedKeyframe = false;
         return true;
@@ -245,7 +245,7 @@ void MapPanel::drawLine(ViewSession& session, KeyframeEdit& edit, const SizeOpti
     const glm::dvec3 forward = pose.forward();
     const double heading = std::atan2(glm::dot(forward, line.right), glm::dot(forward, line.up));
     drawEye(placed(pose.position), heading, halfFovAcross(session, eye));
-    // On the line, which is clear of the wall.
+    // The new place is on the line, which is clear of the wall.
     const auto dragged = [&](const ImVec2&, const glm::dvec3& origin) {
         return nearest ? nearest->world : origin;
     };

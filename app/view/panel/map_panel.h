@@ -1,5 +1,5 @@
-// The scene from above, or a colon's way from the front, with the eye's place and direction; a click flies
-// there, and keyframes of a path are dragged.
+// The scene from above, or a colon's way from the front, with the eye's place and direction. A click flies
+// there, and keyframes of a flight can be dragged.
 #pragma once
 
 #include <functional>
@@ -19,32 +19,33 @@ namespace stereonav {
 class MapPanel {
 public:
     ~MapPanel() { forget(); }
-    // Whether the scene has one.
+    // Returns whether the scene has a map.
     static bool has(const ViewSession& session);
-    // eye: pixels of its picture.
+    // eye: size of its picture in pixels.
     void draw(ViewSession& session, KeyframeEdit& edit, const SizeOption& eye);
-    void forget();  // textures and what is being made; while the context is there
+    void forget();  // frees textures and ends work; the context has to exist
 
 private:
     void look(const std::shared_ptr<const OpenScene>& scene);
-    // Between the world and the screen.
+    // Converts places of the world to the screen.
     using Placed = std::function<ImVec2(const glm::dvec3&)>;
     using Unplaced = std::function<glm::dvec3(const ImVec2&, const glm::dvec3& from)>;
     void drawPath(ViewSession& session, KeyframeEdit& edit, const Placed& placed);
-    // Of the last item, which is the map. True: the pointer is theirs.
+    // Lets the user drag keyframes on the last item, the map. Returns true while the pointer is used for
+    // that.
     bool dragKeyframes(ViewSession& session, KeyframeEdit& edit, const Placed& placed,
                        const Unplaced& unplaced);
     void drawPicture(ViewSession& session, KeyframeEdit& edit, const SizeOption& eye);
     void drawLine(ViewSession& session, KeyframeEdit& edit, const SizeOption& eye, const LineOnMap& line);
 
     std::shared_ptr<const OpenScene> mScene;
-    std::shared_ptr<Progress> mProgress;  // of what is being made
+    std::shared_ptr<Progress> mProgress;  // progress of the map that is being made
     std::future<MapPicture> mMaking;
     std::optional<MapPicture> mMap;
     PanelTexture mTexture;
-    FlownPath mFlown;               // through the keyframes,
-    bool mPressedKeyframe = false;  // the button went down on one
-    long long mFlownVersion = -1;   // of this version
+    FlownPath mFlown;               // flight through the keyframes
+    bool mPressedKeyframe = false;  // the mouse button was pressed on a keyframe
+    long long mFlownVersion = -1;   // version of the keyframes that mFlown goes through
 };
 
 }  // namespace stereonav

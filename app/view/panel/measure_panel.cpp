@@ -17,7 +17,7 @@
 namespace stereonav {
 namespace {
 
-// Heights over the distance; under the pointer the place is shown in the picture too.
+// Draws heights over distance; the place under the pointer is also marked in the picture.
 void drawProfile(Instruments& instruments, const MeasuredSurface& measured) {
     const std::vector<glm::dvec2>& profile = measured.profile;
     if (profile.size() < 2 || !(profile.back().x > profile.front().x)) return;
@@ -58,7 +58,7 @@ void drawProfile(Instruments& instruments, const MeasuredSurface& measured) {
     quietText(fmt::format("{:.1f} to {:.1f} m, {}", low, high, lengthText(length)));
 }
 
-// Of grounds: lines of sight are told among the figures.
+// Draws the height of the eyes for lines of sight, which are among the figures of ground.
 void drawEyeHeight(const ViewSession& session, MeasuredLine& line) {
     const Scene& scene = *session.open().scene;
     if (line.closed() || !scene.offered<LivePaint>()) return;
@@ -71,7 +71,7 @@ void drawEyeHeight(const ViewSession& session, MeasuredLine& line) {
     tooltip("How high both ends of the line of sight are, which joins the last two places.");
 }
 
-// Of the line, as the commands `profile` and `measure` write it.
+// Draws buttons that save the line in the formats of the commands `profile` and `measure`.
 void drawSaving(WindowJobs& jobs, const MeasuredLine& line) {
     static std::string file = "profile.svg";
     const bool busy = jobs.busy();
@@ -91,7 +91,7 @@ void drawMeasurePanel(Instruments& instruments, WindowJobs& jobs, ViewSession& s
                       const Clipboard& clipboard) {
     MeasuredLine* const line = instruments.measured();
     if (!line) return;
-    instruments.mark(std::nullopt);  // unless the pointer is over the profile
+    instruments.mark(std::nullopt);  // set again where the pointer is over the profile
     bool on = instruments.measuring();
     if (ImGui::Checkbox("Clicks add places", &on)) instruments.measure(on);
     tooltip("Each click on the picture, while nothing moves, is the line's next place. Key: Ctrl+M");

@@ -1,4 +1,4 @@
-// A line over the surface: its places, what it measures, and its profile.
+// A line over the surface: its places, its measurements, and its profile.
 #pragma once
 
 #include "app/view/clipboard.h"

@@ -175,7 +175,7 @@ float drawMenuBar(const PanelParts& parts, MenuWishes& wishes) {
     toolsMenu(parts, wishes);
     if (ImGui::MenuItem("Help")) wishes.help = true;
     tooltip("All keys: F1");
-    // What is open, where there is room for it.
+    // The name of the open scene, where there is room.
     const std::string name = printable(parts.changes.settings().sceneName());
     const float width = ImGui::CalcTextSize(name.c_str()).x, left = ImGui::GetContentRegionAvail().x;
     if (const float margin = ImGui::GetFontSize(); width + 2 * margin < left) {

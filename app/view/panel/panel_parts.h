@@ -1,4 +1,4 @@
-// The owners that panels show and ask. A panel is given those alone that it needs.
+// The objects that panels show and change. A panel gets only those that it needs.
 #pragma once
 
 namespace stereonav {

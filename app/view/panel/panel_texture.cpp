@@ -11,7 +11,7 @@ namespace stereonav {
 
 namespace {
 
-// The mean of a square of encoded bytes, which is near enough for a picture to be recognised by.
+// Averages the encoded bytes of a square, which is exact enough for a small picture.
 void meanOf(const Plane<PackedColor>& picture, int left, int top, int step, std::uint8_t* to) {
     const auto& bytes = srgbByteFromPacked();
     unsigned sum[3] = {};

@@ -1,4 +1,4 @@
-// A picture of the engine's as a texture that panels draw.
+// A picture of the engine as a texture for panels.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,15 @@ namespace stereonav {
 
 class PanelTexture {
 public:
-    // In the window's context. smooth: neighbours are blended where it is enlarged. step: pixels, along each
-    // side, that a texel is the mean of, at least 1; those left over at the right and below are left out.
+    // Sets the picture; needs the window's context. smooth: interpolates where the picture is enlarged. step:
+    // side of the square of pixels that a texel averages, at least 1; remaining pixels at the right and below
+    // are left out.
     void set(const Plane<PackedColor>& picture, bool smooth, int step = 1);
     void reset() { mTexture.reset(); }
     bool any() const { return mTexture.has_value(); }
-    int width() const { return mWidth; }  // texels
+    int width() const { return mWidth; }  // in texels
     int height() const { return mHeight; }
-    void* id() const;  // as Dear ImGui takes it
+    void* id() const;  // handle for Dear ImGui
 
 private:
     std::optional<GlTexture> mTexture;

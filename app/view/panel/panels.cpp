@@ -33,11 +33,11 @@
 namespace stereonav {
 namespace {
 
-// In letters' heights.
+// Widths in heights of letters.
 constexpr float kNarrowest = 10;
-constexpr float kBeside = 56;   // as wide must the interface be for panels beside the picture
-constexpr float kPicture = 20;  // what is left for it at least
-constexpr float kStrip = 13;    // of the unfolded wall
+constexpr float kBeside = 56;   // least width of the interface for panels beside the picture
+constexpr float kPicture = 20;  // least width that is left for the picture
+constexpr float kStrip = 13;    // height of the unfolded wall
 constexpr ImGuiWindowFlags kPlainBox = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                                        ImGuiWindowFlags_NoBringToFrontOnFocus;
@@ -45,26 +45,26 @@ constexpr ImGuiWindowFlags kPlainBox = ImGuiWindowFlags_NoDecoration | ImGuiWind
 }  // namespace
 
 struct Panels::State {
-    // At a side of the picture.
+    // A column of panels at one side of the picture.
     struct Column {
         bool shown = false;
-        float width = 22;  // letters' heights
-        float taken = 0;   // units, in the last layout
+        float width = 22;  // in heights of letters
+        float taken = 0;   // width in the last layout, in units
     };
     bool hidden = false, help = false;
     Column left, side;
     bool showsUnfolded = false;
-    float strip = 0;  // units that it took below the picture, in the last layout
+    float strip = 0;  // height of the strip below the picture in the last layout, in units
     UnfoldedPanel unfolded;
-    bool beside = true;          // columns take their room from the picture
-    float above = 0, below = 0;  // units that the menus and the line at the bottom took, in the last layout
+    bool beside = true;          // whether columns take their room from the picture
+    float above = 0, below = 0;  // heights of menu bar and status bar in the last layout, in units
     CoveragePanel coverage;
     MapPanel map;
     PlacesPanel places;
     SlicesPanel slices;
     SecondPanel second;
     FindingsPanel findings;
-    bool showFindings = false;  // in the next layout they are opened and scrolled to
+    bool showFindings = false;  // opens the findings in the next layout and scrolls to them
     SearchBox search;
     FileBrowser files;
     StartPage start;
@@ -81,7 +81,7 @@ struct Panels::State {
 Panels::Panels() : mState(std::make_unique<State>()) {}
 Panels::~Panels() = default;
 
-// What was chosen among the files. What fails is told.
+// Opens a chosen file; failures become notices.
 void Panels::State::open(const PanelParts& parts, const std::filesystem::path& file) {
     ViewSession* const session = parts.session;
     switch (files.purpose()) {
@@ -138,13 +138,13 @@ void Panels::State::drawColumn(Column& column, bool atRight, float top,
     ImGui::PushID(atRight);
     ImGui::SetNextWindowPos({atRight ? whole.x - width : 0, top});
     ImGui::SetNextWindowSize({width, height});
-    // Always with its bar, so that nothing is laid out anew where it becomes longer.
+    // The scroll bar is always there, so that the layout does not change where the content gets longer.
     ImGui::Begin(atRight ? "##side" : "##left", nullptr,
                  (kPlainBox & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_AlwaysVerticalScrollbar);
     content();
     ImGui::End();
     column.taken = width;
-    // Its inner border is dragged.
+    // The inner border can be dragged.
     const float border = atRight ? whole.x - width : width;
     ImGui::SetNextWindowPos({border - 0.25f * font, top});
     ImGui::SetNextWindowSize({0.5f * font, height});
@@ -197,7 +197,7 @@ void Panels::State::drawFindings(const PanelParts& parts) {
         slices.show(*place);
 }
 
-// Between the columns, over the line at the bottom.
+// Draws the unfolded wall between the columns, above the status bar.
 void Panels::State::drawUnfolded(const PanelParts& parts) {
     if (!showsUnfolded || hidden || !UnfoldedPanel::has(parts.session))
         return unfolded.hide(parts.session, parts.instruments);
@@ -236,7 +236,7 @@ void Panels::draw(const PanelParts& parts) {
         if (wishes.picture) state.side.shown = state.tools.showPicture = true;
         if (wishes.movie) state.side.shown = state.tools.showPath = true;
         if (!state.beside && state.left.shown && state.side.shown) {
-            // Drawers: the one that was opened last.
+            // Only the drawer that was opened last stays open.
             (sideBefore ? state.side : state.left).shown = false;
         }
         if (state.left.shown) state.drawColumn(state.left, false, top, [&] { state.drawLeft(parts); });

@@ -1,5 +1,5 @@
-// All of the interface: a bar of menus, panels at both sides, a line of figures; what is open, and how wide.
-// At widths that have no room for panels beside the picture they are drawers over it.
+// The whole interface: menu bar, panels at both sides, status bar; which of them are open, and how wide.
+// Where there is no room for panels beside the picture they are drawers over it.
 #pragma once
 
 #include <filesystem>
@@ -15,13 +15,13 @@ public:
     Panels();
     ~Panels();
 
-    // One layout; inside Interface::layOut.
+    // Lays out the interface once; to be called inside Interface::layOut.
     void draw(const PanelParts& parts);
 
-    // What is left for the picture, in units of the interface: corner and size. Of the last layout.
+    // The part that is left for the picture in the last layout, in units of the interface: corner and size.
     struct Rest {
         glm::vec2 corner{0}, size{0};
-        float top = 0, bottom = 0;  // of it that lie under the menus and the line at the bottom
+        float top = 0, bottom = 0;  // heights of its parts that menu bar and status bar cover
     };
     Rest rest(const glm::vec2& whole) const;
 
@@ -29,8 +29,8 @@ public:
     bool hidden() const;
     void toggleSide();      // panels at the right
     void toggleLeft();      // places, map, slices
-    void showFindings();    // among them
-    void toggleUnfolded();  // the wall laid flat, below the picture
+    void showFindings();    // one of the panels at the right
+    void toggleUnfolded();  // the unfolded wall, below the picture
     void openSearch();
     void openFiles();
     void openSave();
@@ -44,11 +44,11 @@ public:
     bool leftShown() const;
     float sideWidth() const;
     float leftWidth() const;
-    void setFolder(const std::filesystem::path& folder);  // where files are looked for
+    void setFolder(const std::filesystem::path& folder);  // folder for choosing files
     const std::filesystem::path& folder() const;
-    void forget();  // what belongs to the window's context, while it is there
+    void forget();  // frees objects of the window's context, which has to exist
 
-    // Closes the topmost of what can be closed; false: there is nothing.
+    // Closes the topmost open element; returns false where there is none.
     bool closeOne();
 
 private:

@@ -27,7 +27,7 @@ bool button(const char* label, const char* tip) {
 
 void drawEdits(ViewSession& session, KeyframeEdit& edit) {
     const RecordedPath& path = session.paths().path();
-    static double from = 0, to = 1;  // shares of the duration
+    static double from = 0, to = 1;  // as shares of the duration
     ImGui::SetNextItemWidth(-FLT_MIN);
     float ends[2] = {static_cast<float>(from), static_cast<float>(to)};
     if (ImGui::SliderFloat2("##ends", ends, 0, 1, "%.3f")) {
@@ -59,7 +59,7 @@ void drawEdits(ViewSession& session, KeyframeEdit& edit) {
     if (button("Save", "Writes the path as flight_0001.gltf and so on.")) session.paths().save();
 }
 
-// How high the chosen one is over the ground, where there is some.
+// Draws the height of the chosen keyframe over the ground, where there is ground.
 void drawKeyframeHeight(KeyframeEdit& edit, const Flight& flight) {
     const Pose& pose = edit.keys()[*edit.chosen()].pose;
     const auto now = heightOverGround(flight, pose.position);

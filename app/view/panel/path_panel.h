@@ -1,4 +1,4 @@
-// The flight that is played: recorded, cut, smoothed, kept, made into a movie.
+// The flight that is played: recording, cutting, smoothing, saving, and making a movie of it.
 #pragma once
 
 #include "app/view/bookmarks.h"

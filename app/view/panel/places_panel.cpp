@@ -18,7 +18,7 @@ void PlacesPanel::draw(KeptPlaces& kept, AskedActions& actions) {
     if (ImGui::Button("+ Add")) actions.ask({ViewCommand::AddPlace});
     tooltip("Keeps this place, for this file. Key: Ctrl+B");
     if (places->list().empty()) quietText("No places yet: + keeps the one that is shown.");
-    // A copy: what is pressed changes the list.
+    // Copied, since buttons change the list.
     const std::vector<Bookmark> list = places->list();
     for (const Bookmark& place : list) drawPlace(kept, *places, place);
 }
@@ -31,7 +31,7 @@ void PlacesPanel::drawPlace(KeptPlaces& kept, Bookmarks& places, const Bookmark&
         if (!picture.any()) try {
                 picture.set(readColorImage(place.thumbnail), true);
             } catch (const Error&) {
-                picture.set(Plane<PackedColor>(1, 1), true);  // it is gone: grey
+                picture.set(Plane<PackedColor>(1, 1), true);  // the file does not exist any more: grey
             }
         if (ImGui::ImageButton(picture.id(), {width, width * kThumbnailHeight / kThumbnailWidth}, {0, 0},
                                {1, 1}, 0))

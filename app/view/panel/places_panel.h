@@ -1,4 +1,4 @@
-// Home, and places that a person named: with pictures, flown to by a click.
+// Home, and places that the user has named: with pictures; a click flies there.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ public:
 private:
     void drawPlace(KeptPlaces& kept, Bookmarks& places, const Bookmark& place);
 
-    std::map<std::string, PanelTexture> mPictures;  // by their files
+    std::map<std::string, PanelTexture> mPictures;  // by file
     std::string mRenaming, mName;
 };
 

@@ -19,7 +19,7 @@ std::string lowered(std::string text) {
     return text;
 }
 
-// Every word stands somewhere in the text.
+// Returns whether every word occurs in the text.
 bool matches(const std::string& text, const std::string& words) {
     std::istringstream in(lowered(words));
     const std::string where = lowered(text);

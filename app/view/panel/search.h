@@ -1,4 +1,5 @@
-// Find anything: options, commands and modes by words, each with its key and its present value, set there.
+// Search for options, commands and modes by words; each is shown with its key and value, and can be set
+// there.
 #pragma once
 
 #include "app/view/scene_changes.h"

@@ -12,7 +12,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kLeastWidth = 64, kMostWidth = 480;  // pixels of its picture
+constexpr int kLeastWidth = 64, kMostWidth = 480;  // width of its picture
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// The other study beside the eye: its wall from the matching place, looking the matching way.
+// The other study beside the eye: its wall from the matching place, in the matching direction.
 #pragma once
 
 #include <memory>
@@ -12,15 +12,15 @@ namespace stereonav {
 class SecondPanel {
 public:
     static bool has(const ViewSession* session);  // whether the scene has a line to match
-    // True: another study is to be chosen.
+    // Draws the panel; returns true where another study is to be chosen.
     bool draw(SecondSide& side, const ViewSession& session, bool loading);
-    void forget();  // what belongs to the window's context
+    void forget();  // frees objects of the window's context
 
 private:
     void drawPicture(SecondSide& side, const ViewSession& session, bool loading);
 
     PanelTexture mTexture;
-    std::shared_ptr<const SecondPicture> mShown;  // the texture's
+    std::shared_ptr<const SecondPicture> mShown;  // picture in the texture
 };
 
 }  // namespace stereonav

@@ -74,7 +74,7 @@ void drawView(const PanelParts& parts, ViewSession& session) {
                               : warning);
 }
 
-// Of scenes whose light can be baked: those that `bake` takes.
+// Draws controls for `bake`, for scenes whose light it can bake.
 void drawBake(WindowJobs& jobs) {
     const Option* const light = viewOption("light");
     const Option* const what = findOption(command::kBake, "what");
@@ -139,7 +139,7 @@ void drawMaterial(const PanelParts& parts, ViewSession& session, TransferPanel& 
             "Opacity by variance, by gradient, as it is. Key: B");
 }
 
-// One quantity over the last frames, with its newest value.
+// Plots one quantity over the last frames, with its newest value.
 void plot(const FramePresenter& pictures, const char* label, double FrameCost::*what, const char* unit) {
     std::array<float, 120> values{};
     const auto& costs = pictures.costs();
@@ -157,7 +157,7 @@ void plot(const FramePresenter& pictures, const char* label, double FrameCost::*
     tooltip(fmt::format("{}, {}: the last {} frames, up to {:.1f}", label, unit, count, most));
 }
 
-// What the right eye shows, and how far it is from the truth.
+// Draws the choice of what the right eye shows, and its error.
 void drawTruth(ViewSession& session, const ViewFrame* frame) {
     constexpr std::tuple<TruthView, const char*, const char*> kViews[] = {
         {TruthView::None, "as made", "The right eye as it is made."},
@@ -192,7 +192,7 @@ void drawFacts(const Facts* facts) {
     factTable("facts", *facts);
 }
 
-// Of what is seen, in any size and kind of file.
+// Draws controls that save the view as a picture, in any size and format.
 void drawPicture(WindowJobs& jobs, const SizeOption& shown) {
     static PictureWish picture{"view.png"};
     ImGui::SetNextItemWidth(-FLT_MIN);

@@ -1,5 +1,4 @@
-// The panels at the right: the table's options that go with the scene, under their headings, and what a frame
-// costs.
+// The panels at the right: the options for this type of scene, under their headings, and the cost of a frame.
 #pragma once
 
 #include "app/view/panel/panel_parts.h"
@@ -8,12 +7,12 @@
 
 namespace stereonav {
 
-// Those of them that keep something from one layout to the next.
+// Panels that keep state between layouts.
 struct SideTools {
     TransferPanel transfer;
     SunPanel sun;
-    bool showPicture = false;  // as showPath, of "Picture"
-    bool showPath = false;     // in the next layout "Flight and path" is opened and scrolled to
+    bool showPicture = false;  // the same for "Picture"
+    bool showPath = false;     // opens "Flight and path" in the next layout and scrolls to it
 };
 
 void drawSidePanels(const PanelParts& parts, SideTools& tools);

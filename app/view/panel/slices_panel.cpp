@@ -13,11 +13,11 @@
 namespace stereonav {
 namespace {
 
-constexpr double kEyeMoves = 2e-4;  // metres: less is not drawn again
+constexpr double kEyeMoves = 2e-4;  // metres: smaller moves are not drawn
 constexpr double kMostZoom = 16;
 constexpr const char* kAxisNames[] = {"axial", "coronal", "sagittal"};
 
-// Windows that radiologists have, width and level in Hounsfield units.
+// Windows in radiology: width and level in Hounsfield units.
 struct WindowPreset {
     const char* name;
     double width, level;
@@ -35,7 +35,7 @@ PackedColor eyeColor() {
     return packed(255, 190, 70);
 }
 
-// Mean around a place: the value of the voxel that it lies in.
+// Returns the value of the voxel at a place.
 std::optional<double> valueOfVoxel(const GreyVolume& grey, const glm::dvec3& world) {
     const glm::dvec3 voxel = glm::round(grey.frame.voxelFromWorld(world));
     for (int k = 0; k < 3; ++k)
@@ -86,7 +86,7 @@ void SlicesPanel::drawView(ViewSession& session, Instruments& instruments, const
                            SliceAxis axis) {
     View& view = mViews[static_cast<std::size_t>(axis)];
     const int width = std::max(static_cast<int>(ImGui::GetContentRegionAvail().x), 16);
-    // The picture is a part of a larger one about the cross where it is enlarged.
+    // Enlarged pictures show a part of a larger one around the cross.
     const SliceLayout fitted(study.grey.frame, axis, width, width);
     const int height = width;
     const SliceLayout layout = fitted.zoomed(mZoom, mCross);

@@ -25,7 +25,7 @@ constexpr Card kCards[] = {{"terrain", "Terrain", "mountains over a plain"},
                            {"cloud", "Cloud", "light that goes through"},
                            {"wax", "Wax", "light that goes in"}};
 
-// One scene to open: its picture, which moves under the pointer, and its name. width: units.
+// Draws one scene to open: its picture, which moves under the pointer, and its name. width: units.
 bool drawCard(const Card& card, float width) {
     ImGui::BeginGroup();
     ImGui::PushID(card.scene);
@@ -53,10 +53,10 @@ bool drawCard(const Card& card, float width) {
 
 void StartPage::show(bool shown) {
     mShown = shown;
-    if (shown) mPictures.clear();  // they may have been made anew since
+    if (shown) mPictures.clear();  // pictures may have changed since
 }
 
-// True: it is to be opened. width: units.
+// Draws a recent file; returns true where it is to be opened. width: units.
 bool StartPage::drawRecentFile(FileLooks& looks, const RecentFile& file, float width) {
     const float font = ImGui::GetFontSize(), height = 2.6f * font;
     const ImVec2 picture(height * kThumbnailWidth / kThumbnailHeight, height);
@@ -75,7 +75,7 @@ bool StartPage::drawRecentFile(FileLooks& looks, const RecentFile& file, float w
         list.AddImage(texture->id(), from, to);
     else
         list.AddRectFilled(from, to, ImGui::GetColorU32(ImGuiCol_FrameBg));
-    // Cut at its width: the whole path is in the tooltip.
+    // Long paths are cut; the tooltip has the whole path.
     const float text = to.x + 0.6f * font;
     list.PushClipRect({text, from.y}, {from.x + width, to.y}, true);
     list.AddText({text, from.y + 0.2f * font}, ImGui::GetColorU32(ImGuiCol_Text), name.c_str());
@@ -93,14 +93,14 @@ bool StartPage::drawRecentFile(FileLooks& looks, const RecentFile& file, float w
     return clicked;
 }
 
-// Null where there is none.
+// Returns the picture of a recent file; null where there is none.
 PanelTexture* StartPage::pictureOf(const RecentFile& file) {
     if (file.thumbnail.empty()) return nullptr;
     const auto [known, fresh] = mPictures.try_emplace(file.thumbnail.string());
     if (fresh) try {
             known->second.set(readColorImage(file.thumbnail), true);
         } catch (const Error&) {
-            // it is gone, or damaged: without
+            // A picture that is gone or damaged is left out.
         }
     return known->second.any() ? &known->second : nullptr;
 }

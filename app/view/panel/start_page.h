@@ -1,4 +1,4 @@
-// What a person sees first: the built-in scenes as pictures, files that were open before, and three hints.
+// The first page: the built-in scenes as pictures, recent files, and three hints.
 #pragma once
 
 #include <filesystem>
@@ -16,10 +16,10 @@ class StartPage {
 public:
     void show(bool shown);
     bool shown() const { return mShown; }
-    // True: a file is to be looked for.
+    // Draws the page; returns true where a file is to be chosen.
     bool draw(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks);
 
-    void forget() { mPictures.clear(); }  // what belongs to the window's context
+    void forget() { mPictures.clear(); }  // frees objects of the window's context
 
 private:
     bool drawRecentFile(FileLooks& looks, const RecentFile& file, float width);
@@ -27,8 +27,8 @@ private:
     PanelTexture* pictureOf(const RecentFile& file);
 
     bool mShown = false;
-    std::map<std::string, PanelTexture> mPictures;  // of recent files, by their files
-    std::filesystem::path mForget;                  // to be taken off the list
+    std::map<std::string, PanelTexture> mPictures;  // of recent files, by file
+    std::filesystem::path mForget;                  // file to remove from the list
 };
 
 }  // namespace stereonav

@@ -13,7 +13,7 @@
 #include "engine/base/error.h"
 #include "engine/image/image_file.h"
 
-// As engine/display/interface_font.cpp has its font.
+// Embeds a picture, as engine/display/interface_font.cpp does its font.
 #define STEREONAV_START_PICTURE(name)                                                                   \
     asm(".section .rodata\n.balign 16\nstereonavStart_" #name ":\n.incbin \"" STEREONAV_START "/" #name \
         ".jpg\"\nstereonavStartEnd_" #name ":\n.byte 0\n.previous\n");                                  \
@@ -46,12 +46,12 @@ std::array<StartPicture, 4>& pictures() {
     return all;
 }
 
-// A page without pictures is still a page: what cannot be decoded stays grey.
+// Decodes a picture; one that can not be decoded stays grey, and the page remains useful.
 void prepare(StartPicture& picture) {
     if (picture.texture.any() || picture.failed) return;
     if (!picture.decoding.valid()) {
         picture.decoding = std::async(std::launch::async, [file = picture.file] {
-            static std::mutex oneAfterTheOther;  // one helper does for all
+            static std::mutex oneAfterTheOther;  // one helper thread is enough for all
             const std::lock_guard lock(oneAfterTheOther);
             return decodeColorImage(file, "the start page", "");
         });
@@ -76,7 +76,7 @@ void drawStartPicture(std::string_view scene, const ImVec2& corner, const ImVec2
         if (!picture.texture.any()) break;
         const int frame =
             moving ? static_cast<int>(std::fmod(ImGui::GetTime() * kFramesPerSecond, kFrames)) : 0;
-        // Half a pixel inside, so that no neighbour shows.
+        // Half a pixel is left out at the sides, so that no neighbouring frame shows.
         const float inset = 0.5f / (kFrames * kStartPictureWidth);
         const float left = static_cast<float>(frame) / kFrames;
         list.AddImage(picture.texture.id(), corner, end, {left + inset, 0},

@@ -1,5 +1,5 @@
-// Pictures of the built-in scenes, made by the program itself and part of it (data/start): eight frames of
-// each one's flight, beside each other.
+// Pictures of the built-in scenes, rendered by the program and embedded in it (data/start): eight frames of
+// each flight, side by side.
 #pragma once
 
 #include <string_view>
@@ -10,10 +10,10 @@ namespace stereonav {
 
 constexpr float kStartPictureWidth = 256, kStartPictureHeight = 144;  // pixels of a frame
 
-// Into the current window of Dear ImGui; moving: one frame after another. Decoded beside the window's thread;
-// nothing but a grey box until then.
+// Draws into the current window of Dear ImGui; moving: one frame after another. Pictures are decoded beside
+// the window's thread; until then a grey box is drawn.
 void drawStartPicture(std::string_view scene, const ImVec2& corner, const ImVec2& size, bool moving);
-// Lets go of textures, while the context is still there.
+// Frees the textures; the context has to exist.
 void forgetStartPictures();
 
 }  // namespace stereonav

@@ -21,16 +21,16 @@
 namespace stereonav {
 namespace {
 
-constexpr double kPatience = 0.5;  // seconds without a word
+constexpr double kPatience = 0.5;  // seconds without an indication of work
 constexpr ImGuiWindowFlags kBar =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-// Pieces in a row, as many as there is room for, so that none is cut.
+// Draws as many pieces in a row as fit, so that none is cut.
 class Row {
 public:
     explicit Row(float width) : mLeft(width) {}
-    // Width of a piece that is to come: false where it has no room.
+    // Returns whether a piece of this width fits.
     bool room(float width) {
         if (width > mLeft) return false;
         if (!mFirst) ImGui::SameLine(0, kGap * ImGui::GetFontSize());
@@ -70,12 +70,12 @@ std::string placeText(ViewSession& session) {
     return text;
 }
 
-// Of the place under the pointer, a piece for each fact.
+// Draws facts of the place under the pointer, one piece each.
 void placePieces(const Facts& facts, Row& row) {
     for (const Fact& fact : facts) row.text(fact.text, fact.label.value_or("") + ", under the pointer");
 }
 
-// Asked once for a monitor, and only of who sees with two eyes.
+// Returns whether to ask for the screen's size: once per monitor, and only for modes with two eyes.
 bool asksForScreen(const PanelParts& parts) {
     ViewSession* const session = parts.session;
     const ViewFrame* const frame = parts.pictures.frame();
@@ -84,7 +84,7 @@ bool asksForScreen(const PanelParts& parts) {
 }
 
 void askForScreen(const PanelParts& parts, float wrap) {
-    static double width_mm = 0;  // as it is being written
+    static double width_mm = 0;  // the number that is being typed
     wrappedText("How wide is this screen? It does not tell, so parallax in mm is a guess.", wrap);
     if (!(width_mm > 0)) width_mm = std::round(parts.display.screen().width_mm);
     ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
@@ -117,7 +117,7 @@ void drawPreparing(const PanelParts& parts, const PaintWork& work, float wrap) {
 
 void drawPainting(const PanelParts& parts, const PaintWork& work, float wrap) {
     wrappedText(work.what.empty() ? "painting the ground" : work.what, wrap);
-    // What does not tell how far it is has no figure.
+    // Work without a known share shows no figure.
     ImGui::ProgressBar(static_cast<float>(work.fraction), {std::min(wrap, 20 * ImGui::GetFontSize()), 0},
                        work.fraction > 0 ? nullptr : "");
     ImGui::SameLine();
@@ -206,7 +206,7 @@ void drawNotices(const PanelParts& parts, float left, float right, float top) {
         wrappedText(loading.what.empty() ? "loading" : loading.what, wrap);
         const double gone = parts.changes.loadingSeconds();
         std::string text = fmt::format("{:.0f} %", 100 * loading.fraction);
-        // What is left is told once it is more than a guess.
+        // The remaining time is shown once it is more than a guess.
         if (loading.fraction > 0.1 && gone > 2)
             text += fmt::format(", {:.0f} s left", std::ceil(gone / loading.fraction - gone));
         ImGui::ProgressBar(static_cast<float>(loading.fraction),

@@ -1,14 +1,15 @@
-// The line of figures at the bottom, what just happened over it, and what needs attention.
+// The status bar at the bottom, notices above it, and warnings.
 #pragma once
 
 #include "app/view/panel/panel_parts.h"
 
 namespace stereonav {
 
-// left, right: units of the interface that panels take there. Its height.
+// Draws the status bar and returns its height. left, right: widths that panels take there, in units of the
+// interface.
 float drawStatusBar(const PanelParts& parts, float left, float right);
-// What is being waited for, with a button that cancels; a failure, which stays; a notice, which goes. From
-// `top` down.
+// Draws, from `top` downwards, work in progress with a button that cancels it; failures, which stay; and
+// notices, which disappear.
 void drawNotices(const PanelParts& parts, float left, float right, float top);
 
 }  // namespace stereonav

@@ -15,21 +15,21 @@ namespace stereonav {
 namespace {
 
 constexpr double kPlaceDegree = std::numbers::pi / 180;
-constexpr double kNoNorth = 0.0005 * kPlaceDegree;  // less is not told
+constexpr double kNoNorth = 0.0005 * kPlaceDegree;  // smaller angles are not shown
 
-// What says where the sun stands: what the scene takes at once comes first.
+// Returns the option for the sun's place; one that takes effect at once is preferred.
 const Option* sunOption(const SceneChanges& changes) {
     if (!changes.scene()) return nullptr;
     const Option *const sun = viewOption("sun"), *const light = viewOption("light-from");
     const bool ofSun = sun && changes.settings().applies(*sun);
-    // Of ground that is shown as a medium; of clouds there is no sun by date.
+    // True for ground that is shown as a medium; clouds have no sun by date.
     const bool ofGround = ofSun || changes.scene()->scene->offered<OnEarth>();
     const bool ofLight = light && changes.settings().applies(*light) && ofGround;
     if (ofLight && (!ofSun || (changes.live(*light) && !changes.live(*sun)))) return light;
     return ofSun ? sun : nullptr;
 }
 
-// A text that is typed counts when it is done; what can not be is dropped.
+// Handles a text field: the text is used when it is finished; invalid text is dropped.
 template <typename Take>
 bool typed(const char* id, const char* hint, std::string& writing, const std::string& now, const Take& take) {
     std::string text = writing.empty() ? now : writing;
@@ -58,7 +58,7 @@ bool SunPanel::has(const SceneChanges& changes) {
     return sunOption(changes) != nullptr;
 }
 
-// Of the scene's middle, so that it stays while one flies.
+// Uses the middle of the scene, so that the place stays the same in flight.
 void SunPanel::look(ViewSession& session) {
     const auto& scene = session.openShared();
     if (mScene.lock() == scene && mClock) return;
@@ -73,7 +73,7 @@ void SunPanel::look(ViewSession& session) {
         place = earth->placeAt(middle);
         if (place) mNorth = earth->northAt(middle);
     }
-    // What was set stays where the same ground was read again; typed places stay everywhere.
+    // Settings are kept where the same ground was read again; typed places are always kept.
     const bool first = !mClock || place.has_value() != mOnEarth ||
                        (place && (std::abs(place->latitude - mClock->place.latitude) > kPlaceDegree ||
                                   std::abs(place->longitude - mClock->place.longitude) > kPlaceDegree));
@@ -157,7 +157,7 @@ void SunPanel::draw(SceneChanges& changes, ViewSession& session) {
         mTold = mClock;
     }
     const std::string text = sunOptionText(mThen.world);
-    // What is computed anew for each place of the sun is, once it is let go.
+    // Effects that have to be computed for each place of the sun are applied when the drag ends.
     if (changes.live(*option) ? changed : done) changes.set(option->key, text);
     quietText(describe(mThen));
     drawHoursButton(changes, dateText(*mClock));

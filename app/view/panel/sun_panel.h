@@ -12,7 +12,7 @@ namespace stereonav {
 
 class SunPanel {
 public:
-    // Whether the scene has a sun that options place.
+    // Returns whether options set the scene's sun.
     static bool has(const SceneChanges& changes);
     void draw(SceneChanges& changes, ViewSession& session);
 
@@ -23,10 +23,10 @@ private:
 
     std::weak_ptr<const OpenScene> mScene;
     std::optional<SunClock> mClock;
-    bool mOnEarth = false;          // the place is the scene's own
-    double mNorth = 0;              // of the Earth, in the scene
-    std::string mDate, mTime;       // while they are typed
-    std::optional<SunClock> mTold;  // what mThen is of
+    bool mOnEarth = false;          // whether the place is that of the scene
+    double mNorth = 0;              // azimuth of the Earth's north in the scene
+    std::string mDate, mTime;       // texts that are being typed
+    std::optional<SunClock> mTold;  // clock for which mThen was computed
     SunThen mThen;
 };
 

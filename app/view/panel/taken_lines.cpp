@@ -14,7 +14,7 @@
 namespace stereonav {
 namespace {
 
-// On the ground; what lies beside it is left out and told.
+// Takes a line over the ground; a notice says which parts outside it are left out.
 void take(ViewSession& session, MeasuredLine& measured, const TerrainScene& terrain,
           const std::vector<glm::dvec2>& line, bool closed, const std::string& what) {
     std::vector<glm::dvec3> places;

@@ -1,4 +1,4 @@
-// Lines that are not clicked but taken: tracks that are drawn on the ground, and the flight.
+// Lines that are taken instead of clicked: tracks that are drawn on the ground, and the flight.
 #pragma once
 
 #include "app/view/measured_line.h"

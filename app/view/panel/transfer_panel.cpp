@@ -17,7 +17,7 @@
 namespace stereonav {
 namespace {
 
-constexpr float kHeight = 9, kReach = 0.6f, kDot = 0.3f;  // letters' heights
+constexpr float kHeight = 9, kReach = 0.6f, kDot = 0.3f;  // heights of letters
 constexpr double kZoom = 1.25, kOpacitySteps = 1000;
 constexpr const char* kPointPopup = "##point";
 
@@ -29,14 +29,14 @@ double roundedOpacity(double opacity) {
     return std::round(std::clamp(opacity, 0.0, 1.0) * kOpacitySteps) / kOpacitySteps;
 }
 
-// From the surface up, or over the upper half of the values.
+// Returns a ramp from the surface's value upwards, or over the upper half of the values.
 TransferCurve rampOf(const std::optional<double>& isovalue, const ValueSpan& range) {
     const double middle = range.lowest / 2 + range.highest / 2;
     const bool inside = isovalue && *isovalue > range.lowest && *isovalue < range.highest;
     return rampBetween(inside ? *isovalue : middle, range.highest);
 }
 
-// Of the curve, also under glasses that split colours.
+// Returns a colour of the curve; grey for glasses that separate colours.
 ImU32 colorOf(bool grey, const std::array<float, 3>& color, float alpha) {
     ImVec4 shown(color[0], color[1], color[2], alpha);
     if (grey) shown.x = shown.y = shown.z = 0.2126f * shown.x + 0.7152f * shown.y + 0.0722f * shown.z;
@@ -45,7 +45,7 @@ ImU32 colorOf(bool grey, const std::array<float, 3>& color, float alpha) {
 
 }  // namespace
 
-// Where values and opacities lie on the screen.
+// Conversion between the screen and values and opacities.
 struct TransferPanel::Plot {
     ImVec2 from, size;
     ValueView view;
@@ -73,7 +73,7 @@ void TransferPanel::forget() {
     mBars.clear();
 }
 
-// Once for a study, beside the frames.
+// Counts the values of a study, once, beside the frames.
 void TransferPanel::count(const std::shared_ptr<const StudyValues>& values) {
     if (values != mValues) {
         forget();
@@ -90,11 +90,11 @@ void TransferPanel::count(const std::shared_ptr<const StudyValues>& values) {
         mCounts = mCounting.get();
         mBars.clear();
     } catch (const std::exception&) {
-        mCounts.reset();  // a curve without a histogram is still a curve
+        mCounts.reset();  // the curve is useful without a histogram, too
     }
 }
 
-// What is set counts, however it came about; while it is dragged, the hand does.
+// Follows the options that are set, except while the curve is dragged.
 void TransferPanel::follow(const SceneChanges& changes, const ShownValues& shown) {
     const std::string text = changes.valueOf(*viewOption("transfer")).value_or("");
     if (!isCurveText(text))
@@ -186,14 +186,14 @@ void TransferPanel::drawIsovalue(const Plot& plot) {
                            {x, plot.from.y + 0.5f * font}, color);
 }
 
-// Under the curve, in bands of one colour each.
+// Draws the colours below the curve, in bands of one colour each.
 void TransferPanel::drawColors(const Plot& plot, bool grey) {
     const auto& points = mCurve.points();
     if (points.empty()) return;
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    constexpr float kAlpha = 0.4f, kBand = 3;  // pixels
+    constexpr float kAlpha = 0.4f, kBand = 3;  // in pixels
     const float bottom = plot.end().y;
-    // Bands that were smoothed at their edges would show seams.
+    // Bands with smoothed edges would show seams.
     const ImDrawListFlags flags = std::exchange(list.Flags, list.Flags & ~ImDrawListFlags_AntiAliasedFill);
     for (std::size_t n = 0; n <= points.size(); ++n) {
         const CurvePoint &from = points[n > 0 ? n - 1 : 0], &to = points[n < points.size() ? n : n - 1];
@@ -216,7 +216,7 @@ void TransferPanel::drawColors(const Plot& plot, bool grey) {
     list.Flags = flags;
 }
 
-// Constant beyond its ends.
+// Draws the curve, which is constant beyond its ends.
 void TransferPanel::drawCurve(const Plot& plot) {
     const auto& points = mCurve.points();
     if (points.empty()) return;
@@ -303,7 +303,7 @@ void TransferPanel::usePointer(SceneChanges& changes, const Plot& plot) {
 
 void TransferPanel::drag(SceneChanges& changes, const Plot& plot, const ImVec2& pointer) {
     if (mHeld == Held::Isovalue) {
-        // Where nothing has the value there is no surface.
+        // There is no surface at values that do not occur.
         const ValueSpan& range = mValues->range;
         const double value =
             std::clamp(plot.view.rounded(plot.valueAt(pointer.x)),

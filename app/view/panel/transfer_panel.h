@@ -1,4 +1,4 @@
-// The transfer function of a volume over a histogram of its values, to be edited, and its isovalue.
+// Editor for a volume's transfer function, over a histogram of its values, and for its isovalue.
 #pragma once
 
 #include <future>
@@ -19,11 +19,11 @@ namespace stereonav {
 class TransferPanel {
 public:
     ~TransferPanel() { forget(); }
-    // Whether the scene has one.
+    // Returns whether the scene has a transfer function.
     static bool has(const Scene& scene);
-    // grey: colours are shown so, under glasses that split them.
+    // grey: shows colours as grey, for glasses that separate colours.
     void draw(SceneChanges& changes, const ViewSession& session, bool grey);
-    void forget();  // what is counted, and what was
+    void forget();  // drops histograms, also one that is being counted
 
 private:
     enum class Held { Nothing, Point, Isovalue };
@@ -48,20 +48,20 @@ private:
     std::string withUnit(double value) const;
 
     std::shared_ptr<const StudyValues> mValues;
-    std::shared_ptr<Progress> mProgress;  // of what is counted
+    std::shared_ptr<Progress> mProgress;  // progress of the count
     std::future<ValueCounts> mCounting;
     std::optional<ValueCounts> mCounts;
     std::vector<float> mBars;
     ValueView mBarsOf;
 
     TransferCurve mCurve{TransferFunction()};
-    std::string mText;  // that was set from mCurve
+    std::string mText;  // text that was set from mCurve
     std::optional<double> mIsovalue;
     ValueView mAll, mView;
     bool mZoomed = false;
     Held mHeld = Held::Nothing;
-    std::size_t mPoint = TransferCurve::kNone;  // that is held, or whose colour is chosen
-    double mFromValue = 0, mFromOpacity = 0;    // from the pointer to what is held
+    std::size_t mPoint = TransferCurve::kNone;  // point that is dragged, or whose colour is chosen
+    double mFromValue = 0, mFromOpacity = 0;    // from the pointer to the dragged point
 };
 
 }  // namespace stereonav

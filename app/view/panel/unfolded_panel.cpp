@@ -26,12 +26,12 @@ namespace stereonav {
 namespace {
 
 constexpr double kMostEnlarged = 16, kZoomStep = 1.25;
-constexpr double kWheelShare = 0.15;  // of the width that is seen, a notch
-constexpr double kScaleRows = 22;     // pixels of the scale below the wall that are seen too
-constexpr double kOnWall = 0.02;      // metres from the wall: what is farther is not of it
-constexpr double kClickAway = 0.04;   // metres from the wall that a click flies to, where there is room
-constexpr double kBetweenPaints = 1;  // seconds, at least
-constexpr int kMostTexels = 8192;     // along a side, which every graphics card has
+constexpr double kWheelShare = 0.15;  // share of the visible width per notch
+constexpr double kScaleRows = 22;     // visible pixels of the scale below the wall
+constexpr double kOnWall = 0.02;      // metres: places farther from the wall do not belong to it
+constexpr double kClickAway = 0.04;   // metres that a click flies to from the wall, where there is room
+constexpr double kBetweenPaints = 1;  // least seconds from one to the next
+constexpr int kMostTexels = 8192;     // on each side; available on every graphics card
 constexpr ImU32 kFlatEyeColor = IM_COL32(210, 120, 0, 255), kFlatSeenColor = IM_COL32(20, 90, 220, 255),
                 kFlatMarkColor = IM_COL32(180, 20, 60, 255), kFlatTextColor = IM_COL32(20, 20, 20, 255),
                 kHalo = IM_COL32(255, 255, 255, 220);
@@ -40,7 +40,7 @@ ImVec2 unitsPoint(const glm::dvec2& at) {
     return {static_cast<float>(at.x), static_cast<float>(at.y)};
 }
 
-// What the scene is painted with, and over it what is painted while one flies; null: nothing.
+// Returns the scene's paint, with paint that changes in flight over it; null: no paint.
 FlatTint tintOf(const Scene& scene, const std::shared_ptr<const EyePainter>& over) {
     std::vector<std::shared_ptr<const EyePainter>> painters;
     if (const auto* const paint = scene.offered<SurfacePaint>()) painters = paint->painters();
@@ -78,7 +78,7 @@ void UnfoldedPanel::forgetPicture() {
     mMarks.clear();
 }
 
-// A scene that is gone is not kept for its wall.
+// Stops showing the wall, and drops the views of a scene that is gone.
 void UnfoldedPanel::hide(const ViewSession* session, Instruments& instruments) {
     mark(instruments, std::nullopt);
     if (!session || mOf.lock() == session->open().scene) return;
@@ -88,7 +88,7 @@ void UnfoldedPanel::hide(const ViewSession* session, Instruments& instruments) {
     mOf.reset();
 }
 
-// What is not looked at any more is not waited for.
+// Shows another view, and cancels work on the one before.
 void UnfoldedPanel::show(ViewOfWall view) {
     if (view == mView) return;
     mView = view;
@@ -98,7 +98,7 @@ void UnfoldedPanel::show(ViewOfWall view) {
     mViews[mMaking].begun = false;
 }
 
-// What was made for a scene that is gone, or cancelled for another view, is dropped.
+// Takes a view that was made; drops it where it is of another scene, or was cancelled.
 void UnfoldedPanel::takeMade(const std::shared_ptr<const Scene>& scene) {
     View& view = mViews[mMaking];
     const auto tell = [&](const std::string& problem) {
@@ -117,7 +117,7 @@ void UnfoldedPanel::takeMade(const std::shared_ptr<const Scene>& scene) {
     }
 }
 
-// Nothing is begun before the thread of the last one has ended.
+// Begins a view, but not before the thread of the last one has ended.
 void UnfoldedPanel::make(const ViewSession& session) {
     const std::shared_ptr<const OpenScene>& open = session.openShared();
     if (mOf.lock() != open->scene) {
@@ -144,7 +144,7 @@ void UnfoldedPanel::make(const ViewSession& session) {
         [] { Window::wake(); });
 }
 
-// What was seen changes while one flies; the last picture stays until the next is there.
+// Paints the view again where coverage has changed in flight; the last picture stays until then.
 void UnfoldedPanel::repaint(const ViewSession& session) {
     if (auto painted = mPainting.take())
         for (View& view : mViews)
@@ -166,7 +166,7 @@ void UnfoldedPanel::draw(ViewSession& session, Instruments& instruments, const V
                          const std::optional<glm::dvec3>& pointed) {
     make(session);
     repaint(session);
-    if (made().flat && !mTexture.any()) {  // another picture, or the window's context is another one
+    if (made().flat && !mTexture.any()) {  // another picture, or another context of the window
         const int longest = std::max(made().picture.width(), made().picture.height());
         mTexture.set(made().picture, true, (longest + kMostTexels - 1) / kMostTexels);
     }
@@ -227,7 +227,7 @@ void UnfoldedPanel::drawControls(ViewSession& session) {
                 : "All of the wall, with a mark for each centimetre of the line, and a square centimetre.");
 }
 
-// With what of the scale below the wall is seen too.
+// Returns the visible rows, including those of the scale below the wall.
 double UnfoldedPanel::rowsSeen() const {
     const double scale = made().picture.height() - made().flat->height();
     return made().flat->height() + std::min(kScaleRows, scale);
@@ -279,7 +279,7 @@ const std::vector<glm::dvec2>& UnfoldedPanel::find(Found& found, const glm::dvec
     return found.pixels;
 }
 
-// A line where the eye is, with an arrow the way that it looks, and a ring around what it looks at.
+// Draws a line at the eye, with an arrow in its direction, and a ring around the place that it looks at.
 void UnfoldedPanel::drawEye(const ViewSession& session, const ViewFrame* frame, const Part& part,
                             double column) {
     ImDrawList& list = *ImGui::GetWindowDrawList();

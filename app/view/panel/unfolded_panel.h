@@ -1,5 +1,6 @@
-// The wall along the line, below the flight, laid flat or as it is seen from both ends: what is looked at is
-// marked in both, and a click flies there. Each view is made beside the window when it is first shown.
+// The wall along the line, below the flight, laid flat or as seen from both ends. The place that the eye
+// looks at is marked in both, and a click flies there. Each view is made beside the window when it is first
+// shown.
 #pragma once
 
 #include <array>
@@ -20,17 +21,17 @@ namespace stereonav {
 
 class UnfoldedPanel {
 public:
-    static bool has(const ViewSession* session);  // whether the scene has a wall that can lie flat
+    static bool has(const ViewSession* session);  // whether the scene has a wall that can be laid flat
 
-    // Into all of the room that there is.
-    // frame: the newest, null before it; pointed: what is under the pointer in the flight.
+    // Draws into all of the available room. frame: the newest, null before the first; pointed: place under
+    // the pointer in the flight.
     void draw(ViewSession& session, Instruments& instruments, const ViewFrame* frame,
               const std::optional<glm::dvec3>& pointed);
-    // It is not drawn: its mark in the flight goes, and what is of another scene. session: null before the
-    // first.
+    // To be called where the panel is not drawn: removes its mark in the flight, and views of another scene.
+    // session: null before the first.
     void hide(const ViewSession* session, Instruments& instruments);
-    void forget();  // what belongs to the window's context
-    // Of the view that is chosen; null until it is there.
+    void forget();  // frees objects of the window's context
+    // Returns the chosen view; null until it is made.
     const FlatPicture* flat() const { return made().flat.get(); }
     bool fromBothEnds() const { return mView == kBothEnds; }
 
@@ -39,23 +40,23 @@ private:
         std::shared_ptr<const OpenScene> open;  // outlives the picture
         std::shared_ptr<const FlatPicture> flat;
         Plane<PackedColor> picture;
-        std::shared_ptr<const EyePainter> paint;  // over the scene's own, that it has
+        std::shared_ptr<const EyePainter> paint;  // paint of the picture over the scene's own
     };
     enum ViewOfWall : std::size_t { kLaidFlat, kBothEnds, kViews };
     struct View {
         Made made;
-        bool begun = false;   // it is not begun again by itself
-        std::string problem;  // why there is none, one line
+        bool begun = false;   // it is not begun again automatically
+        std::string problem;  // reason why there is none, one line
     };
-    // Which part is seen: units of the interface for a pixel, and the pixel in the upper left corner.
+    // The visible part: units of the interface per pixel, and the pixel in the upper left corner.
     struct Part {
-        glm::dvec2 from{0.0}, size{0.0};  // units, of the box
+        glm::dvec2 from{0.0}, size{0.0};  // box in units
         double scale = 1;
         glm::dvec2 corner{0.0};
         glm::dvec2 pixelAt(const glm::dvec2& at) const { return corner + (at - from) / scale; }
         glm::dvec2 unitsOf(const glm::dvec2& pixel) const { return from + (pixel - corner) * scale; }
     };
-    // Where the wall next to a place shows, kept until another one is asked for.
+    // The pixel of the wall next to a place, kept until another place is asked for.
     struct Found {
         glm::dvec3 world{0.0};
         std::vector<glm::dvec2> pixels;
@@ -83,18 +84,18 @@ private:
     void save(ViewSession& session);
 
     BesideWork<Made> mWork, mPainting;
-    ViewOfWall mMaking = kLaidFlat;        // by mWork
-    std::weak_ptr<const Scene> mMakingOf;  // the same
-    double mPaintNext = 0;                 // of the window's clock
-    std::weak_ptr<const Scene> mOf;        // whose views there are
+    ViewOfWall mMaking = kLaidFlat;        // view that mWork makes
+    std::weak_ptr<const Scene> mMakingOf;  // scene that mWork makes it of
+    double mPaintNext = 0;                 // time of the next repainting on the window's clock
+    std::weak_ptr<const Scene> mOf;        // scene of the views
     std::array<View, kViews> mViews;
     ViewOfWall mView = kLaidFlat;
-    PanelTexture mTexture;  // of the picture that is shown
-    std::string mUnder;     // one line
+    PanelTexture mTexture;  // texture of the picture that is shown
+    std::string mUnder;     // description of the place under the pointer, one line
     BesideWork<std::string> mSaving;
     std::array<std::string, kViews> mFiles{"unfolded.png", "panorama.png"};
-    double mZoom = 1;         // 1: as high as the box
-    glm::dvec2 mCorner{0.0};  // pixels
+    double mZoom = 1;         // 1: the wall fills the height of the box
+    glm::dvec2 mCorner{0.0};  // in pixels
     bool mFollows = true, mDragged = false, mMarked = false;
     Found mAhead, mPointed;
     std::vector<Found> mMarks;
