@@ -52,13 +52,14 @@ void AskedFrames::setPresent(FrameRequest request, const ViewSession& session, c
     mPresent.scale = mPresent.effort = 1;
 }
 
-// Truths and pictures that are saved are whole. saves: one of those is asked for or waits.
+// Returns the size of the next frame. Truths and pictures that are saved are whole. saves: one of those is
+// asked for or waits.
 FrameGovernor::Size AskedFrames::sizeNow(ViewSession& session, bool saves, const ViewOptions& options,
                                          double refresh) {
-    constexpr double kMost = 40;   // milliseconds: what is seen for longer lags behind
-    constexpr double kMedium = 4;  // times: a smaller picture of a medium saves less
+    constexpr double kMost = 40;   // milliseconds: frames that take longer lag visibly
+    constexpr double kMedium = 4;  // factor: a smaller picture of a medium saves less
     constexpr double kFirst =
-        800;  // at rest, as frames take in flight, beside the warp: those of more wait for a smaller one
+        800;  // milliseconds of a frame at rest: scenes that need more time first show a smaller one
     const Scene& scene = *session.open().scene;
     const bool swept = scene.offered<SweepPlace>() != nullptr;
     mGovernor.setMedium(swept, scene.offered<FrameEffort>() != nullptr);
@@ -71,7 +72,7 @@ FrameGovernor::Size AskedFrames::sizeNow(ViewSession& session, bool saves, const
     if (!options.lateWarp || whole) return {};
     if (session.flying()) return {mGovernor.scale(), mGovernor.effort()};
     if (!swept) return {};
-    if (!mRestSize) mRestSize = mGovernor.sizeWithin(kFirst);  // until something moves again
+    if (!mRestSize) mRestSize = mGovernor.sizeWithin(kFirst);  // kept until something moves again
     return *mRestSize;
 }
 

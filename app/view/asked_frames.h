@@ -1,5 +1,5 @@
-// Which frames are asked for: where the eyes will be when a frame is seen, how large it is cast, and how far
-// beyond what is shown. Learns from the frames that came. No window and no clock.
+// Chooses which frames to ask for: where the eyes will be when a frame is seen, how large it is cast, and how
+// far beyond the picture. Learns from the frames that came. Needs no window and no clock.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -16,25 +16,25 @@ namespace stereonav {
 
 class AskedFrames {
 public:
-    // Another session has begun: frames that were asked for before are not its own.
+    // Begins another session: frames that were asked for earlier belong to the one before.
     void begin(ViewSession& session);
 
-    // What the session wants to see. composed: pixels of the picture of both eyes; refresh: of the monitor;
-    // now: seconds. Returns what was not asked for yet; none mostly.
+    // Returns the frame that the session needs, unless it has already been asked for. composed: pixels of the
+    // picture of both eyes; refresh: of the monitor; now: seconds.
     std::optional<FrameRequest> next(ViewSession& session, Screenshots& screenshots,
                                      const ViewOptions& options, const glm::ivec2& composed, double refresh,
                                      double now);
 
-    // A frame of this session has come.
+    // Notes a frame of this session that has come.
     void came(const ViewFrame& frame, double now);
-    // The eyes saw so far beyond a frame that was warped (LateView::seenBeyond).
+    // Notes how far the eyes saw beyond a frame that was warped (LateView::seenBeyond).
     void saw(const glm::dvec2& beyond, double now) { mGuard.saw(beyond, now); }
 
-    // The picture for now, in full, which a frame is warped to.
+    // Returns the request for the present moment, in full size, which frames are warped to.
     const FrameRequest& present() const { return mPresent; }
     bool ofSession(const ViewFrame& frame) const { return frame.request.version > mSince; }
     bool isNewest(const ViewFrame& frame) const { return frame.request.version == mAsked; }
-    // Whether a frame is not of this moment, and can be seen from where the eyes are now.
+    // Returns whether a frame is not of this moment, but can be warped to the present place of the eyes.
     bool warps(const ViewFrame* frame, bool lateWarp) const;
 
 private:
@@ -45,8 +45,8 @@ private:
     LateLead mLead;
     FrameGovernor mGovernor;
     GuardBand mGuard;
-    std::optional<FrameGovernor::Size> mRestSize;  // of the first picture at rest
-    long long mAsked = 0, mSince = 0;              // versions: asked for last, and before this session
+    std::optional<FrameGovernor::Size> mRestSize;  // size of the first picture at rest
+    long long mAsked = 0, mSince = 0;              // versions: asked for last, last before this session
 };
 
 }  // namespace stereonav

@@ -15,11 +15,11 @@
 
 namespace stereonav {
 
-// On the thread that makes frames, when the flight is over.
+// Results that the thread that makes frames computes when the flight is over.
 struct BenchFlight::Judgement {
     Progress progress;
     std::atomic<bool> done = false;
-    Facts times;  // without what is judged, where the window is closed meanwhile
+    Facts times;  // times, without the errors, for a window that is closed meanwhile
 };
 
 void BenchFlight::cast(const ViewFrame& frame) {

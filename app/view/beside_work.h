@@ -1,4 +1,5 @@
-// One piece of work at a time on a thread of its own, beside the window's: nothing is there before start().
+// One piece of work at a time on a thread of its own, beside the window's thread. There is no thread before
+// start().
 #pragma once
 
 #include <algorithm>
@@ -23,15 +24,15 @@ public:
     BesideWork() = default;
     BesideWork(const BesideWork&) = delete;
     BesideWork& operator=(const BesideWork&) = delete;
-    ~BesideWork() { cancel(); }  // and waits for the end
+    ~BesideWork() { cancel(); }  // waits for the end
 
     bool busy() const { return mWork.valid(); }
     double fraction() const { return mFraction; }
-    // take() throws Cancelled soon, also where the work comes to its end all the same, or fails.
+    // Cancels the work: take() then throws Cancelled soon, even where the work finishes or fails.
     void cancel() {
         if (mProgress) mProgress->cancel();
     }
-    // Not while busy. wake: called from that thread when it is done.
+    // Starts work; not allowed while busy. wake: called from the other thread when it is done.
     void start(Work work, std::function<void()> wake) {
         mFraction = 0;
         mProgress = std::make_unique<Progress>(
@@ -45,7 +46,7 @@ public:
                                return work(progress);
                            });
     }
-    // None while it is not done, or nothing was started; throws what the work threw.
+    // Returns the result; empty while it is not done, or nothing was started. Throws the work's exceptions.
     std::optional<Result> take() {
         if (!busy() || mWork.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
             return std::nullopt;
@@ -61,8 +62,8 @@ public:
 
 private:
     std::atomic<double> mFraction = 0;
-    std::unique_ptr<Progress> mProgress;  // of this work alone
-    std::future<Result> mWork;            // last: its end is waited for first
+    std::unique_ptr<Progress> mProgress;  // progress of the present work
+    std::future<Result> mWork;            // last member: its end is waited for first
 };
 
 }  // namespace stereonav

@@ -49,7 +49,7 @@ bool isPlaces(const json& file) {
            std::all_of(file["places"].begin(), file["places"].end(), isPlace);
 }
 
-// A picture's name in a file: no path leads elsewhere.
+// Returns the file of a picture beside the list; a name with folders leads nowhere else.
 fs::path besides(const fs::path& folder, const std::string& name) {
     if (name.empty() || name.find('/') != std::string::npos || name[0] == '.') return {};
     return folder / name;
@@ -102,7 +102,7 @@ void checkMark(const Bookmark& mark) {
 
 std::string fullName(const std::string& scene) {
     std::error_code code;
-    if (fs::path(scene).is_relative() || !fs::exists(scene, code)) return scene;  // built in
+    if (fs::path(scene).is_relative() || !fs::exists(scene, code)) return scene;  // built-in scene
     const fs::path full = fs::canonical(scene, code);
     return code ? scene : full.string();
 }
@@ -129,7 +129,7 @@ const Bookmark* Bookmarks::find(const std::string& name) const {
     return found == mList.end() ? nullptr : &*found;
 }
 
-// What can not be kept stays as it is here.
+// Reads the list again. Places that could not be saved are kept in memory.
 void Bookmarks::read() {
     if (mFile.empty() || mUnkept) return;
     const std::optional<json> file = readKeptJson(mFile, isPlaces, mProblem);
@@ -193,7 +193,7 @@ std::string Bookmarks::add(const Bookmark& bookmark, const Plane<PackedColor>* t
             writeKept(file, std::string(bytes.begin(), bytes.end()));
             mark.thumbnail = file;
         } catch (const Error&) {
-            // The place is kept without; where nothing can be written that is told below.
+            // The place is kept without a picture; where nothing can be written a notice says so below.
         }
     mList.push_back(mark);
     write();
@@ -205,7 +205,7 @@ std::string Bookmarks::rename(const std::string& name, const std::string& to) {
     const auto found =
         std::find_if(mList.begin(), mList.end(), [&](const Bookmark& mark) { return mark.name == name; });
     if (found == mList.end()) return "";
-    found->name.clear();  // not in its own way
+    found->name.clear();  // its own name must not count as taken
     found->name = nameLike(to);
     const std::string now = found->name;
     write();

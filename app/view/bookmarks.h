@@ -1,5 +1,5 @@
-// Places of a scene that a person has named, kept for that scene's file between runs, with the eyes' setting
-// and a small picture each.
+// Named places of a scene, kept for that scene's file between runs, each with the eyes' setting and a small
+// picture.
 #pragma once
 
 #include <filesystem>
@@ -14,38 +14,39 @@
 namespace stereonav {
 
 struct Bookmark {
-    std::string name;  // of this list alone
+    std::string name;  // unique in this list
     Pose pose;
     std::optional<StereoSetting> stereo;
-    std::string settings;             // whatever its maker wants back: lines KEY=VALUE; "" for none
-    std::filesystem::path thumbnail;  // a PNG file; "" without
+    std::string settings;             // lines KEY=VALUE for whoever made the place; "" for none
+    std::filesystem::path thumbnail;  // a PNG file; "" for none
 };
 
-// One JSON file for each scene, in dataFolder()/places, named by a hash of the scene's full path. What
-// another window has written since is read before each change. One thread.
+// One JSON file per scene, in dataFolder()/places, named by a hash of the scene's full path. Changes by other
+// windows are read before each change. To be used by one thread.
 class Bookmarks {
 public:
     static constexpr std::size_t kMost = 1000, kLongestName = 200, kLongestSettings = 64 << 10;
 
     // scene: a file or folder, or the name of a built-in scene. folder: "" keeps nothing.
     explicit Bookmarks(const std::string& scene, const std::filesystem::path& folder = placesFolder());
-    static std::filesystem::path placesFolder();  // "" where there is no home
+    static std::filesystem::path placesFolder();  // "" where there is no home directory
 
     const std::vector<Bookmark>& list() const { return mList; }
-    // Another one whenever the list was read or changed; from 1 on.
+    // Returns a number that changes whenever the list was read or changed; at least 1.
     int version() const { return mVersion; }
-    // The place of that name, null where there is none.
+    // Returns the place of that name, null where there is none.
     const Bookmark* find(const std::string& name) const;
 
-    // Its name, made unlike the others ("ridge 2"); "" is "place 1" and on. thumbnail: null for none; in any
-    // size. Throws Error for a pose or eyes that are not finite, and for more than kMost.
+    // Adds a place and returns its name, made unique ("ridge 2"); "" becomes "place 1" and so on. thumbnail:
+    // null for none; in any size. Throws Error for a pose or eyes that are not finite, and for more than
+    // kMost.
     std::string add(const Bookmark& bookmark, const Plane<PackedColor>* thumbnail = nullptr);
-    // The new name, made unlike the others; "" where there is no place of the old one.
+    // Renames a place and returns the new name, made unique; "" where there is no place of the old name.
     std::string rename(const std::string& name, const std::string& to);
     bool remove(const std::string& name);
 
-    // What went wrong since the last call, one line; "": nothing. Without a folder that can be written places
-    // count until the window closes; that is told once.
+    // Returns the failure since the last call, one line; "" for none. Without a folder that can be written
+    // places last until the window closes; that is reported once.
     std::string takeProblem();
     const std::filesystem::path& file() const { return mFile; }
 
@@ -56,7 +57,7 @@ private:
     std::filesystem::path newThumbnail() const;
 
     std::string mScene;
-    std::filesystem::path mFile;  // "" keeps nothing
+    std::filesystem::path mFile;  // "": nothing is kept
     std::vector<Bookmark> mList;
     int mVersion = 1;
     std::string mProblem;

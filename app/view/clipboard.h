@@ -1,4 +1,4 @@
-// Copies texts of panels, and says so in the window.
+// Copies texts of panels to the clipboard, with a notice in the window.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace stereonav {
 
 class Clipboard {
 public:
-    // Both outlive this.
+    // window and session must outlive this object.
     Clipboard(Window& window, std::optional<ViewSession>& session) : mWindow(window), mSession(session) {}
 
     void copy(const std::string& text) const {

@@ -1,5 +1,5 @@
-// Whether the window may close while something is at work that would end with it: the first wish asks, and a
-// second one soon after it is the answer.
+// Asks before the window closes while work would be lost: the first wish to close asks, and a second one soon
+// after it is the answer.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,12 @@ namespace stereonav {
 
 class ClosingQuestion {
 public:
-    static constexpr double kAsked_s = 10;  // how long the question stands
+    static constexpr double kAsked_s = 10;  // duration of the question
 
-    // work: what would end, as "a movie, which is lost". now: seconds, of any clock. Whether to close.
+    // Returns whether to close. work: what would be lost, such as "a movie, which is lost". now: seconds of
+    // any clock.
     bool wish(const std::vector<std::string>& work, double now);
-    // The question while it stands; "" else.
+    // Returns the question while it stands; otherwise "".
     std::string text(const std::vector<std::string>& work, double now) const;
     void goOn() { mAsked.reset(); }
 

@@ -11,8 +11,8 @@ namespace stereonav {
 namespace {
 
 constexpr int kControlsWidth = 1180,
-              kControlsHeight = 760;  // screen units: both columns and a picture between them
-constexpr glm::vec3 kGround{0.06f};   // behind the picture, as in the first window nearly black
+              kControlsHeight = 760;  // in screen units: for both columns and a picture between them
+constexpr glm::vec3 kGround{0.06f};   // background of the picture, nearly black as in the first window
 
 }  // namespace
 
@@ -21,17 +21,17 @@ ControlWindow::ControlWindow(const Window& first, const InterfaceLook& look)
       mWindow("stereonav - controls", kControlsWidth, kControlsHeight, first),
       mInterface(mWindow) {
     InterfaceLook own = look;
-    own.scale = mInterface.look().scale;  // of the monitor it is on
-    own.grey = false;                     // nobody looks at it through coloured glasses
+    own.scale = mInterface.look().scale;  // scale of the monitor that it is on
+    own.grey = false;                     // not seen through coloured glasses
     mInterface.setLook(own);
     mFirst.use();
 }
 
 ControlWindow::~ControlWindow() {
-    mWindow.use();  // its members' objects are deleted in their own context
+    mWindow.use();  // objects of the members are deleted in their own context
 }
 
-// Not many more pixels than are shown: those that are passed over would flicker.
+// Takes a picture with not many more pixels than are shown: sampling larger ones would flicker.
 void ControlWindow::takePicture(const ViewFrame& frame) {
     const Plane<PackedColor>& eye = frame.left.color;
     const glm::ivec2 wanted = glm::max(glm::ivec2(mSize), glm::ivec2(1));

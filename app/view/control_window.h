@@ -1,6 +1,5 @@
-// A second window that has all panels, so that the first one shows nothing but the eyes' pictures: for a
-// projector, glasses or a television beside the desk. Between the panels lies a small picture of the left
-// eye.
+// A second window with all panels, so that the first one shows only the eyes' pictures: for a projector,
+// glasses or a television beside the desk. Between the panels lies a small picture of the left eye.
 #pragma once
 
 #include <functional>
@@ -15,7 +14,7 @@ namespace stereonav {
 
 class ControlWindow {
 public:
-    // The first window's context is current afterwards, and after each call. Throws Error where the driver
+    // Makes the first window's context current afterwards, as all functions do. Throws Error where the driver
     // grants no second window.
     ControlWindow(const Window& first, const InterfaceLook& look);
     ~ControlWindow();
@@ -25,13 +24,14 @@ public:
     Interface& interface() { return mInterface; }
     const Interface& interface() const { return mInterface; }
 
-    // drawPanels: lays them out. fresh: the frame is another one than in the last call; null: there is none.
+    // Draws the window. drawPanels: lays out the panels. fresh: the frame differs from that of the last call;
+    // null: there is none.
     void draw(const Panels& panels, const std::function<void()>& drawPanels, const ViewFrame* frame,
               bool fresh, double dt);
 
-    // A place of this window, shares of its size, in the picture, shares of that one's.
+    // Converts a place of this window, as shares of its size, to shares of the picture's size.
     glm::dvec2 placeInPicture(const glm::dvec2& share) const;
-    double pictureHeight() const;  // of the small one, screen units; 0: there is none
+    double pictureHeight() const;  // height of the small picture in screen units; 0: there is none
 
 private:
     void takePicture(const ViewFrame& frame);
@@ -40,8 +40,8 @@ private:
     Window mWindow;
     Interface mInterface;
     PanelTexture mPicture;
-    glm::vec2 mCorner{0}, mSize{0};  // of the small picture, units of the interface
-    glm::ivec2 mMade{0};             // pixels it was made for
+    glm::vec2 mCorner{0}, mSize{0};  // place of the small picture in units of the interface
+    glm::ivec2 mMade{0};             // size in pixels that it was made for
     bool mStale = true;
 };
 

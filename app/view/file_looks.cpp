@@ -9,7 +9,7 @@
 namespace stereonav {
 namespace {
 
-// What the pointer only passes over is not read.
+// Delay before a file is read, so that files that the pointer only passes are not.
 constexpr std::chrono::milliseconds kPatience{120};
 
 }  // namespace
@@ -55,7 +55,7 @@ void FileLooks::run() {
     std::unique_lock lock(mMutex);
     while (true) {
         mWished.wait(lock, [this] { return mEnd || mWish; });
-        // Until the wish has stood for a moment.
+        // Waits until the wish has not changed for a moment.
         for (auto wish = mWish; !mEnd; wish = mWish) {
             mWished.wait_for(lock, kPatience, [&] { return mEnd || mWish != wish; });
             if (mWish == wish) break;
@@ -70,7 +70,7 @@ void FileLooks::run() {
         try {
             look = lookAt(stamp, *progress);
         } catch (const Cancelled&) {
-            // another one is wished
+            // Another file is wished for.
         }
         lock.lock();
         mProgress = nullptr;

@@ -1,5 +1,5 @@
-// What files are before they are opened, read beside the window: one at a time, the one that was asked for
-// last; another wish ends the one before.
+// Descriptions of files before they are opened, read beside the window: one at a time, the latest wish first;
+// another wish cancels the one before.
 #pragma once
 
 #include <condition_variable>
@@ -21,8 +21,8 @@ namespace stereonav {
 
 struct FileLook {
     bool busy = false;
-    std::vector<std::pair<std::string, std::string>> rows;  // label, words
-    std::string problem;                                    // one line, where it is none that can be opened
+    std::vector<std::pair<std::string, std::string>> rows;  // label and text
+    std::string problem;                                    // one line, for files that can not be opened
 };
 
 class FileLooks {
@@ -30,14 +30,14 @@ public:
     using Glance = std::function<Facts(const std::string& file, Progress& progress)>;
     static constexpr std::size_t kMostKept = 64;
 
-    // ready: called by the thread when a look is there. glance: glanceAt(), but for tests.
+    // ready: called by the thread when a description is there. glance: glanceAt(); tests use another one.
     explicit FileLooks(std::function<void()> ready, Glance glance = {});
     ~FileLooks();
     FileLooks(const FileLooks&) = delete;
     FileLooks& operator=(const FileLooks&) = delete;
 
-    // What is known of it; asks for what is not, which goes before what was asked for so far. A file that was
-    // changed since is looked at again.
+    // Returns what is known of a file. What is not known is read, before earlier wishes. A file that has
+    // changed since is read again.
     FileLook look(const std::filesystem::path& file);
 
 private:
@@ -60,11 +60,11 @@ private:
     Glance mGlance;
     std::mutex mMutex;
     std::condition_variable mWished;
-    std::optional<Stamp> mWish, mNow;  // to be looked at, and being looked at
+    std::optional<Stamp> mWish, mNow;  // file to read, and file being read
     std::shared_ptr<Progress> mProgress;
     std::list<Kept> mKept;  // newest first
     bool mEnd = false;
-    std::thread mThread;  // from the first wish on
+    std::thread mThread;  // started by the first wish
 };
 
 }  // namespace stereonav

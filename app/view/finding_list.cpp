@@ -144,15 +144,15 @@ void FindingList::changed() {
     mTold.clear();
     judge();
     if (mFile.empty() || !maker()) return;
-    try {  // never the reason why a window ends
+    try {  // failures must not end the window
         writeKept(mFile, maker()->documentOf(refs()));
     } catch (const Error& error) {
         mProblem = error.what();
     }
 }
 
-// Notes and the summary, of what is measured. Candidates come after the findings, of which one may be among
-// them.
+// Sets notes and the summary of measured findings. Candidates are judged after findings, as one may be equal
+// to a finding.
 void FindingList::judge() {
     mSummary.clear();
     if (!maker()) return;
@@ -173,7 +173,7 @@ void FindingList::cancel() {
     mPage.clear(), mReport.clear();
 }
 
-// Those that are to be measured: first of all, or again for the values of a study that has come.
+// Returns the findings to measure: new ones, or all again for the values of a study that has come.
 std::vector<std::pair<int, SurfaceFinding>> FindingList::unmeasured(bool values) const {
     std::vector<std::pair<int, SurfaceFinding>> due;
     for (const Row& row : mRows)
@@ -206,7 +206,7 @@ void FindingList::start(const std::string& doing, bool values, Job job, bool wri
                        });
 }
 
-// The next thing that is to be done, if any.
+// Begins the next work, if there is any. Returns whether there was.
 bool FindingList::begin(const std::shared_ptr<const SliceStudy>& study) {
     if (auto due = unmeasured(study != nullptr); mUsed && !due.empty()) {
         start("measuring", study != nullptr,
@@ -259,23 +259,23 @@ bool FindingList::beginReport() {
 }
 
 void FindingList::take(Outcome outcome) {
-    if (mWorksFor != mOpened) {  // of a scene that is gone
+    if (mWorksFor != mOpened) {  // result of a scene that is gone
         if (mWrites) mProblem = outcome.problem;
         return;
     }
-    // It may have come to its end all the same: what was written is there.
+    // Work may finish in spite of a wish to cancel: a file that it wrote is there.
     if (mProgress->cancelled() && outcome.told.empty()) {
         outcome = {};
         outcome.told = kCancelled;
     }
     mTold = outcome.told;
     mProblem = outcome.problem;
-    // What fails is not tried again and again.
+    // Work that failed is not tried again.
     if (!mProblem.empty() || (mTold == kCancelled && mEnds)) mUsed = false, mStopped = true;
     for (auto& [id, finding] : outcome.measured) {
         const auto row = rowOf(mRows, id);
         if (row == mRows.end()) continue;
-        finding.comment = row->finding.comment;  // it may have been changed meanwhile
+        finding.comment = row->finding.comment;  // the comment may have changed meanwhile
         row->finding = std::move(finding);
         row->withValues = outcome.withValues;
     }

@@ -1,6 +1,6 @@
-// The window's list of findings: what a person clicked on the surface, what the scene measures there, and
-// candidates that it proposes; pages and reports of it. Measured beside the window, and kept for the scene's
-// file as it is made.
+// The window's list of findings: places that the user clicked on the surface, with the scene's measurements,
+// and candidates that it proposes; pages and reports of them. Measured beside the window, and kept for the
+// scene's file.
 #pragma once
 
 #include <atomic>
@@ -24,68 +24,70 @@ public:
     static constexpr std::size_t kMostComment = 1000;  // bytes
 
     struct Row {
-        int id = 0;  // of this list alone, never used twice
+        int id = 0;  // unique in this list, never used again
         SurfaceFinding finding;
-        bool withValues = false;  // it was measured while a study was there
-        std::string note;         // in this list; "": none. Of a candidate: which finding it is
+        bool withValues = false;  // whether a study's values were measured, too
+        std::string note;         // "": none; for a candidate: the finding that it equals
     };
 
     // wake: called from another thread when something is done.
     explicit FindingList(std::function<void()> wake) : mWake(std::move(wake)) {}
-    ~FindingList() { cancel(); }  // and waits for the end
+    ~FindingList() { cancel(); }  // waits for the end
 
-    // Of that scene from now on, with what was kept in `file`, which nothing is measured of yet; "" keeps
-    // nothing. A file that is being written of the scene before is written to its end.
+    // Begins a scene, with the findings kept in `file`, which are not measured yet; "" keeps nothing. A file
+    // that is being written for the scene before is completed.
     void open(std::shared_ptr<const Scene> scene, const std::filesystem::path& file);
-    // The same file, shown by another scene: what was measured stays.
+    // Goes on in another scene of the same file: measurements stay.
     void replaceScene(std::shared_ptr<const Scene> scene);
 
-    // What the scene offers; null: it measures no findings.
+    // Returns the scene's instrument; null: it measures no findings.
     const SurfaceFindings* maker() const { return mScene ? mScene->offered<SurfaceFindings>() : nullptr; }
     const std::filesystem::path& file() const { return mFile; }
-    bool clicks() const { return mClicks; }  // on the picture and in slices add findings
+    bool clicks() const { return mClicks; }  // whether clicks on the picture and in slices add findings
     void setClicks(bool on) { mClicks = on; }
 
     const std::vector<Row>& rows() const { return mRows; }
     const std::vector<Row>& candidates() const { return mCandidates; }
-    // In one line; "" while something is not measured.
+    // Returns the summary in one line; "" while something is not measured.
     const std::string& summary() const { return mSummary; }
 
-    // From now on what is listed is measured.
+    // Starts measuring the listed findings.
     void use() { mUsed = !mStopped; }
-    // It was cancelled or failed, and waits for goOn() or the next finding.
+    // Returns whether work was cancelled or failed; it then waits for goOn() or the next finding.
     bool stopped() const { return mStopped; }
     void goOn() { mStopped = mEnds = false, mUsed = true; }
-    // World. False: the list is full, or the scene measures none.
+    // Adds a finding at a place of the world. Returns false where the list is full, or the scene measures
+    // none.
     bool add(const glm::dvec3& place);
     void remove(int id);
     bool canPutBack() const { return !mRemoved.empty(); }
-    void putBack();  // what was removed last, at its place
+    void putBack();  // restores the last one that was removed, at its position
     void comment(int id, const std::string& text);
     void findCandidates() { mFindsCandidates = true; }
     void dropCandidates() { mCandidates.clear(); }
-    void keep(int id);  // a candidate becomes a finding
-    // An .html file; where one is there already the new one gets a number. Throws Error where it can not be.
+    void keep(int id);  // turns a candidate into a finding
+    // Writes an .html file; where the name is taken the new file gets a number. Throws Error where it can not
+    // be written.
     void writePage(const std::filesystem::path& file);
-    // A DICOM structured report, a .dcm file. Throws Error where it can not be.
+    // Writes a DICOM structured report, a .dcm file. Throws Error where it can not be written.
     void writeReport(const std::filesystem::path& file);
 
-    // Looks whether something is done, and begins the next. study: whose values are told, null while it is
-    // not there. True: there is something new.
+    // Takes finished work and begins the next. study: source of values, null while it is not there. Returns
+    // true where something has changed.
     bool poll(const std::shared_ptr<const SliceStudy>& study);
     bool busy() const { return mWork.valid(); }
-    const std::string& doing() const { return mDoing; }  // while busy
-    bool writes() const { return busy() && mWrites; }    // a file, which is not begun again
-    double fraction() const { return *mFraction; }       // of it
+    const std::string& doing() const { return mDoing; }  // name of the present work
+    bool writes() const { return busy() && mWrites; }    // whether it writes a file, which is not begun again
+    double fraction() const { return *mFraction; }       // progress of the work
     void cancel();
-    const std::string& told() const { return mTold; }        // of what was done last: "written to ..."
-    const std::string& problem() const { return mProblem; }  // "": none
+    const std::string& told() const { return mTold; }        // result of the last work: "written to ..."
+    const std::string& problem() const { return mProblem; }  // last failure; "": none
 
 private:
     struct Outcome {
         std::vector<std::pair<int, SurfaceFinding>> measured;
         std::vector<SurfaceFinding> candidates;
-        bool looked = false;  // for candidates
+        bool looked = false;  // whether candidates were searched
         bool withValues = false;
         std::string told, problem;
     };
@@ -105,18 +107,18 @@ private:
     std::shared_ptr<const Scene> mScene;
     std::filesystem::path mFile, mPage, mReport;
     std::vector<Row> mRows, mCandidates;
-    std::vector<std::pair<std::size_t, Row>> mRemoved;  // with the places that they had
+    std::vector<std::pair<std::size_t, Row>> mRemoved;  // with their positions in the list
     int mNext = 1, mOpened = 0, mWorksFor = 0;
     bool mUsed = false, mStopped = false, mClicks = false, mFindsCandidates = false;
-    bool mWrites = false;  // what is at work writes a file
-    bool mEnds = false;    // what is at work was cancelled, and nothing was asked for since
+    bool mWrites = false;  // the present work writes a file
+    bool mEnds = false;    // the present work was cancelled, and nothing was asked for since
     std::string mSummary, mTold, mProblem, mDoing;
     std::shared_ptr<std::atomic<double>> mFraction = std::make_shared<std::atomic<double>>(0);
     std::shared_ptr<Progress> mProgress;
-    std::future<Outcome> mWork;  // last: it is waited for at the end
+    std::future<Outcome> mWork;  // last: its end is waited for
 };
 
-// Where the findings of a scene are kept whose places are kept in that file (Bookmarks::file()); "" for "".
+// Returns the file for the findings of a scene, given the one for its places (Bookmarks::file()); "" for "".
 std::filesystem::path findingsFile(const std::filesystem::path& places);
 
 }  // namespace stereonav

@@ -9,7 +9,7 @@ namespace stereonav {
 namespace {
 
 const glm::u8vec3 kFinding(255, 214, 74), kCandidate(110, 190, 255);
-constexpr double kLift = 3e-4;  // metres towards the eye, since a pixel's depth is that of its middle
+constexpr double kLift = 3e-4;  // metres towards the eye, as a pixel's depth is that of its middle
 
 class Marker {
 public:
@@ -21,7 +21,8 @@ public:
         const SurfaceFinding& finding = row.finding;
         for (const glm::dvec3& place : finding.outline) point(place, "", ink);
         for (const glm::dvec3& place : finding.across) point(place, "", ink);
-        // The middle lies in the flesh: the label stands where the diameter's middle is on the wall.
+        // The middle of the diameter lies inside the tissue: the label stands on the nearest place of the
+        // wall.
         const glm::dvec3& at =
             finding.across.empty() ? finding.asked : finding.across[finding.across.size() / 2];
         point(at, label, ink);

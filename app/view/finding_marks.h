@@ -1,4 +1,4 @@
-// Findings over both eyes' pictures: their numbers, outlines and longest diameters, at their depth.
+// Marks of findings over both eyes' pictures: numbers, outlines and longest diameters, at their depth.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace stereonav {
 
-// What is hidden there is left out. letter: how high one is, pixels. guard: as of markOf().
+// Adds the visible marks. letter: height of letters in pixels. guard: see markOf().
 void addFindingMarks(const FindingList& findings, const FrameRequest& request, const Plane<float>& viewDepth,
                      const glm::ivec2& guard, float letter, std::vector<OverlayMark>& marks);
 

@@ -17,7 +17,7 @@ FlightRecording::~FlightRecording() {
     try {
         keepRecorded(finish());
     } catch (const std::exception&) {
-        // Nothing was flown, or it was told before that it can not be kept.
+        // Nothing was flown, or it has been reported that it can not be kept.
     }
 }
 
@@ -49,7 +49,7 @@ void FlightRecording::settle() {
     } catch (const std::exception& error) {
         mProblem = error.what();
         std::error_code code;
-        if (!std::filesystem::exists(mFile, code)) mFile.clear();  // it may become somebody else's
+        if (!std::filesystem::exists(mFile, code)) mFile.clear();  // others may make a file of this name
     }
 }
 
@@ -65,7 +65,7 @@ std::filesystem::path FlightRecording::keepRecorded(const RecordedPath& path) {
             writePath(file, path);
             return file;
         } catch (const Error&) {
-            // It was opened meanwhile, as a flight to play: what was read is not written over.
+            // A file that was opened meanwhile as a flight to play must not be overwritten.
         }
     return keep(path);
 }

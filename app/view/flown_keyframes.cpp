@@ -20,7 +20,7 @@ void FlownKeyframes::follow(ViewSession& session, Notices& notices) {
     if (mEdit.keys().size() > 1)
         notices.tryTo([&] {
             FlownPath flown = flownThrough(mEdit.keys(), session.flight());
-            // What was played before them can be had back.
+            // The flight that was played before the keyframes can be restored.
             if (mFlown)
                 session.paths().set(std::move(flown.path));
             else

@@ -1,4 +1,4 @@
-// Keyframes that a person moves about on the map, and the flight that follows them.
+// Keyframes that the user edits on the map, and the flight through them.
 #pragma once
 
 #include "app/view/keyframe_edit.h"
@@ -14,18 +14,18 @@ public:
     KeyframeEdit& edit() { return mEdit; }
     const KeyframeEdit& edit() const { return mEdit; }
 
-    // Another session begins.
+    // Ends the editing, for another session.
     void end() { mEdit.start({}); }
-    // The ground that they are over was raised, and the session's path with it.
+    // Moves the keyframes with ground whose heights changed; the session's path was moved with it.
     void raise(const RaisedGround& raised, const ViewSession& session);
-    // Each turn: the flight follows them, but not while one is dragged. Where another flight takes its place
-    // they end.
+    // Lets the flight follow the keyframes, except while one is dragged; to be called each turn. The editing
+    // ends where another flight takes the place of this one.
     void follow(ViewSession& session, Notices& notices);
 
 private:
     KeyframeEdit mEdit;
-    long long mSeen = 0, mPath = 0;  // versions: of the keyframes, and of the path beside them
-    bool mFlown = false;             // that path is theirs
+    long long mSeen = 0, mPath = 0;  // versions of the keyframes, and of the path made of them
+    bool mFlown = false;             // whether the session's path was made of them
 };
 
 }  // namespace stereonav

@@ -7,21 +7,21 @@
 namespace stereonav {
 namespace {
 
-constexpr double kTooSlow = 1.15;    // of the target: the size goes down
-constexpr double kFarTooSlow = 1.5;  // two frames are enough then
-constexpr double kHopeless = 8;      // one is; of a medium, whose next one would take seconds too, sooner
+constexpr double kTooSlow = 1.15;    // multiple of the target at which the size goes down
+constexpr double kFarTooSlow = 1.5;  // multiple at which two frames are enough for it
+constexpr double kHopeless = 8;      // multiple at which one frame is enough; kSlowMedium for media
 constexpr double kSlowMedium = 2.5;
-constexpr double kRoom = 0.95;      // of the target: what a larger size may cost
-constexpr std::size_t kLooked = 3;  // frames that are looked at
-// Of noise, such as another program's share of the processor: less of it changes nothing, and this much of it
-// is one more frame to look at before the size goes down or up.
+constexpr double kRoom = 0.95;      // share of the target that a larger size may cost
+constexpr std::size_t kLooked = 3;  // frames that decide
+// Noise, such as another program's use of the processor: less than kQuiet changes nothing; each kMoreDown or
+// kMoreUp of it requires one more frame before the size goes down or up.
 constexpr double kQuiet = 0.15, kMoreDown = 0.06, kMoreUp = 0.015;
 constexpr std::size_t kMostMoreDown = 5, kMostMoreUp = 27;
-constexpr double kNewestNoise = 0.06;  // of the newest difference in the mean
-constexpr double kFits = 0.85;         // share of the frames that have to have room in the larger size
-constexpr int kFirstHold = 2;          // frames before it goes up
+constexpr double kNewestNoise = 0.06;  // weight of the newest difference in the mean
+constexpr double kFits = 0.85;         // share of the frames that have to fit into the larger size
+constexpr int kFirstHold = 2;          // frames before the size goes up
 constexpr int kMostBackOff = 64;
-constexpr int kSteadyFrames = 120;  // that a step up has to last, so that failed ones are forgotten
+constexpr int kSteadyFrames = 120;  // duration of a larger size after which failed attempts are forgotten
 constexpr double kMostFixed = 0.8;
 constexpr double kSameScale = 1e-3;
 
@@ -65,7 +65,7 @@ double FrameGovernor::usual_ms() const {
     return mLast.empty() && !(mBefore > 0) ? 0 : predicted(mStep) / partOf(mArea, mStep);
 }
 
-// Two sizes tell what no size changes: cost = full * (fixed + (1 - fixed) * share).
+// Learns the constant part from two sizes: cost = full * (fixed + (1 - fixed) * share).
 void FrameGovernor::learn(double share, double ms) {
     if (!(mBefore > 0) || std::abs(share - mShareBefore) < 0.05) return;
     const double slope = (mBefore - ms) / (mShareBefore - share), none = ms - slope * share;
@@ -105,7 +105,7 @@ void FrameGovernor::stepDown() {
     step(to);
 }
 
-// Before frames of it come too late.
+// Sets the area before frames of this size come too late.
 void FrameGovernor::setArea(double area) {
     const bool more = area > mArea;
     mArea = area;
@@ -125,7 +125,7 @@ void FrameGovernor::took(const Size& size, double ms, double area) {
     ++mSinceStep;
     if (mSinceStep == 1) learn(shareOf(mStep), ms);
     if (mWentUp && mSinceStep > kSteadyFrames) mBackOff = 1;
-    const auto least = [&](std::size_t count) {  // of the newest frames
+    const auto least = [&](std::size_t count) {  // least of the newest frames
         return *std::min_element(mLast.end() - static_cast<std::ptrdiff_t>(count), mLast.end());
     };
     const double target = targetOf(mStep);
@@ -138,11 +138,11 @@ void FrameGovernor::took(const Size& size, double ms, double area) {
         if (mWentUp) mBackOff = std::min(2 * mBackOff, kMostBackOff);
         return stepDown();
     }
-    // One that goes on upwards was looked at before.
+    // After a step up the first frame has been looked at already.
     const std::size_t first = mWentUp && mSinceStep < static_cast<int>(kLooked) ? kLooked - 1 : kLooked;
     const std::size_t enough = first + moreLooks(kMoreUp, kMostMoreUp);
     if (mLast.size() < enough || mSinceStep < mHold || mStep == 0) return;
-    // Of the slowest of them, but for a few.
+    // The slowest of these frames decides, except for a few outliers.
     std::vector<double> looked(mLast.end() - static_cast<std::ptrdiff_t>(enough), mLast.end());
     std::sort(looked.begin(), looked.end());
     const double rank = std::ceil(kFits * static_cast<double>(enough));

@@ -1,4 +1,4 @@
-// Frames that nobody looks at any more, to be used again.
+// Frames that are no longer used, for reuse.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace stereonav {
 
 class FramePool : public std::enable_shared_from_this<FramePool> {
 public:
-    // The most that are kept. More are in use where many pictures are saved at a time: those are let go.
+    // Most frames to keep. More are in use where many pictures are being saved; those are freed.
     static constexpr std::size_t kMostFree = 4;
 
     std::unique_ptr<ViewFrame> take() {
@@ -23,7 +23,7 @@ public:
         mFree.pop_back();
         return frame;
     }
-    // Comes back here when its last reader lets it go, on whatever thread.
+    // Shares a frame, which returns to the pool when its last reader releases it, on any thread.
     std::shared_ptr<const ViewFrame> share(std::unique_ptr<ViewFrame> frame) {
         return {frame.release(), [pool = shared_from_this()](const ViewFrame* done) {
                     std::unique_ptr<ViewFrame> free(const_cast<ViewFrame*>(done));

@@ -59,7 +59,7 @@ void FramePresenter::show(ViewSession& session, AskedFrames& asked, bool lateWar
     }
     if (!lateDue(asked, refresh)) return;
     const double now = Window::now();
-    // Even where a turn came late now and then.
+    // The pace is kept even where a turn came late now and then.
     mLateShown = std::max(mLateShown + latePeriod(refresh), now - latePeriod(refresh) / 2);
     showLate(way, asked.present());
     if (session.flying()) asked.saw(LateView::seenBeyond(*mFrame, asked.present()), now);
@@ -67,7 +67,7 @@ void FramePresenter::show(ViewSession& session, AskedFrames& asked, bool lateWar
 }
 
 bool FramePresenter::lateDue(const AskedFrames& asked, double refresh) const {
-    constexpr double kEarly = 0.0005;  // seconds: a turn is not worth waiting so little for
+    constexpr double kEarly = 0.0005;  // seconds: waiting for less is not worth a turn
     const bool shown =
         sameView(mPicture.of, asked.present()) && mPicture.cast.version == mFrame->request.version;
     if (mPicture.left && shown) return false;

@@ -1,5 +1,5 @@
-// The picture that the window shows: the newest frame, which way it takes there, and how often one comes.
-// Lives in the window's context.
+// The picture that the window shows: the newest frame, the way it is shown, and the rate of frames. Needs the
+// window's context.
 #pragma once
 
 #include <deque>
@@ -18,53 +18,55 @@
 
 namespace stereonav {
 
-// Which way a picture takes to the window.
+// The way in which a picture is shown.
 enum class PictureWay {
     Cast,             // the newest frame as it was cast or swept
-    LateByProcessor,  // warped to where the eyes are now
+    LateByProcessor,  // warped to the present place of the eyes
     LateByCard,
-    Slices  // of a study, in the frame's place
+    Slices  // slices of a study, instead of the frame
 };
 
 // Figures of one frame, for small plots.
 struct FrameCost {
-    double left_ms = 0, right_ms = 0;            // of eyes made together the left one has it all
-    double warp_ms = 0, fill_ms = 0, holes = 0;  // holes: percent of the right eye's pixels
+    double left_ms = 0, right_ms = 0;            // eyes made together count for the left one
+    double warp_ms = 0, fill_ms = 0, holes = 0;  // holes: percentage of the right eye's pixels
 };
 
 class FramePresenter {
 public:
-    // window: outlives this. readsBack: pictures that the card warped are kept too, to be held against
-    // truths.
+    // window must outlive this object. readsBack: also keeps pictures that the graphics card warped, for
+    // comparison with truths.
     FramePresenter(const Window& window, bool readsBack) : mCard(window), mReadsBack(readsBack) {}
 
-    // The newest; null before the first.
+    // Returns the newest frame; null before the first.
     const ViewFrame* frame() const { return mFrame.get(); }
     const std::shared_ptr<const ViewFrame>& shared() const { return mFrame; }
-    // What is shown; without eyes where that is none of the scene.
+    // Returns the picture that is shown; without eyes where it is not one of the scene.
     const ShownPicture& picture() const { return mPicture; }
-    // Pixels of an eye that is shown; 0 of slices, and before the first.
+    // Returns the size of an eye that is shown in pixels; 0 for slices, and before the first frame.
     glm::ivec2 eyeSize() const;
-    // How old a picture is that was warped, and in how much of the size it was cast; "": cast as it is.
+    // Returns the age of a warped picture and its share of the full size; "" for a picture that is shown as
+    // cast.
     std::string ageText() const;
     double framesPerSecond() const { return mRate.value(); }       // 0: not known
     const std::deque<FrameCost>& costs() const { return mCosts; }  // newest last
     void forgetCosts() { mCosts.clear(); }
 
-    // A frame of this session has come.
+    // Takes a frame of this session.
     void take(std::shared_ptr<const ViewFrame> frame, const AskedFrames& asked, bool lateWarp);
-    // Chooses the way of the picture for now, and shows it where it is due. refresh: seconds of the monitor.
+    // Chooses the way to show a picture now, and shows it when it is due. refresh: seconds per refresh of the
+    // monitor.
     void show(ViewSession& session, AskedFrames& asked, bool lateWarp, double refresh);
-    // The slices that the session shows, of this size.
+    // Shows the session's slices in this size.
     void showSlices(ViewSession& session, const SizeOption& eye, Screenshots& screenshots);
     void leaveSlices();
-    // Seconds until the next warped picture is due; none where none is warped.
+    // Returns the seconds until the next warped picture is due; empty where none is warped.
     std::optional<double> wait(const AskedFrames& asked, bool lateWarp, double refresh) const;
 
-    // A picture is there that was not drawn.
+    // Returns whether there is a picture that was not drawn.
     bool fresh() const { return mFresh; }
     bool takeFresh() { return std::exchange(mFresh, false); }
-    // That picture was drawn; seconds that the turn took.
+    // Notes that the picture was drawn; seconds: duration of the turn.
     void drew(double seconds);
     StereoPresenter& eyes() { return mEyes; }
     const StereoPresenter& eyes() const { return mEyes; }
@@ -77,18 +79,18 @@ private:
     void showLate(PictureWay way, const FrameRequest& now);
 
     std::shared_ptr<const ViewFrame> mFrame;
-    bool mCame = false;  // it was not shown yet
+    bool mCame = false;  // whether it was not shown yet
     ShownPicture mPicture;
-    PictureWay mWay = PictureWay::Cast;  // of what is shown
+    PictureWay mWay = PictureWay::Cast;  // way of the picture that is shown
     bool mFresh = false;
     StereoPresenter mEyes;
     LateView mLate;
     LateCard mCard;
     LatePace mPace;
-    double mLateShown = 0;  // when the last warped picture came: seconds
+    double mLateShown = 0;  // time of the last warped picture in seconds
     FrameRate mRate;
     std::deque<FrameCost> mCosts;
-    long long mSlices = 0;  // the version of those that are shown; 0: none are
+    long long mSlices = 0;  // version of the slices that are shown; 0: none
     bool mReadsBack;
 };
 

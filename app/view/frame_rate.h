@@ -1,4 +1,4 @@
-// Frames a second while they flow; keeps its value while the picture stands still.
+// Frames per second while frames come continuously; keeps its value while the picture rests.
 #pragma once
 
 #include "engine/base/stopwatch.h"
@@ -7,14 +7,14 @@ namespace stereonav {
 
 class FrameRate {
 public:
-    // flowing: the next frame is already asked for, so that the time until it counts.
+    // Counts a frame. flowing: the next frame is already asked for, so that the time until it counts.
     void count(bool flowing) {
-        constexpr double kWeight = 0.15;  // of the newest frame in the mean time between frames
+        constexpr double kWeight = 0.15;  // weight of the newest interval in the mean
         const double seconds = mWatch.lap_ms() / 1000;
         if (mFlowing) mMean = mMean > 0 ? mMean + kWeight * (seconds - mMean) : seconds;
         mFlowing = flowing;
     }
-    // 0: nothing is known before the first frames that followed each other.
+    // Returns the rate; 0 before the first two successive frames.
     double value() const { return mMean > 0 ? 1 / mMean : 0; }
 
 private:

@@ -15,9 +15,9 @@
 namespace stereonav {
 namespace {
 
-constexpr int kRowsOfTruth = 32;  // rows of a task
+constexpr int kRowsOfTruth = 32;  // rows per task
 constexpr double kLongestSweep_ms =
-    200;  // beside a picture at rest: what cannot be stopped keeps a request waiting
+    200;  // milliseconds beside a picture at rest: work that can not be stopped delays a request
 constexpr const char* kNoSecondEye = "one eye is shown: there is no right eye to hold against its truth";
 
 int bandsOf(const Plane<PackedColor>& image) {
@@ -51,7 +51,7 @@ struct ErrorSum {
     }
 };
 
-// Not pure: it is seen through any glasses, and beside what is red itself.
+// Returns a mixed red, which is visible through any glasses and beside pure red.
 PackedColor holeColor() {
     static const PackedColor color =
         packColor({linearFromSrgb(0.9f), linearFromSrgb(0.25f), linearFromSrgb(0.2f)});
@@ -164,7 +164,7 @@ bool TruthMaker::makeTruth(const Scene& scene, const StereoViews& views, double 
         if (!(stop && *stop)) renderer.renderTile(view, tile, mTruth.left);
     });
     if (stop && *stop) return false;
-    // What is measured is the warp: both pictures have the same rays at their edges.
+    // Only the warp is measured: both pictures have the same rays at their edges.
     if (RightFromLeft* const cast = scene.frames().rightFromLeft()) cast->smoothEdges(view, way, mTruth.left);
     paintEye(scene, view, mTruth.left);
     return true;

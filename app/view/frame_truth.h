@@ -1,5 +1,5 @@
-// What the right eye should have been: cast, or swept, by itself. Shown in its place as a whole, as the
-// difference from what was made, or as the pixels that were cast anyway; and measured while a picture rests.
+// Truth of the right eye: cast, or swept, separately. Shown instead of the right eye, as a whole, as the
+// difference, or as the pixels that were cast anyway; and measured while a picture rests.
 #pragma once
 
 #include <atomic>
@@ -12,53 +12,53 @@
 
 namespace stereonav {
 
-// What is shown in the place of the right eye.
+// Picture that is shown instead of the right eye.
 enum class TruthView {
-    None,        // itself
-    FullCast,    // its truth: cast in full, or swept by itself
-    Difference,  // five times what is wrong, channel by channel on sRGB bytes; black where nothing is
-    Holes,       // itself, with the pixels in red that were cast
+    None,        // the right eye as it was made
+    FullCast,    // its truth: cast in full, or swept separately
+    Difference,  // five times the error in each channel of the sRGB bytes; black where there is none
+    Holes,       // as it was made, with the pixels that were cast in red
 };
-constexpr int kTruthTimes = 5;  // Difference
+constexpr int kTruthTimes = 5;  // factor of Difference
 
 struct PictureError {
-    double psnr_db = 0;     // over the three channels of sRGB bytes, as compare's; equal pictures: 100
-    int largest = 0;        // of a channel, steps of 255
-    double wrongShare = 0;  // of the pixels: those that differ at all
+    double psnr_db = 0;     // over the three channels of sRGB bytes, as in compare; equal pictures: 100
+    int largest = 0;        // largest error of a channel, in steps of 255
+    double wrongShare = 0;  // share of pixels that differ at all
 };
-// Of two pictures of one size. Exact sums: the same for any number of threads.
+// Returns the error between two pictures of one size. Sums are exact: the same for any number of threads.
 PictureError errorOf(const Plane<PackedColor>& truth, const Plane<PackedColor>& image);
 
-// Replaces the picture by its difference from the truth, as TruthView::Difference has it.
+// Replaces the picture by its difference from the truth (TruthView::Difference).
 void showDifference(const Plane<PackedColor>& truth, Plane<PackedColor>& image);
 // Paints the picture where the mask is set.
 void showHoles(const Plane<std::uint8_t>& mask, Plane<PackedColor>& image);
 
-// Of a frame that was shown.
+// The truth of a frame that was shown.
 struct FrameTruth {
-    long long version = 0;  // of its request
-    PictureError error;     // of its right eye
-    double cast_ms = 0;     // that the truth took
-    std::string note;       // why there is none, else ""
+    long long version = 0;  // version of the frame's request
+    PictureError error;     // error of its right eye
+    double cast_ms = 0;     // time that the truth took
+    std::string note;       // reason why there is none, else ""
 };
 
-// Makes truths, and keeps the pictures for them. For one thread at a time, the one that makes frames.
+// Makes truths, and keeps the pictures for them. For one thread at a time: the one that makes frames.
 class TruthMaker {
 public:
     struct Shown {
-        std::string note;                   // what is not as asked for, or what is meant by it; "" mostly
-        std::optional<PictureError> error;  // where a truth was made for it
+        std::string note;                   // explanation, or why it is not what was asked for
+        std::optional<PictureError> error;  // set where a truth was made
     };
-    // How the frame itself is to be made.
+    // Returns the way in which the frame itself has to be made.
     static FrameWay wayOf(TruthView view, const FrameWay& way, const FrameMaker& frames);
-    // Changes frame.right, just made by way, to what is to be shown.
+    // Changes frame.right, just made by `way`, to the picture to show.
     Shown show(TruthView view, const Scene& scene, const StereoViews& views, double time, const FrameWay& way,
                EyePair& frame);
     Shown showOfOneEye(TruthView view);
 
-    // Of the right eye as it was made in the last show(), or nothing where `stop` became true meanwhile: of
-    // scenes whose rays are cast within a tile's time. Others cannot be stopped, and are left alone where a
-    // frame takes longer than 200 ms.
+    // Returns the error of the right eye as it was made in the last show(); empty where `stop` became true
+    // meanwhile. Cast scenes stop within the time of a tile. Others can not be stopped, and are not measured
+    // where a frame takes longer than 200 ms.
     std::optional<FrameTruth> measure(const Scene& scene, const StereoViews& views, double time,
                                       const FrameWay& way, const EyePair& frame,
                                       const std::atomic<bool>& stop);
@@ -66,12 +66,12 @@ public:
     void forget();
 
 private:
-    // False where it was stopped.
+    // Returns false where it was stopped.
     bool makeTruth(const Scene& scene, const StereoViews& views, double time, const FrameWay& way,
                    const std::atomic<bool>* stop);
 
     EyePair mTruth;              // its left eye is the truth of the right one
-    Plane<PackedColor> mAsMade;  // what holes were painted over; else empty
+    Plane<PackedColor> mAsMade;  // picture before holes were painted over it; else empty
 };
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// The eyes that a frame was made with.
+// The views that a frame was made with.
 #pragma once
 
 #include "app/view/worker.h"
@@ -6,7 +6,7 @@
 
 namespace stereonav {
 
-// Of one eye that one twice.
+// Returns the views of a request; with one eye, that eye twice.
 inline StereoViews viewsOf(const FrameRequest& request) {
     if (request.twoEyes) return makeStereoViews(request.pose, request.lens, request.stereo);
     StereoViews views;

@@ -1,4 +1,4 @@
-// The controls, in one place.
+// The controls of the window.
 #include "app/view/input.h"
 
 #define GLFW_INCLUDE_NONE
@@ -10,9 +10,9 @@
 namespace stereonav {
 namespace {
 
-constexpr double kTurnRate = 0.9;      // radians a second with a key held
-constexpr double kFast = 4.0;          // times the speed with shift held
-constexpr double kCrossRepeat = 0.05;  // seconds: about as often as held keys
+constexpr double kTurnRate = 0.9;      // radians per second while a key is held
+constexpr double kFast = 4.0;          // factor on the speed while shift is held
+constexpr double kCrossRepeat = 0.05;  // seconds, similar to the repetition of held keys
 
 std::optional<ViewAction> actionOfKey(int key) {
     switch (key) {
@@ -47,7 +47,7 @@ std::optional<ViewAction> actionOfKey(int key) {
         case GLFW_KEY_3:
             return ViewAction{ViewCommand::ToggleStereo};
         case GLFW_KEY_BACKSPACE:
-            return ViewAction{ViewCommand::TurnRound};  // in slices: the last choice goes
+            return ViewAction{ViewCommand::TurnRound};  // in slices: removes the last choice
         case GLFW_KEY_DELETE:
             return ViewAction{ViewCommand::RemoveSeed};
         case GLFW_KEY_ENTER:
@@ -153,7 +153,7 @@ std::optional<ViewCommand> commandOfLetter(char letter, bool shift) {
     }
 }
 
-// The place on a US keyboard stands in where the layout has no such letter.
+// Keys that repeat. Where the layout lacks such a letter the position on a US keyboard counts.
 std::optional<ViewCommand> repeatableOfKey(int key) {
     switch (key) {
         case GLFW_KEY_LEFT_BRACKET:
@@ -179,7 +179,7 @@ std::optional<ViewCommand> repeatableOfKey(int key) {
     }
 }
 
-// What programs have on these keys everywhere.
+// Returns the usual actions of keys with Ctrl.
 std::optional<ViewAction> actionWithControl(const KeyPress& press) {
     switch (std::tolower(static_cast<unsigned char>(press.letter))) {
         case 'o':
@@ -327,7 +327,7 @@ FlightInput ViewInput::flightOf(const Window& window, const Window* also, const 
     return input;
 }
 
-// It tells turns by the left-hand rule about right, up and forward.
+// The mouse reports rotations by the left-hand rule about right, up and forward.
 FlightInput withSpaceMouse(FlightInput input, const SpaceMouseState& mouse) {
     input.right = std::clamp(input.right + mouse.push[0], -1.0, 1.0);
     input.up = std::clamp(input.up + mouse.push[1], -1.0, 1.0);

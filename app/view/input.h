@@ -1,4 +1,4 @@
-// Keys, mouse and gamepad as wishes of the pilot and commands to the session.
+// Keys, mouse and gamepad as flight input and as commands to the session.
 #pragma once
 
 #include <optional>
@@ -12,35 +12,35 @@
 
 namespace stereonav {
 
-// What a key press means; nullopt when nothing. Letters are those of the user's own layout. Held keys
-// repeat only what is a matter of degree.
+// Returns the meaning of a key press; empty for none. Letters are those of the user's layout. Held keys
+// repeat only gradual changes.
 std::optional<ViewAction> actionOf(const KeyPress& press);
 
-// Keys and what they do, for help and for whoever looks for a command by its words.
+// Keys and their meaning, for help and for the search for commands.
 struct KeyHelp {
     std::string keys, meaning;
-    std::optional<ViewAction> action = std::nullopt;  // that a choice of it does
+    std::optional<ViewAction> action = std::nullopt;  // action of choosing it there
 };
 const std::vector<KeyHelp>& viewKeys();
 
-// A mouse of six axes beside what else is pushed; its buttons, home and keeping comfortable.
+// Adds a 3-D mouse to the other input; its buttons are home and comfortable eyes.
 FlightInput withSpaceMouse(FlightInput input, const SpaceMouseState& mouse);
 std::vector<ViewAction> actionsOfSpaceMouse(const std::vector<int>& presses);
 
-// Where in an eye's picture a place in the window lies; both are shares of the size, (0, 0) top left.
+// Converts a place in the window to one in an eye's picture; both are shares of the size, (0, 0) top left.
 glm::dvec2 placeInEye(OutputLayout layout, const glm::dvec2& place);
 
-// Reads what is held down now; remembers the gamepad's buttons to notice new presses.
+// Reads which keys and buttons are held; remembers the gamepad's buttons to notice new presses.
 class ViewInput {
 public:
-    // also: a further window whose keys count too; null: none.
+    // also: another window whose keys count as well; null: none.
     FlightInput flightOf(const Window& window, const Window* also, const Gamepad& pad) const;
-    // dt: seconds since the last call. The cross turns the light on while it is held.
+    // dt: seconds since the last call. The directional pad turns the light while it is held.
     std::vector<ViewAction> actionsOf(const Gamepad& pad, double dt);
 
 private:
     Gamepad mBefore;
-    double mCrossHeld = 0;  // seconds since it last did something
+    double mCrossHeld = 0;  // seconds since its last action
 };
 
 }  // namespace stereonav

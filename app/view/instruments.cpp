@@ -51,7 +51,7 @@ std::optional<PaintWork> Instruments::painting() const {
     return paint && mPaintWatch.elapsed_ms() > kPatience_ms ? paint->work() : std::nullopt;
 }
 
-// The left eye's picture: the right one shows little more.
+// Looks at the left eye's picture: the right one shows little more.
 void Instruments::see(const ViewFrame& frame, const AskedFrames& asked) {
     if (!mCoverage.on() || mSession->slices().shown() || !asked.ofSession(frame)) return;
     const FrameRequest& of = frame.request;
@@ -99,12 +99,12 @@ void Instruments::findAt(const std::optional<glm::dvec3>& world) {
 void Instruments::addFinding(const glm::dvec3& place) {
     if (!findings()) return;
     if (!mFindings.add(place)) return mSession->notify("no more findings can be kept");
-    mStudy.wanted(*mSession);  // whose values are told once it is read
+    mStudy.wanted(*mSession);  // whose values are shown once it is read
     mSession->notify("finding " + std::to_string(mFindings.rows().size()) + ": being measured");
     mShows = Shows::Findings;
 }
 
-// The picture that is shown counts too.
+// Switches coverage; the present picture counts.
 void Instruments::toggleCoverage(const ViewFrame* frame, const AskedFrames& asked) {
     if (!mSession) return;
     if (!mCoverage.can()) return mSession->notify("coverage is of an opaque colon's wall");

@@ -1,5 +1,5 @@
-// What measures in the picture: a line on the surface, coverage of the wall, findings, and what is painted on
-// the ground; which of them a click means; and what each keeps for the scene's file.
+// Instruments in the picture: a line on the surface, coverage of the wall, findings, and paint on the ground;
+// which of them a click is for; and what each keeps for the scene's file.
 #pragma once
 
 #include <filesystem>
@@ -22,37 +22,37 @@ namespace stereonav {
 
 class Instruments {
 public:
-    // session, study: outlive this. wake: called from other threads when something is done.
+    // session and study must outlive this object. wake: called from other threads when something is done.
     Instruments(std::optional<ViewSession>& session, StudyReading& study, const std::function<void()>& wake)
         : mSession(session), mStudy(study), mMeasured(wake), mCoverage(wake), mFindings(wake) {}
 
-    // Before a scene's first picture. places: the file that keeps the scene's places (Bookmarks::file()).
+    // Begins a scene, before its first picture. places: the file of the scene's places (Bookmarks::file()).
     void open(const std::shared_ptr<const Scene>& scene, const std::filesystem::path& places);
-    // The same file, shown by another scene.
+    // Goes on in another scene of the same file.
     void replaceScene(const std::shared_ptr<const Scene>& scene);
-    // Each turn. True: there is something new to show.
+    // Takes results; to be called each turn. Returns true where something has changed.
     bool follow();
-    // The same of what is painted on the ground; failed: called with what could not be had.
+    // The same for paint on the ground; failed: called with the reason where paint is not possible.
     bool followPaint(const std::function<void(const std::string&)>& failed);
-    // A picture was shown: its wall was looked at.
+    // Notes that a picture was shown: its wall has been seen.
     void see(const ViewFrame& frame, const AskedFrames& asked);
 
-    // Null before a scene is there, or where it has nothing to measure so.
+    // Returns the measured line; null before there is a scene, or where it can not be measured.
     MeasuredLine* measured() { return mSession ? &mMeasured : nullptr; }
     LiveCoverage* coverage() { return mSession && mCoverage.can() ? &mCoverage : nullptr; }
     FindingList* findings() { return mSession && mFindings.maker() ? &mFindings : nullptr; }
     const MeasuredLine& line() const { return mMeasured; }
     const FindingList& findingList() const { return mFindings; }
 
-    // What clicks on the picture do, while it stands still: places of the line, findings, or ground that is
-    // painted as seen from so high above it (none: it is not). One of the first two.
+    // Return what clicks on the picture do, while it rests: add places to the line, add findings, or paint
+    // the ground seen from a height (empty: off). At most one of the first two.
     bool measuring() const { return mMeasuring; }
     void measure(bool on);
     void clickFindings(bool on);
     const std::optional<double>& seesFrom() const { return mSeesFrom; }
     void seeFrom(const std::optional<double>& height) { mSeesFrom = height; }
     bool takesClicks() const { return mMeasuring || mSeesFrom || mFindings.clicks(); }
-    // world: what is under the pointer; none where nothing is.
+    // Handles a click. world: the place under the pointer; empty where there is none.
     void click(const std::optional<glm::dvec3>& world);
     void measureAt(const std::optional<glm::dvec3>& world);
     void findAt(const std::optional<glm::dvec3>& world);
@@ -61,14 +61,14 @@ public:
     void toggleCoverage(const ViewFrame* frame, const AskedFrames& asked);
     void flyToUnseen(int step);
 
-    // A place that is marked in the picture, world; none: nothing is.
+    // Returns a place that is marked in the picture; empty: none.
     const std::optional<glm::dvec3>& marked() const { return mMarked; }
     void mark(const std::optional<glm::dvec3>& world) { mMarked = world; }
-    // What is marked on the wall that lies flat.
+    // Returns the marks on the unfolded wall.
     std::vector<FlatMark> flatMarks() const;
-    // Paint that is being worked out, once one waits for it.
+    // Returns the work on paint, once it takes long enough to be noticed.
     std::optional<PaintWork> painting() const;
-    // Panels that are to be opened, told once.
+    // Panels to open, returned once.
     enum class Shows { Nothing, Left, Findings };
     Shows takeShows() { return std::exchange(mShows, Shows::Nothing); }
 
@@ -85,7 +85,7 @@ private:
     std::optional<glm::dvec3> mMarked;
     Shows mShows = Shows::Nothing;
     long long mPaintSeen = 0;  // LivePaint::version()
-    Stopwatch mPaintWatch;     // since nothing was worked out
+    Stopwatch mPaintWatch;     // time since paint was last complete
 };
 
 }  // namespace stereonav

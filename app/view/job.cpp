@@ -22,15 +22,15 @@ extern char** environ;
 namespace stereonav {
 namespace {
 
-constexpr const char* kOften = "STEREONAV_PROGRESS_SECONDS=0.2";  // app/output/progress_bar.cpp
+constexpr const char* kOften = "STEREONAV_PROGRESS_SECONDS=0.2";  // see app/output/progress_bar.cpp
 
 Error noProcess(int code) {
     return {"", "window", std::string("no process can be started: ") + std::strerror(code),
             "close other programs and try again"};
 }
 
-// Of the process: what it tells when nobody reads any more fails, and does not end it before it has tidied
-// up.
+// Ignores SIGPIPE in the process: writing fails when nobody reads any more, but does not end the process
+// before it has tidied up.
 struct WithoutPipeSignal {
     WithoutPipeSignal() {
         sigset_t blocked;

@@ -1,6 +1,6 @@
-// A command of the program's own that runs beside the window, in a process of its own: a movie, a bake. The
-// window's frames lose processor time to it and nothing else, and ending it leaves what the command leaves
-// when it is stopped (docs/using.md).
+// A command of the program that runs in a process of its own beside the window: a movie, a bake. It only
+// takes processor time from the window's frames, and ending it has the effect of stopping the command
+// (docs/using.md).
 #pragma once
 
 #include <filesystem>
@@ -15,27 +15,27 @@ namespace stereonav {
 
 class Job {
 public:
-    // words: after the program's name; program: its file. Throws Error where no process can be made.
+    // words: the arguments of the program; program: its file. Throws Error where no process can be made.
     Job(std::string what, const std::vector<std::string>& words,
         const std::filesystem::path& program = programFile());
-    ~Job();  // stops it, and waits until it has ended
+    ~Job();  // stops the process and waits until it has ended
     Job(const Job&) = delete;
     Job& operator=(const Job&) = delete;
 
-    // Takes what it has told since, and whether it has ended; to be called now and then.
+    // Reads its output, and whether it has ended; to be called now and then.
     void look();
     void cancel();
 
     const std::string& what() const { return mWhat; }
     bool running() const { return mProcess > 0; }
     int processId() const { return mProcess; }
-    // What was done before the wish to end came is not cancelled.
+    // Returns whether it was cancelled. Work that was complete before the wish does not count.
     bool cancelled() const { return mCancelled && (running() || mStatus != 0); }
     bool failed() const { return !running() && mStatus != 0 && !mCancelled; }
     double fraction() const { return mFraction; }                  // 0 to 1
-    const std::string& progress() const { return mProgress; }      // its words on that
-    const std::string& lastLine() const { return mLast; }          // of all else that it told
-    double seconds() const { return mWatch.elapsed_ms() / 1000; }  // since it began
+    const std::string& progress() const { return mProgress; }      // text of its progress
+    const std::string& lastLine() const { return mLast; }          // last line of its other output
+    double seconds() const { return mWatch.elapsed_ms() / 1000; }  // time since it began
 
 private:
     void read();
@@ -48,10 +48,10 @@ private:
     Stopwatch mWatch;
 };
 
-// Where light is kept that a job with these words bakes: in the cache, a file for each bake.
+// Returns the file in the cache for the light that a job with these words bakes.
 std::filesystem::path placeOfBake(const std::vector<std::string>& words);
 
-// A file that a job reads and nobody else wants: taken away with this, and where the run ends at once.
+// A file that only a job reads: removed with this object, and where the run ends at once.
 class JobFile {
 public:
     explicit JobFile(std::filesystem::path path);
@@ -66,7 +66,8 @@ private:
     UnfinishedFile mUnfinished;
 };
 
-// The share and the words of a line "[===>   ]  52 % words" or " 52 % words"; false for any other.
+// Reads the share and the text of a line "[===>   ]  52 % words" or " 52 % words"; returns false for other
+// lines.
 bool progressOf(const std::string& line, double& fraction, std::string& words);
 
 }  // namespace stereonav

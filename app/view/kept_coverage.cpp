@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kVersion = 1;
 constexpr const char* kMark = "stereonav_coverage";
-constexpr std::size_t kNumbers = 11;  // place, orientation (w, x, y, z), the window's sides
+constexpr std::size_t kNumbers = 11;  // place, orientation (w, x, y, z), sides of the window
 
 bool isNumberWithin(const nlohmann::json& value, double most) {
     return value.is_number() && std::abs(value.get<double>()) <= most;

@@ -1,6 +1,6 @@
-// What was flown while coverage was on, kept for the scene's file: the pictures that the wall is looked at
-// from. What they show is worked out again when it is switched on, so another distance, or a wall that was
-// found otherwise, needs nothing else.
+// The flight while coverage was on, kept for the scene's file: the views from which the wall was seen.
+// Coverage is computed again from them when it is switched on, so that another distance, or a wall that was
+// found differently, needs nothing else.
 #pragma once
 
 #include <filesystem>
@@ -18,13 +18,13 @@ struct FlownWay {
     double metres = 0, seconds = 0;
 };
 
-// Where that of a scene is kept whose places are kept in that file (Bookmarks::file()); "" for "".
+// Returns the file for the flight of a scene, given the one for its places (Bookmarks::file()); "" for "".
 std::filesystem::path coverageFile(const std::filesystem::path& places);
 
-// To a hundredth of a millimetre and 1e-5 of angles. Throws Error as writeKept.
+// Writes with a precision of a hundredth of a millimetre, and 1e-5 for angles. Throws Error like writeKept.
 void writeFlown(const std::filesystem::path& file, const FlownWay& flown);
 
-// Nothing flown where there is no such file, or where it is damaged: then it is set aside, and `problem` says
+// Returns no flight where there is no such file, or it is damaged: then it is set aside, and `problem` says
 // so.
 FlownWay readFlown(const std::filesystem::path& file, std::string& problem);
 

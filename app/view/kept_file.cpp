@@ -29,9 +29,9 @@ void eachOwnFolder(const fs::path& file, void (*act)(const fs::path&, const std:
     act(folder, kMoveKept);
 }
 
-// One coordinate of the part of the picture that a thumbnail's pixel is the mean of.
+// The range in one coordinate of the pixels that a thumbnail's pixel averages.
 struct Span {
-    int first, last;  // last: one beyond
+    int first, last;  // last: one after the end
 };
 
 Span spanOf(int k, int count, double from, double length, int most) {
@@ -78,7 +78,7 @@ void writeKept(const fs::path& file, const std::string& bytes) {
         throw Error("", "", "there is no folder to keep it in",
                     "set HOME, or the XDG folders, to a full path");
     eachOwnFolder(file, makeOwnFolder);
-    PendingFile pending(file, Over::Anything, Readers::UserAlone);  // it was read, and is the program's own
+    PendingFile pending(file, Over::Anything, Readers::UserAlone);  // it was read, but belongs to the program
     std::ofstream out(pending.temporary(), std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     out.close();
@@ -90,7 +90,7 @@ fs::path setAside(const fs::path& file) {
     try {
         eachOwnFolder(file, checkOwnFolder);
     } catch (const Error&) {
-        return {};  // nothing is changed in folders of others
+        return {};  // folders of others are not changed
     }
     fs::path aside = file;
     aside += ".damaged";
@@ -108,7 +108,7 @@ std::optional<json> readKeptJson(const fs::path& file, bool (*isRight)(const jso
     try {
         text = readKept(file);
         if (!text) return std::nullopt;
-    } catch (const Error& error) {  // a folder in its place, no right to read it, too large
+    } catch (const Error& error) {  // a folder in its place, no permission to read it, too large
         problem = error.what();
         setAside(file);
         return std::nullopt;
@@ -116,7 +116,7 @@ std::optional<json> readKeptJson(const fs::path& file, bool (*isRight)(const jso
     try {
         checkJson(*text, file.string(), "");
         read = json::parse(*text, nullptr, false);
-    } catch (const Error&) {  // deeper than anything that was kept
+    } catch (const Error&) {  // deeper than any file that was kept
         read = json(json::value_t::discarded);
     }
     if (!read.is_discarded() && isRight(read)) return read;

@@ -1,5 +1,4 @@
-// What is kept between runs of the scenes that were open: the places of the one that is shown, and which
-// files were opened last, each with a small picture.
+// Places of the present scene and recent files, kept between runs, each with a small picture.
 #pragma once
 
 #include <optional>
@@ -12,25 +11,25 @@ namespace stereonav {
 
 class Notices;
 
-// What fails is told.
+// Failures become notices.
 class KeptPlaces {
 public:
-    // All of them outlive this.
+    // session, settings and notices must outlive this object.
     KeptPlaces(std::optional<ViewSession>& session, const SceneSettings& settings, Notices& notices)
         : mSession(session), mSettings(settings), mNotices(notices) {}
 
-    // Another scene is shown.
+    // Begins another scene.
     void open();
-    // Null before a scene is there.
+    // Returns the places; null before there is a scene.
     Bookmarks* places() { return mPlaces ? &*mPlaces : nullptr; }
     const Bookmarks* places() const { return mPlaces ? &*mPlaces : nullptr; }
-    // Where one is, with what the left eye sees; null: no picture.
+    // Adds the present place, with the left eye's picture; null: no picture.
     void add(const Plane<PackedColor>* picture);
     void goTo(const Bookmark& place);
 
     const RecentFiles& recent() const { return mRecent; }
     void forgetRecent(const std::filesystem::path& file) { mRecent.remove(file); }
-    // A picture of the scene came: with the first one its file is the one that was opened last.
+    // Notes a picture of the scene: with the first one its file becomes the most recent.
     void noteRecent(const Plane<PackedColor>& picture);
 
 private:

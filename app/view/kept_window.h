@@ -1,4 +1,4 @@
-// How the window was left, kept between runs (window_config.h).
+// State of the window, kept between runs (window_config.h).
 #pragma once
 
 #include "app/view/window_config.h"
@@ -12,16 +12,16 @@ class ScreenSizes;
 
 class KeptWindow {
 public:
-    // Reads what was kept, and makes the window so. What is wrong in it is told.
+    // Restores the kept state; errors in it become notices.
     void restore(PanelStage& stage, ScreenSizes& screens, PictureMarks& marks, Notices& notices);
-    // Keeps it as it is now; writes nothing where nothing was changed.
+    // Keeps the present state; writes nothing where nothing has changed.
     void keep(const PanelStage& stage, const ScreenSizes& screens, const PictureMarks& marks,
               bool speedByDistance, float contentScale) const;
 
     bool speedByDistance() const { return mConfig.speedByDistance; }
 
 private:
-    WindowConfig mConfig;  // as it was read
+    WindowConfig mConfig;  // state as it was read
 };
 
 }  // namespace stereonav

@@ -11,8 +11,8 @@ namespace stereonav {
 namespace {
 
 constexpr std::size_t kMostSteps = 200, kMostHandles = 60;
-constexpr double kShortest = 0.1;                         // seconds from one to the next
-constexpr double kOff = 0.01;                             // of a path's length
+constexpr double kShortest = 0.1;                         // least seconds from one keyframe to the next
+constexpr double kOff = 0.01;                             // share of a path's length
 constexpr double kOffAngle = 4 * std::numbers::pi / 180;  // radians
 constexpr double kLeastOff = 1e-6;                        // metres
 constexpr std::size_t kRaisedAround = 60;                 // samples: a second to each side
@@ -25,18 +25,18 @@ double secondsBetween(const Pose& from, const Pose& to, double metresPerSecond) 
     return timedKeyframes({from, to}, metresPerSecond).back().time;
 }
 
-// All from this one on come so much later.
+// Moves this keyframe and all later ones by so many seconds.
 void moveOn(Keyframes& keys, std::size_t from, double seconds) {
     for (std::size_t n = from; n < keys.size(); ++n) keys[n].time += seconds;
 }
 
-// The step to key `next` takes as much longer as its way is longer than it was.
+// Stretches the time to key `next` in proportion to its distance.
 void keepPace(Keyframes& keys, const Keyframes& before, std::size_t next) {
     const auto way = [&](const Keyframes& of) {
         return glm::distance(of[next - 1].pose.position, of[next].pose.position);
     };
     const double seconds = before[next].time - before[next - 1].time, was = way(before);
-    if (!(was > 0)) return;  // it stood there
+    if (!(was > 0)) return;  // the viewer did not move there
     const double now = std::max(seconds * way(keys) / was, kShortest);
     moveOn(keys, next, now - (keys[next].time - keys[next - 1].time));
 }
@@ -49,10 +49,10 @@ double pathLength(const RecordedPath& path) {
     return length;
 }
 
-// Of every window of so many values to each side, the largest.
+// Returns the largest value within so many places to each side.
 std::vector<double> largestAround(const std::vector<double>& values, std::size_t around) {
     std::vector<double> largest(values.size());
-    std::deque<std::size_t> falling;  // places whose values fall
+    std::deque<std::size_t> falling;  // places with falling values
     for (std::size_t next = 0, at = 0; at < values.size(); ++at) {
         for (; next < values.size() && next <= at + around; ++next) {
             while (!falling.empty() && values[falling.back()] <= values[next]) falling.pop_back();
@@ -74,7 +74,7 @@ std::vector<double> meanAround(const std::vector<double>& values, std::size_t ar
     return mean;
 }
 
-// The mean of the largest around is nowhere less than what is missing there.
+// Raises the flight smoothly: the mean of the local largest heights is nowhere less than the missing height.
 void raise(std::vector<PathSample>& samples, const Flight& flight) {
     std::vector<double> missing(samples.size(), 0.0);
     bool any = false;

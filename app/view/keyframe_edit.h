@@ -1,5 +1,5 @@
-// Keyframes of a flight that a person moves about on a map: which one is chosen, what is being dragged, steps
-// back and forth; and the flight through them as it will be flown, clear of the ground.
+// Keyframes of a flight that the user edits on a map: which one is chosen, what is being dragged, undo and
+// redo; and the flight through them as it will be flown, clear of the ground.
 #pragma once
 
 #include <cstddef>
@@ -18,23 +18,22 @@ public:
     const Keyframes& keys() const { return mKeys; }
     bool any() const { return !mKeys.empty(); }
     std::optional<std::size_t> chosen() const { return mChosen; }
-    void choose(std::optional<std::size_t> key);    // one that is not there: none
+    void choose(std::optional<std::size_t> key);    // an index that does not exist: none
     long long version() const { return mVersion; }  // grows with every change of the keyframes
 
-    // Anew with these, without steps back; none ends the work.
+    // Begins with these keyframes, without undo; an empty list ends the editing.
     void start(Keyframes keys);
-    // After the chosen one, or as the last; it is chosen then. The way there and on takes what it takes at
-    // this speed, metres a second (timedKeyframes). Throws Error for what is no pose or speed.
+    // Adds a keyframe after the chosen one, or at the end, and chooses it. The times to and from it follow
+    // from this speed in metres per second (timedKeyframes). Throws Error for an invalid pose or speed.
     void add(const Pose& eye, double metresPerSecond);
     void removeChosen();  // the one before it is chosen then
 
-    // A place for the keyframe that is dragged; its head stays as it was. What lies beside it in time is
-    // moved on, so that it is flown there at the pace that it had. Any other change ends a drag first, as a
-    // step of its own; a step back or forth drops it.
+    // Drags a keyframe to a place; its head stays as it was. Neighbours in time are moved so that the pace
+    // stays the same. Any other change first ends the drag, as a step of its own; undo and redo drop it.
     void beginDrag(std::size_t key);
     bool dragging() const { return mDragged.has_value(); }
-    const Pose& draggedFrom() const { return mBeforeDrag[*mDragged].pose; }  // while one is dragged
-    void dragTo(const glm::dvec3& place);                                    // what is not finite is nothing
+    const Pose& draggedFrom() const { return mBeforeDrag[*mDragged].pose; }  // only while one is dragged
+    void dragTo(const glm::dvec3& place);                                    // ignores infinite places
     void endDrag();
 
     bool canUndo() const { return !mBefore.empty(); }
@@ -52,23 +51,23 @@ private:
     long long mVersion = 0;
 };
 
-// As few keyframes as keep to a flight, within a hundredth of its length and a few degrees; or within more,
-// where that takes more than there are handles for on a map. Throws Error for a path that is empty.
+// Returns as few keyframes as follow a flight within a hundredth of its length and a few degrees; or less
+// exactly, where that needs more than the map has handles for. Throws Error for an empty path.
 Keyframes keyframesToEdit(const RecordedPath& path);
 
-// The place over a point of the map, as high over where the viewer is let as `from` is (Flight::lowestAt), at
-// least there; as high as `from` where there is no ground.
+// Returns the place over a point of the map at the same height above the lowest permitted one
+// (Flight::lowestAt) as `from`, or at least at that; at the height of `from` where there is no ground.
 glm::dvec3 overGround(const Flight& flight, const glm::dvec3& from, const glm::dvec2& to);
-// Over where the viewer is let, metres; none where there is no ground.
+// Returns the height above the lowest permitted one in metres; empty where there is no ground.
 std::optional<double> heightOverGround(const Flight& flight, const glm::dvec3& place);
 
 struct FlownPath {
     RecordedPath path;          // empty for fewer than two keyframes
-    std::vector<char> blocked;  // from each of its samples to the next: 1 where something is in the way
+    std::vector<char> blocked;  // for each sample: 1 where something blocks the way to the next
     bool anyBlocked = false;
 };
-// The flight through them, raised where it would pass below where the viewer is let: no more than that at the
-// worst place of about a second, smoothly around it.
+// Returns the flight through the keyframes, raised where it would pass below the lowest permitted height: by
+// what the worst place of about a second needs, smoothly around it.
 FlownPath flownThrough(const Keyframes& keys, const Flight& flight);
 
 }  // namespace stereonav

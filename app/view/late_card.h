@@ -1,4 +1,4 @@
-// The late warp on the graphics card (engine/display/late_warp_gpu.h), where one draws the window.
+// The late warp on the graphics card (engine/display/late_warp_gpu.h), where a card draws the window.
 #pragma once
 
 #include <array>
@@ -12,22 +12,23 @@ namespace stereonav {
 
 class LateCard {
 public:
-    // The window's context is used by all calls, and current when this ends. window: outlives this.
+    // All functions use the window's context; it has to be current at the end of this object. window must
+    // outlive this object.
     explicit LateCard(const Window& window) : mWindow(window) {}
 
-    // Decided by the first call. STEREONAV_LATE_WARP=gpu or cpu decides it for tests.
+    // Returns whether the card can warp; decided by the first call. Tests set STEREONAV_LATE_WARP=gpu or cpu.
     bool works();
-    // Textures of both eyes as they are seen from where `now` is; the second is 0 of one eye. works() and
-    // LateView::fits() hold.
+    // Returns textures of both eyes as seen from `now`; the second is 0 for one eye. Requires works() and
+    // LateView::fits().
     std::array<GLuint, 2> warp(const std::shared_ptr<const ViewFrame>& frame, const FrameRequest& now);
-    // What warp() drew last.
+    // Reads back what warp() drew last.
     std::shared_ptr<const LateView::Eyes> read(bool twoEyes) const;
 
 private:
     const Window& mWindow;
-    std::unique_ptr<LateWarpGpu> mGpu;  // null: none that can
+    std::unique_ptr<LateWarpGpu> mGpu;  // null: the card can not warp
     bool mDecided = false;
-    std::shared_ptr<const ViewFrame> mHas;  // what lies there to be warped
+    std::shared_ptr<const ViewFrame> mHas;  // frame whose planes are on the card
 };
 
 }  // namespace stereonav

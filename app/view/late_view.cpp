@@ -9,10 +9,10 @@
 namespace stereonav {
 namespace {
 
-constexpr int kFewThreads = 3;      // with so few the casting has them all: the window's own thread warps
-constexpr double kShare = 0.7;      // of the time that goes into showing pictures, at most
+constexpr int kFewThreads = 3;      // so few are all used for casting, and the window's thread warps
+constexpr double kShare = 0.7;      // largest share of the time for showing pictures
 constexpr double kSlowest = 0.026;  // seconds between pictures: slower ones are seen one by one
-constexpr double kWeight = 0.1;     // of the newest cost in the mean
+constexpr double kWeight = 0.1;     // weight of the newest cost in the mean
 
 }  // namespace
 
@@ -62,8 +62,8 @@ void LateLead::begin(double expected) {
 }
 
 void LateLead::came(double asked, double now) {
-    constexpr double kNewest = 0.3;  // of the newest in the mean
-    constexpr double kLongest = 2;   // seconds: a rest, or a load
+    constexpr double kNewest = 0.3;  // weight of the newest delay in the mean
+    constexpr double kLongest = 2;   // seconds: longer intervals are rests or loads
     const double delay = now - asked, between = now - mLast;
     if (mLast >= 0 && between <= kLongest) mBetween += kNewest * (between - mBetween);
     if (delay <= kLongest) mDelay += kNewest * (delay - mDelay);

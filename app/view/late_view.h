@@ -1,5 +1,5 @@
-// Pictures for the present moment while frames take longer than a refresh: the newest frame, warped to where
-// the eyes are now (engine/late/late_warp.h). No window and no clock.
+// Pictures for the present moment while frames take longer than a refresh: the newest frame, warped to the
+// present place of the eyes (engine/late/late_warp.h). Needs no window and no clock.
 #pragma once
 
 #include <array>
@@ -11,34 +11,35 @@
 
 namespace stereonav {
 
-// Whether a frame that was made for `a` is what `b` asks for, as far as where it is seen from goes.
+// Returns whether two requests have the same views.
 bool sameView(const FrameRequest& a, const FrameRequest& b);
 
-// That is cast, of what is shown.
+// Returns the area that is cast, relative to the area that is shown.
 double areaOf(const FrameRequest& request);
 
 class LateView {
 public:
-    using Eyes = std::array<Plane<PackedColor>, 2>;  // the second is empty of one eye
+    using Eyes = std::array<Plane<PackedColor>, 2>;  // the second is empty for one eye
 
-    // Whether the frame can be seen from where `now` is: its depths are known, and it has the eyes that are
+    // Returns whether the frame can be seen from `now`: its depths are known, and it has the eyes that are
     // asked for. Truths (TruthView) are shown as they are.
     static bool fits(const ViewFrame& frame, const FrameRequest& now);
-    // How far the eyes see beyond what was to be shown of the frame (engine/late/late_guard.h). fits() holds.
+    // Returns how far the eyes see beyond the frame's picture (engine/late/late_guard.h). Requires fits().
     static glm::dvec2 seenBeyond(const ViewFrame& frame, const FrameRequest& now);
-    // Warped. fits() holds.
+    // Returns the warped frame. Requires fits().
     std::shared_ptr<const Eyes> warp(const ViewFrame& frame, const FrameRequest& now);
 
 private:
-    std::vector<std::shared_ptr<Eyes>> mEyes;  // used again when nobody looks at them
+    std::vector<std::shared_ptr<Eyes>> mEyes;  // reused when nobody reads them any more
 };
 
-// How long after it was asked for a picture is looked at, in the mean. Seconds.
+// The mean time in seconds from asking for a picture until it is seen.
 class LateLead {
 public:
-    // Something begins to move, and a picture is expected to take so long: what was learned is older.
+    // Begins when something begins to move, with the expected time of a picture: what was learned is
+    // outdated.
     void begin(double expected);
-    // A picture that was asked for then is there now.
+    // Notes a picture that was asked for at `asked` and is there now.
     void came(double asked, double now);
     double seconds() const { return mDelay + 0.5 * mBetween; }
 
@@ -46,15 +47,15 @@ private:
     double mDelay = 0, mBetween = 0, mLast = -1;
 };
 
-// When the next picture is due. Seconds.
+// The time when the next picture is due, in seconds.
 class LatePace {
 public:
-    // refresh: of the monitor; wanted: 0 is none, the pace follows what a picture costs.
+    // refresh: of the monitor; wanted: 0 for none: the pace follows the cost of a picture.
     double period(double refresh, double wanted) const;
-    void took(double seconds);  // a picture was warped and drawn
+    void took(double seconds);  // notes the time of warping and drawing a picture
 
 private:
-    double mCost = 0;  // mean
+    double mCost = 0;  // mean cost
 };
 
 }  // namespace stereonav

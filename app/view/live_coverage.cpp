@@ -14,16 +14,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kStep = 0.0015;      // metres between the eyes that are looked from in flight,
+constexpr double kStep = 0.0015;      // metres between the views that are used in flight
 constexpr double kTurn = 0.05;        // radians
-constexpr double kRestStep = 0.0002;  // and of pictures that rest
+constexpr double kRestStep = 0.0002;  // the same for pictures that rest
 constexpr double kRestTurn = 0.005;
-constexpr double kJump = 0.1;       // metres: nobody flew further from one picture to the next
-constexpr double kPause = 1;        // seconds: nor for longer
-constexpr std::size_t kBatch = 32;  // eyes that are looked from at a time
+constexpr double kJump = 0.1;       // metres: larger distances between pictures are jumps, not flight
+constexpr double kPause = 1;        // seconds: longer intervals are pauses
+constexpr std::size_t kBatch = 32;  // views that are used at a time
 constexpr std::chrono::milliseconds kBetweenNews{300};
 constexpr std::chrono::seconds kBetweenFiles{1};
-constexpr int kShareOfWork = 4;  // telling takes at most a fourth of what passes in between
+constexpr int kShareOfWork = 4;  // reporting takes at most a fourth of the time in between
 
 double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
@@ -36,7 +36,7 @@ bool isNews(const EyeView& a, const EyeView& b, double step, double turn) {
            std::abs(a.xMax - b.xMax) > kSides || std::abs(a.yMax - b.yMax) > kSides;
 }
 
-// The scene's own flight has eyes of the picture's shape, without the shift of one of two.
+// Returns a view of the scene's own flight in the shape of the picture, without the shift of one of two eyes.
 EyeView eyeAt(const Pose& pose, const EyeView& like) {
     EyeView eye;
     eye.eye = eye.head = pose.position;
@@ -58,27 +58,27 @@ struct LiveCoverage::Work {
     std::function<void()> wake;
     Progress progress;  // cancelled at the end
 
-    std::mutex mutex;  // guards what follows
+    std::mutex mutex;  // guards the members below
     std::condition_variable asked;
     bool stop = false;
-    bool read = false;     // what was flown before
-    bool forgets = false;  // ... it is not to be read
-    int times = 0;         // times that it was begun again
+    bool read = false;     // the kept flight was read
+    bool forgets = false;  // the kept flight is not to be read
+    int times = 0;         // number of restarts
     WallLooking looking;
-    long long judgement = 0;  // another one: all is looked at again
+    long long judgement = 0;  // another number: everything is looked at again
     FlownWay flown;
     struct OwnFlight {
-        EyeView shape;  // of its pictures
+        EyeView shape;  // shape of its pictures
         bool back;
     };
-    std::vector<OwnFlight> ownFlights;  // asked for
+    std::vector<OwnFlight> ownFlights;  // own flights that are asked for
     CoverageSoFar newest;
     bool isNew = false, told = true, written = true;
-    long long judged = 0;  // what is seen is of that judgement
+    long long judged = 0;  // judgement that the result is based on
     bool ended = false;
     std::string problem;
 
-    // Of the thread alone.
+    // Members of the thread only.
     std::unique_ptr<WallSeen> seen;
     std::size_t looked = 0;
     Clock::time_point nextTold{}, nextWritten{};
@@ -98,7 +98,7 @@ struct LiveCoverage::Work {
 
 void LiveCoverage::Work::run() {
     stepBehindTheWindow();
-    stepBehindTheWindow();  // and behind the thread that makes frames
+    stepBehindTheWindow();  // and after the thread that makes frames
     loopOnThisThreadAlone();
     try {
         readBefore();
@@ -116,7 +116,7 @@ void LiveCoverage::Work::run() {
             lock.lock();
         }
     } catch (const Cancelled&) {
-        // it was switched off
+        // Coverage was switched off.
     } catch (const std::exception& error) {
         fail(error.what());
     }
@@ -144,7 +144,7 @@ void LiveCoverage::Work::readBefore() {
     flown = std::move(before);
 }
 
-// Under the mutex. False at the end.
+// Waits for work; the mutex has to be held. Returns false at the end.
 bool LiveCoverage::Work::waitForWork(std::unique_lock<std::mutex>& lock) {
     const auto work = [this] {
         return stop || judged != judgement || looked < flown.eyes.size() || !ownFlights.empty();
@@ -170,7 +170,7 @@ void LiveCoverage::Work::flyOwn() {
         lock.unlock();
         const std::vector<Pose> poses = scene->offered<WallToSee>()->ownFlight(wish.back);
         lock.lock();
-        if (times != of) continue;  // again meanwhile
+        if (times != of) continue;  // restarted meanwhile
         ownFlights.erase(ownFlights.begin());
         for (const Pose& pose : poses)
             if (flown.eyes.size() < FlownWay::kMost) flown.eyes.push_back(eyeAt(pose, wish.shape));
@@ -218,7 +218,7 @@ void LiveCoverage::Work::tell() {
     wake();
 }
 
-// Never the reason why looking stops.
+// Writes the flight; a failure must not stop the work.
 void LiveCoverage::Work::write() {
     FlownWay now;
     {
@@ -235,7 +235,7 @@ void LiveCoverage::Work::write() {
     nextWritten = Clock::now() + kBetweenFiles;
 }
 
-// before: of the same file, ended; null: there is none.
+// before: work on the same file that has ended; null: none.
 void LiveCoverage::begin(const Work* before) {
     if (!mOn || !can() || mThread.joinable()) return;
     mWork = std::make_shared<Work>();
@@ -393,7 +393,7 @@ std::string LiveCoverage::problem() const {
     return mWork->problem;
 }
 
-// Parts change while one flies, so the chosen one is found by its size.
+// Finds the chosen part by its size, since parts change during the flight.
 const UnseenPart* LiveCoverage::step(int step) {
     std::vector<const UnseenPart*> parts;
     for (const UnseenPart& part : mSoFar.unseen)

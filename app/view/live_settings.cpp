@@ -20,12 +20,12 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr const char* kPaintKeys[] = {"contours", "paint", "tracks"};
 
-// To a thousandth of a degree, which no picture shows.
+// Returns an angle to a thousandth of a degree, which is not visible in a picture.
 std::string degreeText(double radians) {
     return fmt::format("{:.6g}", std::round(1000 * radians / kDegree) / 1000 + 0.0);
 }
 
-// The key by which a scene's turning light is said.
+// The option that sets a scene's turning light.
 enum class LightKey { None, Sun, LightFrom, Sky };
 LightKey lightKeyOf(const ViewSession& session) {
     const Scene& scene = *session.open().scene;
@@ -47,7 +47,8 @@ struct Live {
     const char* key;
     bool (*has)(const ViewSession&);
     std::string (*now)(const ViewSession&);
-    // What need not be said. Light that was turned there and back differs by rounding: its texts count.
+    // Whether the option can be left out. Light that was turned away and back differs by rounding: its texts
+    // are compared.
     bool (*asBegun)(const ViewSession&);
     void (*set)(ViewSession&, const OptionValue&);
     void (*reset)(ViewSession&);
@@ -59,7 +60,7 @@ bool always(const ViewSession&) {
 const SurfaceChoices* surfaceOf(const ViewSession& session) {
     return session.open().scene->offered<SurfaceChoices>();
 }
-// Null where the scene does not say.
+// Returns null where the scene does not know.
 const BegunSurface* begunOf(const ViewSession& session) {
     const auto* const shown = session.open().scene->offered<ShownValues>();
     return shown && surfaceOf(session) ? &shown->begun : nullptr;
@@ -68,7 +69,7 @@ bool takesByName(const ViewSession& session, const std::string& text) {
     const auto& names = surfaceOf(session)->transfers;
     return std::find(names.begin(), names.end(), text) != names.end();
 }
-// What is seen through: the function, "" where it is opaque or there is an opacity instead.
+// Returns the transfer function in use; "" where the surface is opaque or has an opacity instead.
 std::string transferText(const ViewSession& session) {
     const SurfaceChange now = session.surface().now();
     if (!*now.translucent) return "";
@@ -91,19 +92,20 @@ void showOpaque(ViewSession& session) {
     change.translucent = false;
     session.surface().set(change);
 }
-// By tellFunction.
+// For values that tellFunction() adds.
 bool saidApart(const ViewSession&) {
     return true;
 }
-// By hand: neither as the room around asks for, nor as they were fitted to the first picture.
+// Returns whether the eyes are set by hand: they neither follow the room nor were fitted to the first
+// picture.
 bool eyesAreSet(const ViewSession& session) {
     return !session.followsClearance() && !session.eyes().fits() && !session.eyes().fitted();
 }
 const StereoSetting& begunEyes(const ViewSession& session) {
     return session.eyes().begun(*session.open().scene);
 }
-// Whether they need not be said: nothing was set, or what was set is as the window began. One that is said
-// has the other said too, where that is not the scene's own: both are fitted, or none.
+// Returns whether a part of the eyes' setting can be left out: nothing was set, or it is as the window began.
+// Where one part is given the other is given, too, unless it is the scene's own: both are fitted, or none.
 bool eyesAsBegun(const ViewSession& session, double StereoSetting::*part) {
     if (!eyesAreSet(session)) return true;
     const StereoSetting &wanted = session.eyesWanted(), &begun = begunEyes(session);
@@ -214,7 +216,7 @@ constexpr Live kLive[] = {
     {"transfer", [](const ViewSession& s) { return surfaceOf(s) != nullptr; }, transferText, saidApart,
      [](ViewSession& s, const OptionValue& value) {
          const BegunSurface* const begun = begunOf(s);
-         // A file's is that of the options.
+         // A file is that of the options.
          const bool own = begun && begun->transfer == value.text && !takesByName(s, value.text);
          showThrough(s, own ? "" : value.text);
      },
@@ -234,20 +236,21 @@ const Live* liveNamed(const ViewSession& session, const std::string& key) {
     return nullptr;
 }
 
-// Of names and curves; of files that alone which the scene was opened with.
+// Returns whether the scene takes this function at once: a name or a curve, or the file that it was opened
+// with.
 bool takesTransfer(const ViewSession& session, const std::string& text) {
     const BegunSurface* const begun = begunOf(session);
     return takesByName(session, text) || isCurveText(text) ||
            (begun && !text.empty() && begun->transfer == text);
 }
 
-// That alone which the scene was opened with, or has where nothing was said.
+// Returns whether the opacity is the one that the scene was opened with, or its default.
 bool takesOpacity(const ViewSession& session, const std::string& text) {
     const BegunSurface* const begun = begunOf(session);
     return begun && begun->transfer.empty() && numberOf(text) == begun->opacity;
 }
 
-// What surfaces are painted with: null where the key says something else, or the scene is to be made anew.
+// Returns the paint that the key exchanges; null for other keys, and where the scene has to be made again.
 LivePaint* paintOf(const ViewSession& session, const std::string& key) {
     const auto is = [&](const char* one) { return key == one; };
     return std::any_of(std::begin(kPaintKeys), std::end(kPaintKeys), is)
@@ -255,7 +258,7 @@ LivePaint* paintOf(const ViewSession& session, const std::string& key) {
                : nullptr;
 }
 
-// One that the scene does not take is of another scene, which is being made.
+// Adds the paint in use. Paint that the scene does not take is for another scene, which is being made.
 void tellPaint(const ViewSession& session, SettingTexts& given) {
     for (const char* const key : kPaintKeys) {
         const LivePaint* const paint = paintOf(session, key);
@@ -266,7 +269,7 @@ void tellPaint(const ViewSession& session, SettingTexts& given) {
     }
 }
 
-// A function and an opacity are two ways to say one thing, which is said as it is shown, or not.
+// Adds the function or the opacity in use: two ways to set one thing.
 void tellFunction(const ViewSession& session, SettingTexts& given) {
     if (!begunOf(session)) {
         if (surfaceOf(session) && !transferText(session).empty()) given["transfer"] = {transferText(session)};

@@ -1,4 +1,4 @@
-// Settings that the session changes at once, without reading the scene again: the table's keys against the
+// Settings that the session changes at once, without loading the scene again: the table's keys and the
 // session's values, in both directions.
 #pragma once
 
@@ -10,20 +10,21 @@
 
 namespace stereonav {
 
-// Whether the scene takes this key at once; with a text: this value (none: as the scene began).
+// Returns whether the scene takes this key at once; with a text: this value (empty: as the scene began).
 bool isLive(const ViewSession& session, const std::string& key);
 bool isLive(const ViewSession& session, const std::string& key, const std::optional<std::string>& text);
 
-// `given` with the live values as they are now; what is as the scene began is as it was given.
+// Returns `given` with the present live values; those that are as the scene began stay as given.
 SettingTexts withLive(const ViewSession& session, SettingTexts given);
 
-// The value in use now, as a text, whether it was given or not: none where the session does not know it.
+// Returns the value in use as a text, whether it was given or not; empty where the session does not know it.
 std::optional<std::string> valueNow(const ViewSession& session, const std::string& key);
 
-// Sets a live key: text as the option takes it, none: as the scene began. Throws Error as the command line.
+// Sets a live key. text: in the form of the option; empty: as the scene began. Throws Error like the command
+// line.
 void setLive(ViewSession& session, const std::string& key, const std::optional<std::string>& text);
 
-// What was painted since a scene was asked for is painted in that scene too.
+// Paints in a new scene what was painted since it was asked for.
 void keepPaint(const Scene& before, const Scene& after);
 
 }  // namespace stereonav

@@ -11,7 +11,7 @@
 namespace stereonav {
 namespace {
 
-// How its frames are made, and how it begins.
+// Returns a scene with the way of making frames and its initial state.
 OpenScene opened(std::shared_ptr<Scene> shown, const ViewOptions& options, bool measure, Progress& progress) {
     progress.report(0, "opening");
     OpenScene open;
@@ -20,7 +20,7 @@ OpenScene opened(std::shared_ptr<Scene> shown, const ViewOptions& options, bool 
     if (const auto* const models = scene.offered<LightModels>()) open.model = models->now();
     open.scene = std::move(shown);
     open.way.method = methodNamed(options.method, scene);
-    // A study is opened quickly: it gets its default.
+    // Opening a study has to be fast: it gets its default.
     if (const auto plan = qualityOf(options.scene, scene, options.method, progress)) {
         open.way = {nameOf(plan->setting.method), plan->setting};
     } else if (measure && options.method == "auto" && !scene.offered<SurfaceChoices>()) {
@@ -39,7 +39,7 @@ OpenScene openScene(const ViewOptions& options, bool measure, const SizeOption& 
     Progress reading(progress, 0, 0.9), opening(progress, 0.9, 1);
     std::shared_ptr<Scene> scene = loadScene(options.scene, options.size, reading, kNoPicture);
     checkSize(window, options.scene, kViewBytes);
-    // A recorded flight is looked at once, with the scene that it was given for.
+    // A flight from a file is checked once, in the scene that it was given for.
     if (measure && !options.path.empty()) scene->check(readPath(options.path), options.path);
     if (sweep) sweep->use(*scene);
     return opened(std::move(scene), options, measure, opening);

@@ -1,4 +1,4 @@
-// Scenes for the viewer: loaded, measured, and loaded again with what the user changed in the window.
+// Scenes for the viewer: loading, measuring, and loading again with changes made in the window.
 #pragma once
 
 #include <functional>
@@ -14,28 +14,29 @@ namespace stereonav {
 
 class ViewSweep;
 
-// measure: whether to find out by measuring how the right eye is made best, where the options leave it
-// open; else it is the scene's default. window: its pixels. sweep: of media, null for other scenes. Throws
-// Error, Cancelled.
+// measure: whether to choose the method of the right eye by measuring, where the options leave it open;
+// otherwise it is the scene's default. window: its size in pixels. sweep: for media, null for other scenes.
+// Throws Error, Cancelled.
 OpenScene openScene(const ViewOptions& options, bool measure, const SizeOption& window, ViewSweep* sweep,
                     Progress& progress);
-// One that offers SurfaceChoices, so changed; on the thread that loads. Throws Error, Cancelled.
+// Returns a changed copy of a scene that offers SurfaceChoices; on the thread that loads. Throws Error,
+// Cancelled.
 OpenScene changedScene(const OpenScene& now, const SurfaceChange& change, const ViewOptions& options,
                        Progress& progress);
 
-// What the user changed in the window, into `options`, which were made from `first`.
+// Applies a change in the window to `options`, which were made from `first`.
 void applyChange(const SceneChange& change, const SceneOptions& first, SceneOptions& options);
 
 // Reads the slices of a scene beside the window's thread.
 class SliceReading {
 public:
     bool busy() const { return mReading.busy(); }
-    double fraction() const { return mReading.fraction(); }  // of what is being read
-    void cancel() { mReading.cancel(); }                     // take() throws Cancelled soon
-    void abandon();  // of a scene that is gone: take() will tell nothing of it
-    // Nothing while busy, or for a scene without slices. wake: called when it is done.
+    double fraction() const { return mReading.fraction(); }  // progress of the reading
+    void cancel() { mReading.cancel(); }                     // take() then throws Cancelled soon
+    void abandon();  // for a scene that is gone: take() returns nothing of it
+    // Does nothing while busy, or for a scene without slices. wake: called when it is done.
     void start(std::shared_ptr<const OpenScene> scene, std::function<void()> wake);
-    // Null while it is not done; throws what reading threw.
+    // Returns null while it is not done; throws the exceptions of reading.
     std::shared_ptr<const SliceStudy> take();
 
 private:

@@ -12,8 +12,8 @@ namespace stereonav {
 
 class PaperData {
 public:
-    // folder: "": the environment's STEREONAV_TEST_DATA, else shared/data in the working directory. Throws
-    // Error where a folder that is named does not exist.
+    // folder: "": the environment's STEREONAV_TEST_DATA, else shared/data beside the working directory.
+    // Throws Error where a folder that is named does not exist.
     explicit PaperData(const std::string& folder);
     // Returns a file or folder of the data; empty where there is none.
     std::filesystem::path find(const char* name) const;
