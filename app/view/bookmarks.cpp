@@ -205,7 +205,7 @@ std::string Bookmarks::rename(const std::string& name, const std::string& to) {
     const auto found =
         std::find_if(mList.begin(), mList.end(), [&](const Bookmark& mark) { return mark.name == name; });
     if (found == mList.end()) return "";
-    found->name.clear();  // its own name must not count as taken
+    found->name.clear();  // the present name must not count as taken
     found->name = nameLike(to);
     const std::string now = found->name;
     write();

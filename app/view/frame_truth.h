@@ -15,9 +15,9 @@ namespace stereonav {
 // Picture that is shown instead of the right eye.
 enum class TruthView {
     None,        // the right eye as it was made
-    FullCast,    // its truth: cast in full, or swept separately
+    FullCast,    // the truth: cast in full, or swept separately
     Difference,  // five times the error in each channel of the sRGB bytes; black where there is none
-    Holes,       // as it was made, with the pixels that were cast in red
+    Holes,       // the eye as it was made, with the pixels that were cast in red
 };
 constexpr int kTruthTimes = 5;  // factor of Difference
 
@@ -70,7 +70,7 @@ private:
     bool makeTruth(const Scene& scene, const StereoViews& views, double time, const FrameWay& way,
                    const std::atomic<bool>* stop);
 
-    EyePair mTruth;              // its left eye is the truth of the right one
+    EyePair mTruth;              // the left eye is the truth of the right one
     Plane<PackedColor> mAsMade;  // picture before holes were painted over it; else empty
 };
 

@@ -99,7 +99,7 @@ void Instruments::findAt(const std::optional<glm::dvec3>& world) {
 void Instruments::addFinding(const glm::dvec3& place) {
     if (!findings()) return;
     if (!mFindings.add(place)) return mSession->notify("no more findings can be kept");
-    mStudy.wanted(*mSession);  // whose values are shown once it is read
+    mStudy.wanted(*mSession);  // values are shown once it is read
     mSession->notify("finding " + std::to_string(mFindings.rows().size()) + ": being measured");
     mShows = Shows::Findings;
 }

@@ -13,7 +13,7 @@ std::string measuredWords(const Scene& scene, const MeasuredLine& line) {
     const bool area = line.closed() && line.places().size() > 2;
     std::string text;
     for (const glm::dvec3& place : line.places()) {
-        // A ground that lies nowhere has the world's own.
+        // Ground without a reference system uses the world's coordinates.
         std::optional<glm::dvec2> at;
         if (!scene.offered<OnEarth>()) at = glm::dvec2(place);
         for (const Fact& fact : reader->readPlace(place))

@@ -1,4 +1,4 @@
-// The measured line as the commands `measure` and `profile` take it.
+// The measured line in the form that the commands `measure` and `profile` take.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace stereonav {
 
-// "--line=x,y,..." in the reference system of the scene's file; "" where the scene has no such commands, or a
-// place has no coordinates.
+// Returns "--line=x,y,..." in the reference system of the scene's file; "" where the scene has no such
+// commands, or a place has no coordinates.
 std::string measuredWords(const Scene& scene, const MeasuredLine& line);
 
 }  // namespace stereonav

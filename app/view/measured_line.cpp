@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kMeasuredVersion = 1;
 
-// Its heights may have been exaggerated otherwise when the place was put there.
+// Returns the place at the present height of the ground: heights may have been exaggerated differently when
+// it was added.
 glm::dvec3 onGround(const TerrainScene& terrain, const glm::dvec3& place) {
     const glm::dvec2 at(place);
     const double height = terrain.ground.contains(at) ? terrain.ground.heightAt(at) : std::nan("");
@@ -133,7 +134,7 @@ void MeasuredLine::setEyeHeight(double height) {
     measureAgain();
 }
 
-// What is under way is of what was before: it ends soon.
+// Measures again; work that is under way is for the line before, and ends soon.
 void MeasuredLine::measureAgain() {
     mDue = mPlaces.size() > 1;
     mWork.cancel();
@@ -146,7 +147,7 @@ void MeasuredLine::changed() {
     write();
 }
 
-// Never the reason why measuring stops.
+// Writes the line; a failure must not stop measuring.
 void MeasuredLine::write() {
     if (mFile.empty()) return;
     nlohmann::json places = nlohmann::json::array();
@@ -176,7 +177,7 @@ MeasuredLine::Outcome MeasuredLine::outcomeOf(const Scene& scene, const std::vec
     }
 }
 
-// What was begun before a change is cancelled by it.
+// Takes a finished measurement. One that was begun before a change was cancelled by it.
 bool MeasuredLine::takeMeasured() {
     try {
         std::optional<Outcome> outcome = mWork.take();

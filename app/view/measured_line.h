@@ -1,5 +1,5 @@
-// The line that is measured in the window: places that a person put on the surface one by one, and what the
-// scene says of them, worked out beside the window. Kept for the scene's file as it is made.
+// The line that is measured in the window: places that the user added on the surface one by one, and the
+// scene's measurements, made beside the window. Kept for the scene's file.
 #pragma once
 
 #include <filesystem>
@@ -21,34 +21,36 @@ class MeasuredLine {
 public:
     static constexpr std::size_t kMost = 1000;  // places
 
-    // wake: called from another thread when a measuring is done.
+    // wake: called from another thread when a measurement is done.
     explicit MeasuredLine(std::function<void()> wake) : mWake(std::move(wake)) {}
 
-    // Of that scene from now on, with what was kept in `file`; "" keeps nothing.
+    // Begins a scene, with the line kept in `file`; "" keeps nothing.
     void open(std::shared_ptr<const Scene> scene, const std::filesystem::path& file);
-    // The same file, shown by another scene.
+    // Goes on in another scene of the same file.
     void replaceScene(std::shared_ptr<const Scene> scene);
 
     const std::vector<glm::dvec3>& places() const { return mPlaces; }
     bool closed() const { return mClosed; }
-    // World. One that is where the last one is, or beyond kMost, is left out: false.
+    // Adds a place of the world. Returns false, without adding it, where it equals the last one, or there are
+    // kMost.
     bool add(const glm::dvec3& place);
     void removeLast();
     void clear();
     void setClosed(bool closed);
-    // These in the place of its own, evenly thinned to kMost. False: fewer than two that differ, and nothing
-    // is changed.
+    // Replaces the places by these, evenly thinned to kMost. Returns false, without a change, for fewer than
+    // two different places.
     bool take(const std::vector<glm::dvec3>& places, bool closed);
-    // Of a line of sight between its last two places: above the surface, metres.
+    // Returns the height above the surface of both ends of a line of sight between the last two places, in
+    // metres.
     double eyeHeight() const { return mEyeHeight; }
     void setEyeHeight(double height);
 
-    // Looks whether the last measuring is done, and begins the next. True: there is something new.
+    // Takes a finished measurement, and begins the next. Returns true where there is something new.
     bool poll();
     bool busy() const { return mWork.busy() || mDue; }
-    // Of the measuring that is under way, 0 to 1. Any change ends it, and begins another.
+    // Returns the progress of the measurement under way, 0 to 1. Any change cancels it and begins another.
     double fraction() const { return mWork.fraction(); }
-    // Of the places that there were when it began. Null: there is none. problem(): why.
+    // Returns the measurements of the places at its beginning; null: none. problem(): the reason.
     const MeasuredSurface* measured() const { return mMeasured ? &*mMeasured : nullptr; }
     const std::string& problem() const { return mProblem; }
 
@@ -72,13 +74,14 @@ private:
     double mEyeHeight = 2;
     std::optional<MeasuredSurface> mMeasured;
     std::string mProblem;
-    BesideWork<Outcome> mWork;  // last: it is ended, and waited for, first
+    BesideWork<Outcome> mWork;  // last: it is cancelled, and its end waited for, first
 };
 
-// Where the line of a scene is kept whose places are kept in that file (Bookmarks::file()); "" for "".
+// Returns the file for the line of a scene, given the one for its places (Bookmarks::file()); "" for "".
 std::filesystem::path measuredFile(const std::filesystem::path& places);
 
-// What any scene says: lengths from place to place in space, and round it where it is closed.
+// Returns measurements that every scene has: lengths from place to place in space, and around where it is
+// closed.
 MeasuredSurface straightMeasure(const std::vector<glm::dvec3>& places, bool closed);
 
 }  // namespace stereonav

@@ -1,15 +1,16 @@
-// Which mode comes next for who steps through them.
+// The next mode when the user steps through the modes.
 #pragma once
 
 #include "engine/image/stereo_compose.h"
 
 namespace stereonav {
 
-// by: 1 or -1, around the end; 0: `now`. Left out are modes that show the eyes one after the other, which
-// only flicker without the glasses and the display for them, unless the window began with that one.
+// Returns the next mode. by: 1 or -1, cyclically; 0: `now`. Modes that show the eyes in turn are left out,
+// since they only flicker without suitable glasses and display, unless the window began with that mode.
 OutputMode steppedMode(OutputMode now, int by, OutputMode first);
 
-// What a picture of the window is saved as: its mode, or side by side where that fits in no picture.
+// Returns the setting for a saved picture of the window: its mode, or side by side where that does not fit in
+// a picture.
 ComposeSetting pictureSetting(const ComposeSetting& shown);
 
 }  // namespace stereonav

@@ -1,5 +1,5 @@
-// What the window tells: lines on standard output and in the document that --json asks for, and a failure,
-// which stays in the window until it is read.
+// Messages of the window: lines on standard output and in the document of --json, and a failure, which stays
+// in the window until it is read.
 #pragma once
 
 #include <functional>
@@ -14,25 +14,25 @@ class Notices {
 public:
     explicit Notices(const ViewOptions& options);
 
-    // A line, which stays useful after the window is closed; "" is none.
+    // Prints a line that is useful after the window is closed, too; "" prints nothing.
     void tell(const std::string& text);
 
-    // One line; "": none.
+    // Returns one line; "": none.
     const std::string& failure() const { return mFailure; }
     void fail(const std::string& problem) { mFailure = problem; }
     void forgetFailure() { mFailure.clear(); }
-    // An exception of it becomes the failure.
+    // Calls `what`; an exception becomes the failure.
     void tryTo(const std::function<void()>& what);
 
-    // The document, whose other fields others add.
+    // Returns the document, to which others add fields.
     CommandResult& result() { return mResult; }
-    // Prints and writes it when the window is closed. scene: its name. Throws Error.
+    // Prints and writes the document when the window is closed. scene: its name. Throws Error.
     void finish(const std::string& scene);
 
 private:
     CommandResult mResult;
     FactWords mTold;
-    std::string mJson;  // the document's file; "": none
+    std::string mJson;  // file of the document; "": none
     std::string mFailure;
 };
 

@@ -7,7 +7,7 @@ namespace stereonav {
 namespace {
 
 constexpr double kFiguresWait = 0.1;      // seconds that figures and notices may be old in flight
-constexpr double kMostFiguresWait = 0.3;  // where no new picture comes
+constexpr double kMostFiguresWait = 0.3;  // the same where no new picture comes
 
 }  // namespace
 
@@ -19,7 +19,7 @@ PanelStage::~PanelStage() {
 
 void PanelStage::toggleControls() {
     if (mControls) {
-        // Of the look, what belongs to the person goes back; the scale is each screen's own.
+        // User settings of the look are taken back; the scale belongs to each screen.
         InterfaceLook look = mInterface.look();
         look.dark = mControls->interface().look().dark;
         mInterface.setLook(look);
@@ -48,9 +48,9 @@ SizeOption PanelStage::eyeSize() const {
     return eyeSizeAt(mode, placeOf(mode));
 }
 
-// In flight each picture has other figures, which nobody reads as fast: the interface is laid out for what
-// the user does, and else ten times a second, together with a new picture: a window that is drawn for its
-// figures alone would make the next picture late.
+// Lays out the interface for user input, and otherwise ten times a second together with a new picture. In
+// flight each picture has other figures, but nobody reads them that fast, and drawing the window only for its
+// figures would delay the next picture.
 bool PanelStage::layOut(const InterfacePlaces& places, double dt, bool fresh, bool busy,
                         const std::function<void()>& draw) {
     mSinceLayout += dt;

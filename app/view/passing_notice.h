@@ -1,4 +1,4 @@
-// A line that the window shows for some seconds.
+// A line that the window shows for a few seconds.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ public:
         mText = text;
         mLeft = kSeconds;
     }
-    // dt seconds pass.
+    // Lets dt seconds pass.
     void step(double dt) {
         if (mLeft > 0 && (mLeft -= dt) <= 0) mText.clear();
     }
@@ -20,7 +20,7 @@ public:
 private:
     static constexpr double kSeconds = 4;
     std::string mText;
-    double mLeft = 0;  // seconds
+    double mLeft = 0;  // seconds left
 };
 
 }  // namespace stereonav

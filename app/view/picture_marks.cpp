@@ -11,8 +11,9 @@
 
 namespace stereonav {
 
-// Kept places, as high over the ground as they were; and those of tracks, whose marks say where they are.
-// Made when one of them changes: there may be a thousand, and names are drawn with each picture.
+// Returns kept places, at their height over the ground, and places of tracks, whose marks show where they
+// are. Made again only when one of them changes: there may be a thousand, and names are drawn with each
+// picture.
 const std::vector<LabelledPlace>& PictureMarks::namedPlaces(const std::shared_ptr<const OpenScene>& scene) {
     const auto* const paint = scene->scene->offered<LivePaint>();
     const Bookmarks* const kept = mKept.places();
@@ -41,8 +42,7 @@ void PictureMarks::addNames(const std::shared_ptr<const OpenScene>& scene, std::
             {glm::vec2(label.mark.left), glm::vec2(label.mark.right), label.text, glm::vec2(label.textAt)});
 }
 
-// Its places with their numbers, and points between them as the line lies on the surface; what is hidden is
-// left out.
+// Adds the line's visible places with their numbers, and points between them on the surface.
 void PictureMarks::addLine(std::vector<OverlayMark>& marks) const {
     constexpr std::size_t kMostPoints = 300, kMostNumbers = 60;
     const MeasuredLine& line = mInstruments.line();
@@ -59,7 +59,7 @@ void PictureMarks::addLine(std::vector<OverlayMark>& marks) const {
         const std::size_t count = measured->places.size(), points = std::min(count, kMostPoints);
         for (std::size_t n = 0; n < points; ++n) add(measured->places[n * count / points], "", true);
     }
-    // Numbers of many would hide the line: those of its ends are left.
+    // Many numbers would hide the line: only those of its ends are drawn.
     const std::size_t count = line.places().size();
     for (std::size_t n = 0; n < count; ++n)
         if (count <= kMostNumbers || n == 0 || n + 1 == count)

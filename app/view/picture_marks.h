@@ -1,5 +1,4 @@
-// What is drawn over the picture in depth, for each eye: the pointer, names of places, the measured line,
-// findings.
+// Marks over the picture in depth, for each eye: the pointer, names of places, the measured line, findings.
 #pragma once
 
 #include <memory>
@@ -17,15 +16,15 @@ namespace stereonav {
 
 class PictureMarks {
 public:
-    // All of them outlive this.
+    // The arguments must outlive this object.
     PictureMarks(FramePresenter& pictures, const PicturePointer& pointer, const PanelStage& stage,
                  const KeptPlaces& kept, const Instruments& instruments)
         : mPictures(pictures), mPointer(pointer), mStage(stage), mKept(kept), mInstruments(instruments) {}
 
     bool showsNames() const { return mNamesShown; }
     void showNames(bool shown) { mNamesShown = shown; }
-    // Over the picture that is shown. session: none before the first scene. True: it looks otherwise than
-    // before.
+    // Draws the marks over the present picture. session: none before the first scene. Returns true where they
+    // look different.
     bool draw(const std::optional<ViewSession>& session, const OutputModeInfo& mode);
 
 private:

@@ -8,7 +8,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kUnit = 1 << 14;  // pixels of a picture that shares are taken from
+constexpr int kUnit = 1 << 14;  // size in pixels of a picture from which shares are computed
 
 bool oneArea(const std::array<EyeArea, 2>& areas) {
     return areas[0] == areas[1];
@@ -52,7 +52,7 @@ PicturePlace picturePlace(const OutputModeInfo& mode, const glm::ivec2& window, 
 
 glm::ivec2 composedAt(const OutputModeInfo& mode, const PicturePlace& place) {
     if (mode.half) {
-        // Both parts of the window together, whichever way they lie.
+        // Both parts of the window together, side by side or one above the other.
         const bool beside = mode.layout == OutputLayout::SideBySide;
         return place.size * glm::ivec2(beside ? 2 : 1, beside ? 1 : 2);
     }

@@ -1,5 +1,5 @@
-// Where the eyes' pictures and the interface lie in the window, whatever the layout: each eye has a part of
-// it, and beside panels the picture has the rest of that part.
+// Places of the eyes' pictures and of the interface in the window for each layout: each eye has a part of it,
+// and the picture has the part that panels leave.
 #pragma once
 
 #include "app/options/shared_options.h"
@@ -9,27 +9,27 @@
 
 namespace stereonav {
 
-// The parts of both eyes, one where they share one.
+// Returns the parts of both eyes, one where they share one.
 InterfacePlaces interfacePlaces(const OutputModeInfo& mode);
 
-// Whether the parts of both eyes leave nothing of a window of so many pixels, as an odd column or the gap
-// between packed frames.
+// Returns whether the parts of both eyes cover a window of this size; an odd column, or the gap between
+// packed frames, may be left.
 bool partsCover(OutputMode mode, const SizeOption& window);
 
-// Of one part, pixels from its top left corner.
+// The picture in one part of the window; pixels from the part's top left corner.
 struct PicturePlace {
     glm::ivec2 part{1}, corner{0}, size{1};
     bool operator==(const PicturePlace&) const = default;
 };
-// window: pixels of the framebuffer; rest: what the interface leaves, of a whole of `units`.
+// window: pixels of the framebuffer; rest: what the interface leaves of `units`.
 PicturePlace picturePlace(const OutputModeInfo& mode, const glm::ivec2& window, const Panels::Rest& rest,
                           const glm::vec2& units);
-// Pixels of a picture composed of both eyes that fills it in all parts.
+// Returns the size in pixels of a picture composed of both eyes that fills the place in all parts.
 glm::ivec2 composedAt(const OutputModeInfo& mode, const PicturePlace& place);
-// Pixels of an eye that fills it.
+// Returns the size in pixels of an eye that fills the place.
 SizeOption eyeSizeAt(const OutputModeInfo& mode, const PicturePlace& place);
-// Where in an eye's picture a place of the window lies, in shares of its size; beside it less than 0 or more
-// than 1.
+// Returns the place in an eye's picture of a place in the window, in shares of the picture's size; outside it
+// less than 0 or more than 1.
 glm::dvec2 placeInPicture(const OutputModeInfo& mode, const PicturePlace& place, const glm::dvec2& window);
 
 }  // namespace stereonav

@@ -23,7 +23,8 @@ std::optional<glm::dvec2> PicturePointer::share(const OutputModeInfo& mode) cons
     return (share * glm::dvec2(place.part) - glm::dvec2(place.corner)) / glm::dvec2(place.size);
 }
 
-// A picture that was warped has the depths of another moment: what lies there waits until it stands still.
+// Returns the place under the pointer. A warped picture has the depths of another moment, so there is none
+// until it rests.
 std::optional<glm::dvec3> PicturePointer::world() const {
     const ViewFrame* const frame = mPictures.frame();
     const ShownPicture& picture = mPictures.picture();
@@ -63,7 +64,7 @@ void PicturePointer::use(Instruments& instruments, Notices& notices) {
     if (mStage.controls()) useControls(notices);
 }
 
-// In the small picture one looks round and points as in the large one.
+// Handles the small picture, in which the user looks around and points as in the large one.
 void PicturePointer::useControls(Notices& notices) {
     ControlWindow& controls = *mStage.controls();
     Window& window = controls.window();

@@ -1,5 +1,5 @@
-// The pointer on the picture, in the first window or in the small picture beside panels of their own: what
-// lies under it, and what dragging, wheel and clicks do.
+// The pointer on the picture, in the first window or in the small picture beside panels in their own window:
+// the place under it, and the actions of dragging, wheel and clicks.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -17,21 +17,21 @@ class Notices;
 
 class PicturePointer {
 public:
-    // All of them outlive this.
+    // The arguments must outlive this object.
     PicturePointer(std::optional<ViewSession>& session, Window& window, PanelStage& stage,
                    const FramePresenter& pictures)
         : mSession(session), mWindow(window), mStage(stage), mPictures(pictures) {}
 
-    // Whether it is drawn at the depth of what it is over: where two eyes' pictures are shown, of which
-    // slices have none.
+    // Returns whether the pointer is drawn at the depth of the place under it: for pictures of two eyes,
+    // except slices.
     bool isOfPicture(const OutputModeInfo& mode) const;
-    // Where it is over the picture: shares of an eye's size.
+    // Returns its place on the picture in shares of an eye's size.
     std::optional<glm::dvec2> share(const OutputModeInfo& mode) const;
-    // What is seen under it, of a picture that stands still.
+    // Returns the place under the pointer in the world, for a picture that rests.
     std::optional<glm::dvec3> world() const;
-    Facts facts() const;  // of that place; none mostly
+    Facts facts() const;  // facts of that place, if any
 
-    // Takes what was done with it since the last turn.
+    // Handles its actions since the last turn.
     void use(Instruments& instruments, Notices& notices);
 
 private:

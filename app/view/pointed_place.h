@@ -1,4 +1,4 @@
-// What there is to say of the place that the pointer is over.
+// Facts of the place under the pointer.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,8 +9,8 @@
 
 namespace stereonav {
 
-// What the scene says of it (PlaceReader), the study's value there where its slices have been read (else
-// null), and how far it is. world, eye: metres.
+// Returns the scene's facts (PlaceReader), the study's value where its slices have been read (else null), and
+// the distance. world, eye: metres.
 Facts factsOfPlace(const Scene& scene, const SliceStudy* study, const glm::dvec3& world,
                    const glm::dvec3& eye);
 

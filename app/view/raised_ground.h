@@ -1,5 +1,5 @@
-// Where eyes, places and flights over a ground go when its heights are exaggerated otherwise: as high over
-// the ground as they were.
+// New places of eyes, kept places and flights over ground whose heights are exaggerated by another factor: at
+// the same height over the ground.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,10 @@ namespace stereonav {
 
 class RaisedGround {
 public:
-    // None where they do not show one ground, or show it by one scale. after: lives longer.
+    // Returns empty where the scenes do not show the same ground with different factors. `after` must outlive
+    // the result.
     static std::optional<RaisedGround> between(const Scene& before, const Scene& after);
-    // Of a place that was kept over the same ground; none where it does not say by what scale, or by this.
+    // Returns empty for a place that was kept over other ground, without its factor, or with the present one.
     static std::optional<RaisedGround> since(const Bookmark& place, const Scene& now);
 
     glm::dvec3 moved(const glm::dvec3& place) const;
@@ -27,12 +28,12 @@ public:
 private:
     RaisedGround(const Heightfield& ground, double before) : mGround(&ground), mBefore(before) {}
     const Heightfield* mGround;
-    double mBefore;  // its heights were so many times what they are
+    double mBefore;  // earlier factor over the present one
 };
 
-// What a place remembers of the scene that it is kept of (Bookmark::settings).
+// Returns what a place stores of its scene (Bookmark::settings).
 std::string groundSettings(const Scene& scene);
-// The place over the ground as it is shown now.
+// Returns the place over the ground as it is shown now.
 Bookmark placeNow(const Bookmark& place, const Scene& now);
 
 }  // namespace stereonav

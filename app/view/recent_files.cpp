@@ -32,7 +32,7 @@ bool isRecent(const json& file) {
 
 fs::path fullPath(const fs::path& path) {
     std::error_code code;
-    if (path.is_relative() || !fs::exists(path, code)) return path;  // built in
+    if (path.is_relative() || !fs::exists(path, code)) return path;  // built-in scene
     const fs::path full = fs::canonical(path, code);
     return code ? path : full;
 }
@@ -98,7 +98,7 @@ void RecentFiles::add(const fs::path& given, const std::string& kind, const Plan
             writeKept(file, std::string(bytes.begin(), bytes.end()));
             recent.thumbnail = file;
         } catch (const Error&) {
-            // It is listed without; where nothing can be written that is told below.
+            // The file is listed without a picture; where nothing can be written a notice says so below.
         }
     mList.insert(mList.begin(), std::move(recent));
     while (mList.size() > kMost) forget(mList.end() - 1);

@@ -1,4 +1,4 @@
-// What was opened last, newest first, kept between runs, with a small picture each.
+// Recent files, newest first, kept between runs, each with a small picture.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,13 @@
 namespace stereonav {
 
 struct RecentFile {
-    std::filesystem::path path;       // in full; of a built-in scene its name
-    std::string kind;                 // in words: "terrain, 1201x1201"
-    std::filesystem::path thumbnail;  // a PNG file, which may be gone; "" without
+    std::filesystem::path path;       // full path; name of a built-in scene
+    std::string kind;                 // description: "terrain, 1201x1201"
+    std::filesystem::path thumbnail;  // a PNG file, which may be gone; "" for none
 };
 
-// recent.json in stateFolder(), thumbnails beside it in the folder `thumbnails`. What another window has
-// written since is read before each change. One thread.
+// The list is in recent.json in stateFolder(), with thumbnails in the folder `thumbnails` beside it. Changes
+// by other windows are read before each change. To be used by one thread.
 class RecentFiles {
 public:
     static constexpr std::size_t kMost = 20;
@@ -25,13 +25,13 @@ public:
     explicit RecentFiles(const std::filesystem::path& folder = stateFolder());
 
     const std::vector<RecentFile>& list() const { return mList; }
-    // To the front. A path that is not full is a built-in scene's name. A thumbnail of before stays where
-    // there is none now.
+    // Puts a file first. A path that is not full is the name of a built-in scene. An earlier thumbnail is
+    // kept where there is none now.
     void add(const std::filesystem::path& path, const std::string& kind,
              const Plane<PackedColor>* thumbnail = nullptr);
     void remove(const std::filesystem::path& path);
 
-    // As Bookmarks::takeProblem().
+    // Returns the failure since the last call; see Bookmarks::takeProblem().
     std::string takeProblem();
 
 private:
@@ -39,7 +39,7 @@ private:
     void write();
     void forget(std::vector<RecentFile>::iterator file);
 
-    std::filesystem::path mFolder;  // "" keeps nothing
+    std::filesystem::path mFolder;  // "": nothing is kept
     std::vector<RecentFile> mList;
     std::string mProblem;
     bool mUnkeptTold = false, mUnkept = false;

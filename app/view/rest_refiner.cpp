@@ -13,20 +13,20 @@
 namespace stereonav {
 namespace {
 
-// Fewer rays than these are no better than one with more at edges.
+// Rays below which the mean is no better than one ray with more at edges.
 constexpr int kFirstShown = 8;
-constexpr int kMostOfMedium = 16;  // frames, each of seconds
+constexpr int kMostOfMedium = 16;  // frames, each of which takes seconds
 
 bool isShown(int rays) {
     return rays >= kFirstShown && (rays & (rays - 1)) == 0;
 }
 
-// Null where rays are cast.
+// Returns null for scenes whose rays are cast.
 SlicedFrames* slicedFrames(const Scene& scene) {
     return dynamic_cast<SlicedFrames*>(&scene.frames());
 }
 
-// For the frames of one step.
+// Raises the effort for the frames of one step.
 class MoreEffort {
 public:
     MoreEffort(SlicedFrames* frames, double effort) : mFrames(frames) {
@@ -42,7 +42,7 @@ private:
     SlicedFrames* mFrames;
 };
 
-// Root mean square over both eyes, steps of 255.
+// Returns the root mean square difference over both eyes, in steps of 255.
 double levelsApart(const EyePair& a, const EyePair& b) {
     const auto square = [](const EyeImage& one, const EyeImage& other) {
         return std::pow(10, -errorOf(one.color, other.color).psnr_db / 10);
@@ -56,15 +56,15 @@ double decibels(double levels) {
     return levels > 0 ? std::clamp(20 * std::log10(255 / levels), 0.0, kIdenticalPsnr_db) : kIdenticalPsnr_db;
 }
 
-// Whether there is room for what is gathered: a picture that rests is there without it.
+// Returns whether the sums fit into memory; without them the picture is there, too.
 bool fits(const FrameRequest& request) {
     constexpr double kBytes =
-        140;  // a pixel of one eye: sums of both, their mean, the frame added, the one shown
+        140;  // per pixel of one eye: sums of both eyes, their mean, the frame to add, the one that is shown
     const double bytes = kBytes * request.lens.width * request.lens.height;
     return availableMemoryFor(bytes) >= bytes;
 }
 
-// Its depths are those of the first frame, whose rays go through the centres of pixels.
+// Paints the picture. Its depths are those of the first frame, whose rays go through the centres of pixels.
 void paintRested(const Scene& scene, ViewFrame& shown) {
     const FrameRequest& request = shown.request;
     if (request.twoEyes)
@@ -87,7 +87,7 @@ void RestRefiner::start(std::shared_ptr<const ViewFrame> drawn) {
 }
 
 bool RestRefiner::step(const Scene& scene, ViewFrame& shown) {
-    const std::shared_ptr<const ViewFrame> drawn = std::exchange(mDrawn, nullptr);  // where anything throws
+    const std::shared_ptr<const ViewFrame> drawn = std::exchange(mDrawn, nullptr);  // before anything throws
     if (mRefined.count() == 0 && !fits(drawn->request)) return false;
     const bool swept = slicedFrames(scene) != nullptr;
     if (!swept || mFineEnough) return stepMean(scene, drawn, swept, shown);
@@ -96,11 +96,11 @@ bool RestRefiner::step(const Scene& scene, ViewFrame& shown) {
     return shows;
 }
 
-// A picture is taken to be as far from the truth as from the one of half as much work; where that falls
-// slowly from step to step, as far as all steps to come would bring it together (docs/measured.md). Rays are
-// spread over the pixel only then.
+// Raises the effort until it is enough. The distance from the truth is estimated by that from the picture
+// with half the effort; where that falls slowly from step to step, by the sum of all steps to come
+// (docs/measured.md). Only then are rays spread over the pixel.
 bool RestRefiner::stepEffort(const Scene& scene, const ViewFrame& drawn, ViewFrame& shown) {
-    constexpr double kSlowest = 0.9;  // share of the step before that one may still be
+    constexpr double kSlowest = 0.9;  // largest permitted share of the step before
     const FrameRequest& request = drawn.request;
     FrameMaker& frames = scene.frames();
     if (mEffort == 1) mFinest = drawn;

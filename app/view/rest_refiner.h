@@ -1,6 +1,6 @@
-// What is done with a picture that rests: full casts of both eyes with their rays at other places in the
-// pixels, averaged, until the picture is as good as the truth. Of media first more and more slices and texels
-// of light.
+// Refinement of a picture that rests: full casts of both eyes with rays at different places in the pixels,
+// averaged until the picture is as good as the truth. For media first more and more slices and texels of
+// light.
 #pragma once
 
 #include <memory>
@@ -10,39 +10,40 @@
 
 namespace stereonav {
 
-// For one thread at a time, the one that makes frames.
+// For one thread at a time: the one that makes frames.
 class RestRefiner {
 public:
-    // Begins anew with a picture that was drawn; none where its request does not ask for that, or its right
-    // eye shows something else than itself.
+    // Begins with a picture that was drawn; does nothing where its request does not ask for refinement, or
+    // its right eye shows something else.
     void start(std::shared_ptr<const ViewFrame> drawn);
     bool wantsMore() const { return mDrawn != nullptr; }
 
-    // Adds a frame. True where what there is now is worth showing: `shown` becomes what was drawn, with its
-    // colours. Throws what making a frame throws; nothing more is wanted then.
+    // Adds a frame. Returns true where the result is worth showing: `shown` becomes the drawn picture with
+    // new colours. Throws the exceptions of making a frame; nothing more is wanted then.
     bool step(const Scene& scene, ViewFrame& shown);
 
-    // Steps of 255 that the mean is expected to be away from the truth, root mean square: 60 dB.
+    // Expected distance of the mean from the truth that is enough: root mean square in steps of 255, 60 dB.
     static constexpr double kEnough_levels = 0.25;
-    // Of media: half a step, 54 dB; and the most work that a frame of theirs may be, of the scene's own.
+    // The same for media: half a step, 54 dB; and the largest effort of their frames, as a multiple of the
+    // scene's own.
     static constexpr double kEnoughOfMedium_levels = 0.5, kMostEffort = 4;
-    // Frames that take longer are left as they are, but for media, which are left at any time: what a person
-    // does next would wait for them.
+    // Longest time of a frame: slower scenes are not refined, as the user's next action would have to wait.
+    // Media can be interrupted at any time.
     static constexpr double kLongest_ms = 1000, kLongestOfMedium_ms = 10'000;
 
 private:
-    // More work in each frame, twice as much as in the one before; false once that is enough.
+    // Doubles the effort of frames; returns false once it is enough.
     bool stepEffort(const Scene& scene, const ViewFrame& drawn, ViewFrame& shown);
     bool stepMean(const Scene& scene, const std::shared_ptr<const ViewFrame>& drawn, bool swept,
                   ViewFrame& shown);
 
     std::shared_ptr<const ViewFrame> mDrawn;
     RefinedFrames mRefined;
-    double mEffort = 1;           // of the finest frame of a medium
-    double mApart_levels = 0;     // that one from the one of half as much; 0: none yet
-    double mExpected_levels = 0;  // from the truth, by its slices
+    double mEffort = 1;           // effort of the finest frame of a medium
+    double mApart_levels = 0;     // distance of that frame from one with half its effort; 0: not known
+    double mExpected_levels = 0;  // expected distance from the truth, by the number of slices
     EyePair mFinest;
-    bool mFineEnough = false, mEnds = false;  // the slices; all of it, as frames take too long
+    bool mFineEnough = false, mEnds = false;  // enough slices; frames take too long
 };
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// A scene file with other settings, line by line, so that what a person wrote beside them stays.
+// Writes a scene file with other settings line by line, so that the user's text beside them is kept.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::string trimmed(const std::string& text) {
     return from == std::string::npos ? "" : text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
 }
 
-// TOML's basic string.
+// Returns a basic string of TOML.
 std::string quoted(const std::string& text) {
     std::string word = "\"";
     for (const char c : text) {
@@ -33,7 +33,7 @@ std::string quoted(const std::string& text) {
     return word + "\"";
 }
 
-// A file is found from wherever the scene file lies.
+// Returns the full path of a file, so that it is found independently of the scene file's place.
 std::string placed(const Option& option, const std::string& text) {
     std::error_code code;
     const bool file = option.value.kind == ValueKind::File ||
@@ -49,7 +49,7 @@ std::string tomlValue(const Option& option, const std::vector<std::string>& text
     return "[" + list + "]";
 }
 
-// A value's end in what follows "=", where it lies in one line: the place of what comes after it.
+// Returns the end of a value that begins after "=", where it lies on one line.
 std::size_t endOfValue(const std::string& line, std::size_t from) {
     int open = 0;
     char quote = 0;
@@ -76,7 +76,7 @@ std::size_t endOfValue(const std::string& line, std::size_t from) {
 
 struct KeyLine {
     std::string key;
-    std::size_t value = 0;  // where what follows "=" begins
+    std::size_t value = 0;  // beginning of the text after "="
 };
 std::optional<KeyLine> keyLineOf(const std::string& line) {
     const std::size_t equals = line.find('=');
@@ -110,7 +110,7 @@ public:
             line = line.substr(0, found->value) + " " + value + (after.empty() ? "" : " " + after);
             return;
         }
-        // after the last line that says something
+        // after the last line with content
         std::size_t at = end;
         while (at > begin && trimmed(mLines[at - 1]).empty()) --at;
         mLines.insert(mLines.begin() + static_cast<std::ptrdiff_t>(at), key + " = " + value);
@@ -137,7 +137,7 @@ private:
         return mLines.size();
     }
     bool hasSection() const { return heading() < mLines.size(); }
-    // Lines of the section, without its heading.
+    // Returns the lines of the section, without its heading.
     std::pair<std::size_t, std::size_t> bounds() const {
         const std::size_t begin = std::min(heading() + 1, mLines.size());
         std::size_t end = begin;

@@ -55,8 +55,8 @@ bool SceneChanges::live(const Option& option) const {
     return isOfScreen(option.key) || (mSession && isLive(*mSession, option.key));
 }
 
-// The screen's size is the person's, not the scene's: it is kept for the monitor, and nothing is loaded for
-// it. False: the option is another.
+// Sets the screen's size, which belongs to the user and not to the scene: it is kept for the monitor, and
+// nothing is loaded. Returns false for other options.
 bool SceneChanges::setScreen(const std::string& key, const std::optional<std::string>& text) {
     if (!isOfScreen(key)) return false;
     const Option& option = *viewOption(key);
@@ -68,7 +68,7 @@ bool SceneChanges::setScreen(const std::string& key, const std::optional<std::st
         mDisplay.sizes().setWidth(monitor, mm);
     else
         mDisplay.sizes().setDistance(monitor, mm);
-    // What the command line said counts no longer.
+    // The command line's value is no longer in effect.
     mSettings.forgetScreen(
         key, key == kScreenWidthKey ? &ViewOptions::screenWidth_mm : &ViewOptions::viewingDistance_mm);
     return true;
@@ -91,7 +91,7 @@ void SceneChanges::load(const ViewOptions& options, SettingTexts given, bool ano
                         Progress& progress) { return openScene(options, false, size, sweep, progress); });
 }
 
-// The same settings.
+// Loads the scene again with the same settings.
 void SceneChanges::loadAgain() {
     mWorker->reload([options = mSettings.changed(), size = mStage.windowSize(), sweep = mSweep.get()](
                         Progress& progress) { return openScene(options, false, size, sweep, progress); });
@@ -102,7 +102,7 @@ void SceneChanges::open(const std::string& scene) {
     mNotices.tryTo([&] {
         SettingTexts settings;
         if (scene != "terrain") settings["SCENE"] = {scene};
-        // What is of the person and the screen stays.
+        // Settings of the user and of the screen are kept.
         const SettingTexts& given = mSettings.given();
         for (const char* key : {"shots", "size", "threads", "simd", "full-screen", "screen-width",
                                 "viewing-distance", "late-warp", "target-ms"})
@@ -126,7 +126,7 @@ void SceneChanges::goTo(std::shared_ptr<const OpenScene> scene, const SceneMade&
 void SceneChanges::cancelLoading() {
     if (!mSession) return mStage.close();
     mWorker->cancelLoading();
-    if (mWorker->scene() == mScene) keepBefore();  // else it was there already
+    if (mWorker->scene() == mScene) keepBefore();  // otherwise it was there already
 }
 
 void SceneChanges::keepBefore() {
@@ -153,7 +153,7 @@ void SceneChanges::set(const std::string& key, const std::optional<std::string>&
     mSettings.look();
 }
 
-// Throws Error, and nothing is changed then.
+// Changes the settings. Throws Error, and then changes nothing.
 void SceneChanges::change(const SettingTexts& settings) {
     const SettingTexts now = mSettings.now();
     bool again = false;
@@ -163,7 +163,7 @@ void SceneChanges::change(const SettingTexts& settings) {
         if (a != now.end() && b != settings.end() && a->second == b->second) return;
         const std::optional<std::string> text =
             b == settings.end() || b->second.empty() ? std::nullopt : std::optional(b->second.back());
-        if (isOfScreen(key)) return;  // not undone: it is no setting of the picture
+        if (isOfScreen(key)) return;  // not undone, since it is no setting of the picture
         changes.emplace_back(key, text);
         again = again || !isLive(*mSession, key, text);
     };
@@ -175,7 +175,7 @@ void SceneChanges::change(const SettingTexts& settings) {
         if (!again && !text) mSettings.forgetGiven(key);
         if (isLive(*mSession, key, text)) setLive(*mSession, key, text);
     }
-    if (again) mSession->surface().takeChange();  // the scene that is loaded has it
+    if (again) mSession->surface().takeChange();  // the scene that is loaded has the change
     mSettings.look();
 }
 
@@ -193,7 +193,7 @@ void SceneChanges::redo() {
 
 bool SceneChanges::takeScene() {
     auto scene = mWorker->scene();
-    const bool busy = mWorker->loading().busy;  // after the scene: it is of that, or of a newer one
+    const bool busy = mWorker->loading().busy;  // after the scene: of that, or of a newer one
     if (busy && !mWasBusy) mLoadingWatch.lap_ms();
     mWasBusy = busy;
     if (!scene || scene == mScene) return false;
@@ -234,7 +234,8 @@ void SceneChanges::follow() {
     followPreparation();
 }
 
-// A coarser scene stands in until what it lacks is there; not while another one is being loaded.
+// Loads the scene again once the data that its stand-in lacked are there; not while another one is being
+// loaded.
 void SceneChanges::followPreparation() {
     try {
         mPreparation.follow(mScene);

@@ -1,5 +1,6 @@
-// Changes which scene is shown: another file, other settings, steps back and forth. What the session takes at
-// once it is given; else the scene is loaded anew beside the frames, and is there when the worker has it.
+// Changes of the scene that is shown: another file, other settings, undo and redo. The session takes some
+// settings at once; for others the scene is loaded again beside the frames, and is shown when the worker has
+// it.
 #pragma once
 
 #include <functional>
@@ -19,7 +20,7 @@
 
 namespace stereonav {
 
-// Where the flight goes on in a scene, with a study of it that is there already; null: none.
+// Pose in a scene that is to be shown, with a study of it that has been read; null: none.
 struct Arrival {
     Pose pose;
     std::shared_ptr<const SliceStudy> study;
@@ -27,12 +28,12 @@ struct Arrival {
 
 class SceneChanges {
 public:
-    // All of them are there from begin() to end().
+    // The arguments must exist from begin() to end().
     SceneChanges(std::optional<ViewSession>& session, SceneSettings& settings, Notices& notices,
                  ViewDisplay& display, PanelStage& stage);
-    // Loads what the settings say. Throws Error.
+    // Loads the scene of the settings. Throws Error.
     void begin();
-    // Ends loading and frames, and waits for it.
+    // Ends loading and frames, and waits for their end.
     void end() { mWorker.reset(); }
 
     ViewWorker& worker() { return *mWorker; }
@@ -41,38 +42,41 @@ public:
 
     const SceneSettings& settings() const { return mSettings; }
 
-    // What fails of these is told.
+    // Changes of the scene; failures become notices.
     void open(const std::string& scene);  // a file, a folder, or a built-in scene's name
-    void set(const std::string& key, const std::optional<std::string>& text);  // none: as it begins
+    void set(const std::string& key, const std::optional<std::string>& text);  // empty: as it begins
     void undo();
     void redo();
-    // A scene that is there already, made of `next`; `flown` is what the one is made of that is shown.
+    // Shows a scene that has been loaded, made of `next`; `flown` is what the present one is made of.
     void goTo(std::shared_ptr<const OpenScene> scene, const SceneMade& next, const SceneMade& flown,
               Arrival arrival);
-    // The value in use; none where it is not known, or "" where the option is not given and has no default.
+    // Returns the value in use; empty where it is not known, "" where the option is not given and has no
+    // default.
     std::optional<std::string> valueOf(const Option& option) const;
-    bool live(const Option& option) const;  // taken at once, while it is dragged
+    bool live(const Option& option) const;  // whether it takes effect at once, even while dragging
 
     ViewWorker::Loading loading() const { return mWorker->loading(); }
-    double loadingSeconds() const { return mLoadingWatch.elapsed_ms() / 1000; }  // since it began
-    // Ends it; the first scene's ends the window with it.
+    double loadingSeconds() const { return mLoadingWatch.elapsed_ms() / 1000; }  // time since it began
+    // Cancels loading; for the first scene it ends the window.
     void cancelLoading();
-    // What a coarser scene is shown for (StandIn), while it is prepared.
+    // Returns the progress of preparing the scene that a stand-in is shown for (StandIn).
     std::optional<PaintWork> preparing() const { return mPreparation.work(); }
     void cancelPreparing() { mPreparation.cancel(); }
 
-    // Each turn. True: scene() is another one than before.
+    // Takes a loaded scene; to be called each turn. Returns true where scene() has changed.
     bool takeScene();
-    // Whether that is another file, whose session begins; else it takes the place of the one before.
+    // Returns whether that is another file, whose session begins; otherwise it takes the place of the one
+    // before.
     bool isAnother() const { return !mSession || mAnother; }
-    // Another one was chosen while the first was loaded: the first is shown until then. Settings of what is
-    // loaded give way to its own, until resume().
+    // Interrupts loading another scene while the first is being loaded: the first is shown until then. The
+    // settings being loaded are replaced by its own, until resume().
     std::optional<SceneMade> interrupt();
     void resume(const std::optional<SceneMade>& next);
     std::optional<Arrival> takeArrival() { return std::exchange(mArrival, std::nullopt); }
-    // Each turn with a session: begins what the session wants that takes longer than a frame.
+    // Begins work that the session wants and that takes longer than a frame; to be called each turn with a
+    // session.
     void follow();
-    // Why media are swept on the processor, told once; "": nothing to tell.
+    // Returns once why media are swept on the CPU; "": no reason.
     std::string takeSweepNotice() { return mSweep ? mSweep->takeNotice() : ""; }
 
 private:
@@ -89,13 +93,13 @@ private:
     ViewDisplay& mDisplay;
     PanelStage& mStage;
     bool mBenches;
-    std::unique_ptr<ViewSweep> mSweep;  // of media; before the scenes, which use it to their end
+    std::unique_ptr<ViewSweep> mSweep;  // for media; before the scenes, which use it to their end
     std::shared_ptr<const OpenScene> mScene;
-    std::optional<Arrival> mArrival;  // in the scene that is loaded
+    std::optional<Arrival> mArrival;  // in the scene that is being loaded
     Stopwatch mLoadingWatch;
     bool mAnother = false, mWasBusy = false;
     ScenePreparation mPreparation;
-    bool mPrepared = false;  // what is shown is to be loaded again
+    bool mPrepared = false;  // whether the scene is to be loaded again
     std::unique_ptr<ViewWorker> mWorker;
 };
 

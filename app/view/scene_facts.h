@@ -1,4 +1,4 @@
-// What a scene says of itself, collected beside the frames by the thread that makes them.
+// Facts of a scene, collected beside the frames by the thread that makes them.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@ namespace stereonav {
 
 class SceneFacts {
 public:
-    // Asks for them where they were not; null until they are there.
+    // Returns the facts, and asks for them where they were not; null until they are there.
     const Facts* of(ViewWorker& worker);
-    // The scene is another one, or shows something else.
+    // Forgets the facts, since the scene is another one or shows something else.
     void forget() { mWish.reset(); }
 
 private:

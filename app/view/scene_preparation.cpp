@@ -35,7 +35,7 @@ bool ScenePreparation::take() {
         mEnded = mName;
         throw;
     }
-    // It may be shown again: then what was done is found done.
+    // A scene that is shown again finds the work done.
     if (mDropped) return false;
     mEnded = mName;
     return true;

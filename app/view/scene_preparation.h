@@ -1,5 +1,5 @@
-// Prepares beside the window what a StandIn is shown for: the tiles of a large ground. Nothing is there for
-// other scenes. The window's thread calls it.
+// Prepares beside the window the data that a StandIn is shown for: the tiles of a large ground. Does nothing
+// for other scenes. Functions are called by the window's thread.
 #pragma once
 
 #include <functional>
@@ -18,18 +18,18 @@ public:
     // wake: called from another thread when it is done.
     explicit ScenePreparation(std::function<void()> wake) : mWake(std::move(wake)) {}
 
-    // Begins for a scene that is shown, ends for one that is not any more. What was cancelled or failed is
-    // not begun again.
+    // Begins for a scene that is shown, and ends for one that is no longer shown. Work that was cancelled or
+    // failed is not begun again.
     void follow(const std::shared_ptr<const OpenScene>& shown);
-    // True once it is done for the scene that was followed last, which then is to be loaded again. Throws
-    // what preparing threw, Cancelled where cancel() ended it.
+    // Returns true once the work for the last scene of follow() is done: it has to be loaded again. Throws
+    // the exceptions of the work; Cancelled after cancel().
     bool take();
     std::optional<PaintWork> work() const;
     void cancel() { mWork.cancel(); }
 
 private:
     std::function<void()> mWake;
-    std::string mName, mEnded;  // StandIn::name() of the work, and of what is not begun again
+    std::string mName, mEnded;  // StandIn::name() of the present work, and of work that is not begun again
     std::string mWhat;
     bool mDropped = false;
     BesideWork<bool> mWork;

@@ -25,7 +25,7 @@ std::string SceneSettings::sceneName() const {
     return name.empty() ? scene : name;
 }
 
-// A folder of a built-in scene's name is not that scene.
+// A folder with the name of a built-in scene is not that scene.
 std::filesystem::path SceneSettings::fullName() const {
     const std::string& scene = options().scene.scene;
     if (scene.empty()) return "terrain";
@@ -48,7 +48,7 @@ bool SceneSettings::applies(const Option& option) const {
 bool SceneSettings::wouldApply(const Option& option) const {
     const auto type = sceneTypeOf(options().scene);
     if (!type || (option.scenes & *type) == 0) return false;
-    // What would be refused beside what is set now is not offered.
+    // Options that would be refused beside the present settings are not offered.
     GivenOptions given = mChanged.scene.given;
     if (!given.has(option.key)) given.add(option.key, OptionValue{}, option.name());
     const Asked asked{given, *type};
@@ -105,7 +105,7 @@ std::filesystem::path SceneSettings::save(const std::filesystem::path& file) con
     const bool same = isToml && there && std::filesystem::equivalent(name, place, code);
     if (there && !same)
         throw Error(place.string(), "", "there is a file already", "choose another name, or delete it");
-    // A copy of a scene file is one beside it: the files that it names are relative to it.
+    // A copy of a scene file has to lie beside it: the files that it names are relative to it.
     if (isToml && !same &&
         std::filesystem::absolute(name).parent_path() != std::filesystem::absolute(place).parent_path())
         throw Error(place.string(), "", "a copy of a scene file must lie beside it",
@@ -116,7 +116,7 @@ std::filesystem::path SceneSettings::save(const std::filesystem::path& file) con
         named = std::filesystem::absolute(named).lexically_normal().string();
     settings.erase("SCENE");
     const std::string text = savedScene(before, named, isToml ? mMade.said : SettingTexts(), settings);
-    // The scene file itself was read, and is to be written: what else was read is not.
+    // The scene file has been read and may be overwritten; other files that were read may not.
     writeTextFile(place, text, Flush::ToDisk, same ? Over::Anything : Over::NothingRead);
     return place;
 }

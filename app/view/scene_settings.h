@@ -1,6 +1,6 @@
-// What the scene that is shown was made of, as options and as texts, and what is set now: the values that
-// panels show, that are saved and copied, and the steps back and forth. While another scene is loaded it has
-// that one's settings, and those of before, to return to.
+// Settings of the scene that is shown, as options and as texts: those that it was made of, and the present
+// ones, which panels show, and which are saved and copied; and undo and redo. While another scene is being
+// loaded it has that one's settings, and those before, to return to.
 #pragma once
 
 #include <filesystem>
@@ -17,62 +17,63 @@ namespace stereonav {
 
 struct SceneMade {
     ViewOptions options;
-    SettingTexts given, said;  // given to the window, and what the scene file says
+    SettingTexts given, said;  // texts given to the window, and those in the scene file
 };
 
 class SceneSettings {
 public:
-    // session: whose live values count; none until the first scene is there. Outlives this.
+    // session: its live values are included; none until the first scene is there. It must outlive this
+    // object.
     SceneSettings(const ViewOptions& options, std::optional<ViewSession>& session);
 
     const SceneMade& made() const { return mMade; }
     const ViewOptions& options() const { return mMade.options; }
-    // Those with what the session changed in place since.
+    // Returns the options with the session's changes.
     const ViewOptions& changed() const { return mChanged; }
     const SettingTexts& given() const { return mMade.given; }
-    // The scene file's name without its folder, or the built-in scene's.
+    // Returns the scene file's name without its folder, or the built-in scene's.
     std::string sceneName() const;
-    // In full, so that it is found from anywhere; built-in scenes by their names.
+    // Returns the full path, so that it is found from anywhere; built-in scenes by their names.
     std::filesystem::path fullName() const;
 
-    // Given and live. Valid until something is set.
+    // Returns given and live settings. Valid until something is set.
     const SettingTexts& now() const;
-    // Something may have been set since.
+    // Notes that something may have been set.
     void look() { mNow.reset(); }
-    // Whether the option goes with what is shown, and would not be refused beside what is set.
+    // Returns whether the option applies to the scene, and would not be refused beside the present settings.
     bool applies(const Option& option) const;
-    // Another scene is shown: what was found out of the last one holds no longer.
+    // Forgets which options apply, since another scene is shown.
     void lookAtScene();
 
-    // Another scene is being loaded: its settings count from now on.
+    // Begins with the settings of another scene that is being loaded.
     void begin(SceneMade next);
-    // The same, where those of before are not as they were given.
+    // The same, where those before differ from the ones given.
     void begin(SceneMade next, SceneMade before);
-    // It is there.
+    // Notes that the other scene is there.
     void arrived() { mBefore.reset(); }
     bool begun() const { return mBefore.has_value(); }
-    // It is not wanted, or can not be had: what is shown stays what it was.
+    // Returns to the settings before: the other scene is not wanted, or can not be loaded.
     void keepBefore();
 
-    // The session asks for a scene that shows the same otherwise.
+    // Adds a change of the session to a scene that shows the same in another way.
     void change(const SceneChange& change);
-    // It is no longer given.
+    // Removes an option that is no longer given.
     void forgetGiven(const std::string& key) { mMade.given.erase(key); }
-    // The screen's width or distance is no longer as it was given.
+    // Forgets the screen's width or distance that was given.
     void forgetScreen(const std::string& key, std::optional<double> ViewOptions::*size);
 
-    // Steps back and forth begin with what is set now.
+    // Starts undo with the present settings.
     void startSteps() { mHistory.start(now()); }
-    // Each turn. changing: a control is held; dt: seconds.
+    // Observes the settings; to be called each turn. changing: a control is held; dt: seconds.
     void observe(bool changing, double dt) { mHistory.observe(now(), changing, dt); }
     bool canUndo() const { return mHistory.canUndo(); }
     bool canRedo() const { return mHistory.canRedo(); }
-    // What is to be set; none: there is no step.
+    // Return the settings to go to; empty: there is no step.
     std::optional<SettingTexts> undo() { return mHistory.undo(); }
     std::optional<SettingTexts> redo() { return mHistory.redo(); }
 
-    // Writes a scene file that shows this (savedScene()), and returns its place. Throws Error, also where
-    // another file is there.
+    // Writes a scene file that shows the present scene (savedScene()), and returns its path. Throws Error,
+    // also where another file is there.
     std::filesystem::path save(const std::filesystem::path& file) const;
 
 private:
@@ -81,9 +82,9 @@ private:
     std::optional<ViewSession>& mSession;
     SceneMade mMade;
     ViewOptions mChanged;
-    std::optional<SceneMade> mBefore;  // while another one is loaded
+    std::optional<SceneMade> mBefore;  // set while another one is being loaded
     SettingsHistory mHistory;
-    // Asked for by every control of every layout: made once a turn, or once a scene.
+    // Present settings, used by every control in every layout: made once per turn, or once per scene.
     mutable std::optional<SettingTexts> mNow;
     mutable std::map<const Option*, bool> mApplies;
 };

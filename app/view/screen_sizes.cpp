@@ -10,7 +10,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kMm = 1000;  // of a metre
+constexpr double kMm = 1000;  // millimetres in a metre
 
 const char* wordsFor(ScreenSize::From from) {
     switch (from) {
@@ -44,7 +44,7 @@ const KeptScreen* ScreenSizes::find(const std::string& monitor) const {
     return found == mKept.end() ? nullptr : &*found;
 }
 
-// To the front: what is used stays longest.
+// Returns the entry of a monitor and puts it first: those used last are kept longest.
 KeptScreen& ScreenSizes::entry(const std::string& monitor) {
     KeptScreen screen;
     if (const KeptScreen* const found = find(monitor)) screen = *found;

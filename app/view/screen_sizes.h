@@ -1,5 +1,5 @@
-// How wide a screen is and from how far it is looked at: said on the command line, set by the person for this
-// monitor, told by the monitor, or guessed. No window.
+// The width of a screen and its viewing distance: given on the command line, set by the user for this
+// monitor, reported by the monitor, or guessed. Needs no window.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,11 @@
 
 namespace stereonav {
 
-// What a monitor tells of itself.
+// The report of a monitor.
 struct ScreenTold {
-    std::string name;                    // of it
+    std::string name;
     int width_mm = 0, height_mm = 0;     // 0: unknown
-    int pixelsWide = 0, pixelsHigh = 0;  // of its area, in the desktop's units
+    int pixelsWide = 0, pixelsHigh = 0;  // pixels of its area, in the desktop's units
 };
 
 struct ScreenSize {
@@ -22,23 +22,23 @@ struct ScreenSize {
     double width_mm = 0, distance_mm = 0;
     From widthFrom = From::Guess, distanceFrom = From::Guess;
 };
-// "the screen is 598 mm wide, as it tells, and 600 mm away"
+// Returns "the screen is 598 mm wide, as it tells, and 600 mm away".
 std::string screenText(const ScreenSize& size);
 
 class ScreenSizes {
 public:
-    // As the command line says; none: nothing.
+    // Sets the values of the command line; empty: not given.
     void say(std::optional<double> width_mm, std::optional<double> distance_mm);
-    // As they were kept; of a monitor that is there twice the first counts.
+    // Sets the kept values; the first entry of a monitor counts.
     void setKept(std::vector<KeptScreen> kept) { mKept = std::move(kept); }
     const std::vector<KeptScreen>& kept() const { return mKept; }
 
     ScreenSize of(const ScreenTold& screen) const;
-    // Its width is a guess, and nobody was asked yet.
+    // Returns whether the width is a guess and the user has not been asked.
     bool asks(const ScreenTold& screen) const;
 
-    // Set by the person, brought within what is kept: it counts in the place of the command line's. None: as
-    // if neither had said anything. What is no number changes nothing.
+    // Set values of the user, limited to the permitted range; they replace those of the command line. Empty:
+    // as if neither were given. Values that are no numbers change nothing.
     void setWidth(const std::string& monitor, std::optional<double> mm);
     void setDistance(const std::string& monitor, std::optional<double> mm);
     void noteAsked(const std::string& monitor) { entry(monitor); }
@@ -47,7 +47,7 @@ private:
     const KeptScreen* find(const std::string& monitor) const;
     KeptScreen& entry(const std::string& monitor);
 
-    std::optional<double> mWidth_mm, mDistance_mm;  // of the command line
+    std::optional<double> mWidth_mm, mDistance_mm;  // from the command line
     std::vector<KeptScreen> mKept;                  // newest first
 };
 

@@ -20,14 +20,14 @@ public:
     bool waiting() const { return !mVersions.empty() || !mSaving.empty(); }
 
     void take(const std::shared_ptr<const ViewFrame>& frame, const ComposeSetting& setting);
-    // A picture that is there already, shown to both eyes.
+    // Saves a picture that is there already, shown to both eyes.
     void take(const Plane<PackedColor>& picture, const ComposeSetting& setting);
 
-    // What happened since, "" when nothing; throws what saving threw.
+    // Returns the result since the last call, "" where there is none; throws the exceptions of saving.
     std::string report();
 
 private:
-    // left, right: kept by `owner`.
+    // left, right: kept alive by `owner`.
     void save(std::shared_ptr<const void> owner, const Plane<PackedColor>& left,
               const Plane<PackedColor>& right, const ComposeSetting& shown);
 

@@ -18,7 +18,7 @@ SecondSide::SecondSide(std::optional<ViewSession>& session, SceneSettings& setti
       mStage(stage),
       mSecond([] { Window::wake(); }) {}
 
-// What was chosen in the flown study is not of the other one.
+// Choices in the flown study do not apply to the other one.
 void SecondSide::open(const std::string& study) {
     if (!mSession) return;
     mNotices.forgetFailure();

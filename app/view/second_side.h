@@ -1,4 +1,4 @@
-// The second study beside the one that is flown: how it is opened, and how the two are swapped.
+// The second study beside the one that is flown: opening it, and swapping the two.
 #pragma once
 
 #include <memory>
@@ -11,20 +11,21 @@ namespace stereonav {
 
 class SecondSide {
 public:
-    // All of them outlive this.
+    // The arguments must outlive this object.
     SecondSide(std::optional<ViewSession>& session, SceneSettings& settings, Notices& notices,
                SceneChanges& changes, const PanelStage& stage);
 
     SecondStudy& study() { return mSecond; }
-    // In the place of the one that is there. What fails is told.
+    // Opens a study in place of the present second one. Failures become notices.
     void open(const std::string& study);
-    // A session begins: where the last one was swapped its study stays, else it has what its settings say.
+    // Begins a session: after a swap with the study of the last one, otherwise with the one that its settings
+    // name.
     void begin();
-    // Each turn: takes what was loaded.
+    // Takes a loaded study; to be called each turn.
     void follow();
-    // What opens both again.
+    // Returns the settings that open both studies again.
     SettingTexts settingsToOpen() const;
-    // Flies on in the second study at the matching place; the flown one becomes the second.
+    // Goes on in the second study at the matching place; the flown one becomes the second.
     void swap();
 
 private:
@@ -34,8 +35,8 @@ private:
     SceneChanges& mChanges;
     const PanelStage& mStage;
     SecondStudy mSecond;
-    SceneMade mMade;                            // what it is, or is being, made of
-    std::shared_ptr<const SliceStudy> mSlices;  // its own, once read
+    SceneMade mMade;                            // what it is made of, or is being made of
+    std::shared_ptr<const SliceStudy> mSlices;  // slices of the second study, once read
 };
 
 }  // namespace stereonav

@@ -10,7 +10,7 @@
 namespace stereonav {
 namespace {
 
-constexpr std::chrono::milliseconds kBetween{200};  // pictures, while the eye flies
+constexpr std::chrono::milliseconds kBetween{200};  // between pictures in flight
 
 }  // namespace
 
@@ -111,7 +111,7 @@ void SecondStudy::stopDrawing() {
     mPicture.reset();
 }
 
-// The thread that draws: mOther stays while it runs.
+// Draws pictures on a thread of its own; mOther does not change while it runs.
 void SecondStudy::draw() {
     stepBehindTheWindow();
     std::unique_lock lock(mMutex);
@@ -129,7 +129,7 @@ void SecondStudy::draw() {
     }
 }
 
-// Tile by tile, on this thread; null where it is to stop.
+// Draws tile by tile on this thread; returns null where it has to stop.
 std::shared_ptr<const SecondPicture> SecondStudy::drawn(const Scene& scene, const Wish& wish) const {
     const EyeRenderer& renderer = rendererOf(scene);
     Lens lens = scene.lens;

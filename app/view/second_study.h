@@ -1,6 +1,6 @@
 // Another study beside the one that is flown: loaded beside the window, its line matched with the flown
-// one's, and one eye's picture of its matching place, drawn by one thread of low priority. Nothing of it is
-// there before open(), and no thread draws before look(). The window's thread calls it.
+// one's, and a picture of one eye at the matching place, drawn by one thread of low priority. Nothing is
+// loaded before open(), and no thread draws before look(). Functions are called by the window's thread.
 #pragma once
 
 #include <condition_variable>
@@ -17,10 +17,10 @@
 
 namespace stereonav {
 
-// A place of the other study's line.
+// A place on the other study's line.
 struct SecondPlace {
     double along = 0, length = 0;  // metres
-    bool back = false;             // looking towards the line's start
+    bool back = false;             // whether it looks towards the line's start
     bool operator==(const SecondPlace&) const = default;
 };
 
@@ -33,43 +33,45 @@ class SecondStudy {
 public:
     // wake: called from other threads when there is something new.
     explicit SecondStudy(std::function<void()> wake) : mWake(std::move(wake)) {}
-    ~SecondStudy() { close(); }  // stops loading and drawing, and waits for their ends
+    ~SecondStudy() { close(); }  // stops loading and drawing, and waits for their end
 
     using Load = std::function<OpenScene(Progress&)>;
-    // In the place of the one that is there. first: that is flown, with a line to match.
+    // Opens a study in place of the present one. first: the flown scene, which has a line to match.
     void open(std::shared_ptr<const OpenScene> first, Load load);
     void close();
     bool loading() const { return mLoading.busy() || mNext; }
     double fraction() const { return mLoading.fraction(); }
-    // poll() throws Cancelled soon; what was only to be loaded after that is not begun.
+    // Cancels loading: poll() then throws Cancelled soon; a study that waits to be loaded is dropped.
     void cancel() {
         mLoading.cancel();
         mNext = nullptr;
     }
-    // Takes what was loaded; true once when it is there. Throws what loading and matching threw.
+    // Takes a loaded study; returns true once when it is there. Throws the exceptions of loading and
+    // matching.
     bool poll();
 
-    // Null until it is there.
+    // Returns the other scene; null until it is there.
     const std::shared_ptr<const OpenScene>& other() const { return mOther; }
-    double cost() const { return mMatch ? mMatch->cost() : 0; }         // LineMatch::cost
-    bool matches() const { return mMatch ? mMatch->matches() : true; }  // LineMatch::matches
-    // Which of its places is that of an eye in the flown one; there, and the flown scene has a line.
+    double cost() const { return mMatch ? mMatch->cost() : 0; }         // see LineMatch::cost
+    bool matches() const { return mMatch ? mMatch->matches() : true; }  // see LineMatch::matches
+    // Returns the other study's place that matches an eye in the flown one. Requires the study, and a line of
+    // the flown scene.
     std::optional<SecondPlace> matching(const Scene& flown, const Pose& eye) const;
     Pose poseAt(const SecondPlace& place) const;
 
-    // Wants a picture of it of so many pixels: the newest wish replaces one that is not begun.
+    // Asks for a picture of this size: the newest wish replaces one that is not begun.
     void look(const SecondPlace& place, const glm::ivec2& size);
-    // The newest one; null before the first.
+    // Returns the newest picture; null before the first.
     std::shared_ptr<const SecondPicture> picture() const;
     bool drawing() const { return mDrawer.joinable(); }  // whether there is a thread
 
-    // The flown one becomes the other, and this is what is to be flown.
+    // Makes the flown scene the other one, and returns the one to fly in.
     std::shared_ptr<const OpenScene> swap(std::shared_ptr<const OpenScene> flown);
 
 private:
     struct Opened {
         std::shared_ptr<const OpenScene> scene;
-        std::shared_ptr<const LineMatch> match;  // from the flown one's line to its own
+        std::shared_ptr<const LineMatch> match;  // from the flown scene's line to its own
     };
     struct Wish {
         SecondPlace place;
@@ -83,13 +85,13 @@ private:
 
     std::function<void()> mWake;
     BesideWork<Opened> mLoading;
-    bool mDropped = false;        // what is loaded is not wanted any more
-    std::function<void()> mNext;  // begins what is to be loaded after that
+    bool mDropped = false;        // the study being loaded is no longer wanted
+    std::function<void()> mNext;  // begins the study to load after that
     std::shared_ptr<const OpenScene> mOther;
     std::shared_ptr<const LineMatch> mMatch;
-    bool mFlipped = false;  // the match goes from the other one's line to the flown one's
+    bool mFlipped = false;  // the match leads from the other study's line to the flown one's
 
-    mutable std::mutex mMutex;  // guards what follows
+    mutable std::mutex mMutex;  // guards the members below
     std::condition_variable mAsked;
     std::optional<Wish> mWish, mLast;  // not begun; begun last
     std::shared_ptr<const SecondPicture> mPicture;

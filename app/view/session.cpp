@@ -1,4 +1,4 @@
-// The viewer's state and what each command does to it.
+// State of the viewer, and the effect of each command on it.
 #include "app/view/session.h"
 
 #include <fmt/format.h>
@@ -16,8 +16,8 @@
 namespace stereonav {
 namespace {
 
-constexpr double kStereoStep = 1.1;   // separation and zero parallax, a key press
-constexpr double kOtherShape = 0.02;  // of width to height: less is rounding to pixels
+constexpr double kStereoStep = 1.1;   // factor on separation and zero parallax per key press
+constexpr double kOtherShape = 0.02;  // share of width to height: smaller differences are rounding
 
 bool samePose(const Pose& a, const Pose& b) {
     return a.position == b.position && a.orientation == b.orientation;
@@ -57,7 +57,7 @@ ViewSession::ViewSession(std::shared_ptr<const OpenScene> scene, const Options& 
       mMethod(mScene->way.method) {}
 
 void ViewSession::act(const ViewAction& action) {
-    // A picture of what rests is of just that: it does not set going what is left of the motion.
+    // A screenshot of a resting picture shows just that: it does not resume remaining motion.
     if (action.command != ViewCommand::Screenshot) mFlight.stir();
     if (mSlices.act(action.command, mSurface) || mSurface.act(action.command) || mLight.act(action.command) ||
         actOnEyes(action.command) || actOnStereo(action))
@@ -89,15 +89,15 @@ void ViewSession::act(const ViewAction& action) {
     }
 }
 
-// The flight goes on at the same place, or where the other scene has room for it.
+// Goes on in another scene at the same place, or where it has room.
 void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
     if (!scene->changed) mPaths.stop();
     mFlight.endGoal();
     const auto raised = RaisedGround::between(shown(), *scene->scene);
-    if (raised && mPaths.recording()) mPaths.endRecording();  // of the ground as it was
+    if (raised && mPaths.recording()) mPaths.endRecording();  // the recording is over the ground before
     const Pose here = mFlight.flight().pose();
     mFlight.replaceScene(*scene->scene, raised ? raised->moved(here) : here);
-    // Light that was turned stays so over the same study.
+    // Light that was turned stays turned over the same study.
     const auto *const before = offered<TurningLight>(), *const after = scene->scene->offered<TurningLight>();
     const bool lightStays = before && after && before->isSky() == after->isSky();
     const bool methodStays = scene->changed && scene->way.method == mScene->way.method;
@@ -108,7 +108,7 @@ void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
     mPaths.replaceScene(raised);
     mLight.replaceScene(lightStays);
     if (!methodStays) mMethod = mScene->way.method;
-    // More may be asked for than a scene made in between shows.
+    // More changes may be asked for than a scene made meanwhile shows.
     if (!mScene->changed) mSurface.forgetChange();
     ++mRequest.version;
 }
@@ -238,7 +238,7 @@ void ViewSession::step(const FlightInput& input, double dt) {
     if (mPaths.playing()) {
         mPaths.step(dt);
     } else {
-        mFlight.step(input, dt, !mSurface.hasIsovalue());  // the keys of rolling move the surface
+        mFlight.step(input, dt, !mSurface.hasIsovalue());  // keys for rolling move the surface
         mPaths.record(dt, flight().pose());
     }
     if (animated && mPaths.playing() && dt > 0)
@@ -296,7 +296,8 @@ void ViewSession::observe(const ViewFrame& frame) {
     mStereo.observe(frame, !hasOtherShape(frame.request.lens.width, frame.request.lens.height));
 }
 
-// Parallax counts by the width, of which a picture of another shape has more or less.
+// Returns whether the shape differs: parallax is relative to the width, of which a picture of another shape
+// has more or less.
 bool ViewSession::hasOtherShape(int width, int height) const {
     if (!(mShape > 0) || width < 1 || height < 1) return false;
     return std::abs(static_cast<double>(width) / height - mShape) > kOtherShape * mShape;
@@ -344,7 +345,7 @@ const FrameRequest& ViewSession::requestFor(int width, int height, double ahead,
 
 ComposeSetting ViewSession::compose() const {
     if (!mStereoOn) return {OutputMode::Left, false, mLinear};
-    // A difference is looked at by itself where a display mixes both eyes; they are of the same size there.
+    // A difference is shown to both eyes where a display mixes them; they have the same size there.
     if (mTruth == TruthView::Difference && mixesEyes(infoOf(mMode).layout))
         return {OutputMode::Right, false, mLinear};
     return {mMode, mSwapped, mLinear};

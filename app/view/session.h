@@ -1,5 +1,5 @@
-// What the viewer's user does and sees, without a window: flight, stereo settings, output mode, recording
-// and playing, slices and what they ask for. The window's thread owns it and calls step() in turn.
+// The viewer without a window: flight, stereo settings, output mode, recording and playing, slices, and
+// requests for frames. Owned by the window's thread, which calls step().
 #pragma once
 
 #include <filesystem>
@@ -27,30 +27,30 @@ class ViewSession {
 public:
     struct Options {
         OutputMode mode = OutputMode::SideBySide;
-        std::optional<RecordedPath> path;  // what Play plays before anything is recorded
-        std::filesystem::path folder;      // for recorded flights
-        bool quadBuffer = false;           // whether the window has one
+        std::optional<RecordedPath> path;  // flight that Play plays before anything is recorded
+        std::filesystem::path folder;      // folder for recorded flights
+        bool quadBuffer = false;           // whether the window has a quad buffer
         bool speedByDistance = false;
     };
     ViewSession(std::shared_ptr<const OpenScene> scene, const Options& options);
     ViewSession(const ViewSession&) = delete;
     ViewSession& operator=(const ViewSession&) = delete;
 
-    // The flight goes on in another scene, at the same place or where that one has room for it.
+    // Goes on in another scene, at the same place or where it has room.
     void replaceScene(std::shared_ptr<const OpenScene> scene);
 
     void act(const ViewAction& action);
-    // Settings by value, as panels have them; the scene takes them with the next frame, or by a SceneChange.
+    // Settings by value, for panels; they take effect with the next frame, or by a SceneChange.
     void chooseMode(OutputMode mode) { act({ViewCommand::SetMode, mode}); }
-    void chooseMethod(std::string_view method);      // one of the scene's
-    void setEyes(const StereoSetting& eyes);         // slowly, and by hand from now on
-    void setFov(std::optional<double> verticalFov);  // radians; none: the scene's
+    void chooseMethod(std::string_view method);      // one of the scene's methods
+    void setEyes(const StereoSetting& eyes);         // slowly; ends following
+    void setFov(std::optional<double> verticalFov);  // radians; empty: the scene's
     void goTo(const Pose& pose);
-    // Flies there by itself, until the person takes over (engine/nav/flight_to.h).
+    // Flies to a pose until the user takes over (engine/nav/flight_to.h).
     void flyTo(const Pose& pose);
-    void flyAlong(double along);  // metres along the way through; nothing where there is none
+    void flyAlong(double along);  // metres along the line through the scene; without one nothing happens
     std::string_view method() const { return mMethod; }
-    Lens lens() const;  // without a size
+    Lens lens() const;  // lens without a size
     const StereoSetting& eyesWanted() const { return mStereo.target(); }
     bool stereoOn() const { return mStereoOn; }
     bool swapped() const { return mSwapped; }
@@ -67,55 +67,54 @@ public:
     SessionSlices& slices() { return mSlices; }
     const SessionSlices& slices() const { return mSlices; }
 
-    // Turns by radians: clockwise seen from above, upwards.
+    // Turns by radians: clockwise seen from above, and upwards.
     void look(double yaw, double pitch);
-    void turnWheel(double notches);  // each notch a fifth faster; in the slice view, a slice
-    // dt seconds pass. The input's speed multiplier is applied on top of the session's own.
+    void turnWheel(double notches);  // each notch a fifth faster; in the slice view, one slice
+    // Lets dt seconds pass. The input's speed multiplier is applied in addition to the session's.
     void step(const FlightInput& input, double dt);
-    // A frame has come: what it shows guides what follows the room.
+    // Takes a frame, by which the eyes follow the room.
     void observe(const ViewFrame& frame);
-    // What was measured of one that rests.
+    // Takes the measurement of a frame that rests.
     void observe(const FrameTruth& truth) { mMeasured = truth; }
 
-    // Of requests, from here on: where another session made some before.
+    // Continues the versions of requests after those of another session.
     void continueVersions(long long last) {
         mRequest.version = last;
         mFresh = true;
     }
-    // What to render for a composed picture of this size; the version grows with every difference. ahead:
-    // seconds until the picture is there, while something moves: it is of where the eyes will be then. scale:
-    // the frame has only so much of the width and height. guard: shares of them that are cast beyond each
-    // side.
+    // Returns the request for a composed picture of this size; its version grows with every difference.
+    // ahead: seconds until the picture is there, while something moves: the eyes are where they will be then.
+    // scale: share of the width and height. guard: shares of them that are cast beyond each side.
     const FrameRequest& requestFor(int width, int height, double ahead = 0, double scale = 1,
                                    const glm::dvec2& guard = glm::dvec2(0.0));
-    // Where the eyes will be: on a path as it goes, in flight as they move now. Not nearer to what is around
-    // than half of the way there.
+    // Returns the future pose: on a path as it continues, in flight by the present motion, but at most half
+    // of the way to the surroundings.
     Pose poseAhead(double seconds) const;
-    double time() const { return mTime; }  // seconds, of what moves by itself
-    // Whether what moves by itself does so too while nothing else moves, or stands still then, so that the
-    // picture can become the truth.
+    double time() const { return mTime; }  // time in seconds of moving parts of the scene
+    // Sets whether moving parts of the scene move while nothing else does, or stop, so that the picture can
+    // become the truth.
     void driftAtRest(bool drifts) { mDriftsAtRest = drifts; }
     ComposeSetting compose() const;
 
     bool quit() const { return mQuit; }
-    bool moving() const { return mMoving; }  // things change by themselves: do not sleep
-    // Where one is or looks to changes, or what is seen: eyes that only draw together or apart are no flight,
-    // and follow what whole pictures show.
+    bool moving() const { return mMoving; }  // things change without input: do not sleep
+    // Returns whether the pose or the picture's content changes: eyes that only come together or apart do not
+    // count, and follow whole pictures.
     bool flying() const { return mFlying; }
     bool mouseCaptured() const { return mCaptured; }
-    // True once after each Screenshot.
+    // Returns true once after each Screenshot.
     bool takeScreenshotWish() { return std::exchange(mScreenshot, false); }
     const std::string& notice() const { return mNotice.text(); }
     void notify(const std::string& text) { mNotice.say(text); }
 
-    // "24.0 fps  left 3.1 ms  warp ...";
+    // Returns "24.0 fps  left 3.1 ms  warp ...".
     std::string statusLine(const ViewFrame& frame, double framesPerSecond) const;
 
     const StereoSetting& stereo() const { return mStereo.now(); }
     const ViewStereo& eyes() const { return mStereo; }
-    ViewStereo& eyes() { return mStereo; }  // to be set by what is not a key
+    ViewStereo& eyes() { return mStereo; }  // for changes other than by keys
     void setTruth(TruthView truth) { mTruth = truth; }
-    // Over the surfaces from the next frame on; null: nothing.
+    // Paints over the surfaces from the next frame on; null: nothing.
     void setPaint(const std::shared_ptr<const EyePainter>& paint) {
         if (paint == mPaint) return;
         mPaint = paint;
@@ -123,7 +122,7 @@ public:
     }
     const std::shared_ptr<const EyePainter>& paint() const { return mPaint; }
     TruthView truth() const { return mTruth; }
-    // What was measured of the picture that rests; "" where it is of another one.
+    // Returns the measurement of the picture that rests; "" where it is of another one.
     std::string measuredText(const ViewFrame& frame) const;
     bool followsClearance() const { return mStereo.follows(); }
     OutputMode mode() const { return mMode; }
@@ -131,7 +130,7 @@ public:
     const Flight& flight() const { return mFlight.flight(); }
 
 private:
-    bool hasOtherShape(int width, int height) const;  // than the pictures that were asked for last
+    bool hasOtherShape(int width, int height) const;  // compared with the last pictures that were asked for
     bool actOnStereo(const ViewAction& action);
     bool actOnEyes(ViewCommand command);
     void stepMode(int by);
@@ -154,16 +153,16 @@ private:
     SessionSlices mSlices;
     MotionAhead mAhead;
     ViewStereo mStereo;
-    double mDepthAhead = 0;  // metres
+    double mDepthAhead = 0;  // in metres
     OutputMode mMode, mFirstMode;
-    bool mQuadBuffer = false;  // whether the window has one
+    bool mQuadBuffer = false;  // whether the window has a quad buffer
     std::string_view mMethod;
     TruthView mTruth = TruthView::None;
     std::shared_ptr<const EyePainter> mPaint;
     FrameTruth mMeasured;
-    double mShape = 0;           // width to height of the eyes' pictures that were asked for last
-    std::optional<double> mFov;  // radians; none: the scene's
-    double mTime = 0;            // seconds, of what moves by itself
+    double mShape = 0;           // width to height of the last pictures of an eye that were asked for
+    std::optional<double> mFov;  // radians; empty: the scene's
+    double mTime = 0;            // time in seconds of moving parts of the scene
     bool mDriftsAtRest = true;
     bool mStereoOn = true, mSwapped = false, mLinear = false, mQuit = false, mCaptured = false;
     bool mMoving = false, mFlying = false, mScreenshot = false;

@@ -12,12 +12,12 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSpeedStep = 1.2;  // a notch of the wheel
+constexpr double kSpeedStep = 1.2;  // factor per notch of the wheel
 constexpr double kSlowest = 0.01, kFastest = 100.0;
-constexpr double kEvenPace = 1e-3;  // relative difference at which the pace is the wanted one
-constexpr double kStill = 1e-4;     // of the normal speed, and radians a second: at rest
+constexpr double kEvenPace = 1e-3;  // relative difference at which the pace counts as reached
+constexpr double kStill = 1e-4;     // share of the normal speed, and radians a second: at rest
 
-// Whether so little moved within dt seconds that the flight counts as at rest.
+// Returns whether the motion within dt seconds is so small that the flight counts as at rest.
 bool atRest(const Pose& before, const Pose& after, double speed, double dt) {
     const double moved = glm::length(after.position - before.position);
     const glm::dquat turned = after.orientation - before.orientation;
@@ -46,7 +46,7 @@ void SessionFlight::replaceScene(const Scene& scene, const Pose& here) {
     flight->setPose(here);
     mFlight = std::move(flight);
     mResting = false;
-    mLooked = true;  // one step at least shows it
+    mLooked = true;  // at least one step shows it
 }
 
 void SessionFlight::toggleSpeedByDistance() {
@@ -123,7 +123,7 @@ void SessionFlight::stepGoal(double dt) {
     if (state == FlightTo::State::Blocked) mNotice.say("as near as there is room");
 }
 
-// Smoothly both ways, also where it is switched on or off.
+// Changes the pace smoothly in both directions, also where it is switched on or off.
 void SessionFlight::stepPace(double ahead, double dt) {
     const bool known = mByDistance && ahead > 0;
     const double base = mFlight->speed(), wanted = known ? speedFor(ahead, base) / base : 1;

@@ -1,4 +1,4 @@
-// How a session moves: its flight by hand, flights to a place by themselves, and the speed of both.
+// Motion of a session: flight by hand, automatic flights to a place, and the speed of both.
 #pragma once
 
 #include <functional>
@@ -18,37 +18,38 @@ bool asksForMotion(const FlightInput& input);
 
 class SessionFlight {
 public:
-    // notice: outlives this.
+    // notice must outlive this object.
     SessionFlight(const Scene& scene, bool speedByDistance, PassingNotice& notice);
-    // The flight goes on in another scene, from here.
+    // Goes on in another scene, from `here`.
     void replaceScene(const Scene& scene, const Pose& here);
 
     const std::unique_ptr<Flight>& shared() const { return mFlight; }
     const Flight& flight() const { return *mFlight; }
-    double speed() const { return mSpeed * mPace * mFlight->speed(); }  // metres a second at full input
-    // The speed follows the distance of what lies ahead (engine/nav/depth_speed.h); the wheel's is a factor.
+    double speed() const { return mSpeed * mPace * mFlight->speed(); }  // metres per second at full input
+    // Returns whether the speed follows the distance ahead (engine/nav/depth_speed.h); the wheel's factor is
+    // applied to it.
     bool speedByDistance() const { return mByDistance; }
     void toggleSpeedByDistance();
     void turnWheel(double notches);  // each notch a fifth faster
 
-    // Home, turning round, and ways to fly; any other command only ends a flight to a place.
+    // Handles home, turning round, and flight modes; any other command only ends a flight to a place.
     void act(const ViewAction& action);
     void reset();
     void turnBy(double yaw, double pitch);
     void goTo(const Pose& pose);
-    // Flies there by itself, until the person takes over (engine/nav/flight_to.h); why not is told.
+    // Flies to a pose until the user takes over (engine/nav/flight_to.h); a notice says why it can not.
     void flyTo(const Pose& pose);
-    void flyAlong(double along);  // metres along the way through
+    void flyAlong(double along);  // metres along the line through the scene
     bool toGoal() const { return mGoal.has_value(); }
     void endGoal() { mGoal.reset(); }
 
-    // dt seconds pass. ahead: metres to what lies in the middle, 0 while it is not known.
+    // Lets dt seconds pass. ahead: metres to the middle of the picture's content, 0 while it is not known.
     void stepPace(double ahead, double dt);
-    // rolls: false leaves rolling out.
+    // rolls: false ignores rolling.
     void step(const FlightInput& input, double dt, bool rolls);
-    // What is left of the motion may go on.
+    // Resumes remaining motion.
     void stir() { mResting = false; }
-    // One looks otherwise, which is motion for one step.
+    // Notes a change of direction, which counts as motion for one step.
     void noteLook() { mLooked = true; }
     bool takeLook() { return std::exchange(mLooked, false); }
 
@@ -62,8 +63,8 @@ private:
     int mFirstMode;
     std::optional<FlightTo> mGoal;
     bool mByDistance;
-    double mSpeed = 1;  // by the wheel
-    double mPace = 1;   // by the distance ahead
+    double mSpeed = 1;  // set by the wheel
+    double mPace = 1;   // set by the distance ahead
     bool mResting = false, mLooked = false;
 };
 

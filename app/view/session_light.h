@@ -1,4 +1,4 @@
-// The light of a session: where a sun or a sky stands that turns, and which model lights a medium.
+// The light of a session: the place of a sun or sky that turns, and the model that lights a medium.
 #pragma once
 
 #include <memory>
@@ -11,18 +11,18 @@ namespace stereonav {
 
 class SessionLight {
 public:
-    // Both outlive this.
+    // scene and notice must outlive this object.
     SessionLight(const std::shared_ptr<const OpenScene>& scene, PassingNotice& notice)
         : mScene(scene), mNotice(notice), mSun(scene->sun), mModel(scene->model) {}
 
-    // Does what the command says; false: it is another one's.
+    // Executes a command; returns false for commands of others.
     bool act(ViewCommand command);
-    // As the scene begins.
+    // Restores the light at the scene's beginning.
     void reset();
-    // Another scene is shown. stays: light that was turned does.
+    // Goes on in another scene. stays: light that was turned stays turned.
     void replaceScene(bool stays);
     void place(const SunPlace& place);
-    void choose(int model);  // of LightModels::names()
+    void choose(int model);  // one of LightModels::names()
     const SunPlace& sun() const { return mSun; }
     int model() const { return mModel; }
 

@@ -100,7 +100,7 @@ void SessionPath::put(const std::function<RecordedPath(const RecordedPath&)>& ed
     }
 }
 
-// The steps back are bounded in what they hold: a recording of an hour has 14 MB.
+// Drops old steps where they hold too much: a recording of an hour has 14 MB.
 void SessionPath::dropOldest() {
     constexpr std::size_t kKept = 50, kKeptPlaces = 1'000'000;
     std::size_t steps = 0, places = 0;

@@ -1,4 +1,4 @@
-// A session's path: what is recorded, plays and is changed, and its steps back; and that it gets into a file.
+// The path of a session: recording, playing and editing it with undo, and saving it in a file.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ namespace stereonav {
 
 class SessionPath {
 public:
-    // scene, flight, notice: outlive this. path: what plays at first; none: the scene's own. folder: of
-    // recordings.
+    // scene, flight and notice must outlive this object. path: the one to play at first; empty: the scene's
+    // own. folder: for recordings.
     SessionPath(const std::shared_ptr<const OpenScene>& scene, const std::unique_ptr<Flight>& flight,
                 PassingNotice& notice, const std::optional<RecordedPath>& path,
                 const std::filesystem::path& folder)
@@ -31,42 +31,42 @@ public:
           mOwn(!path) {}
 
     const RecordedPath& path() const { return mPath; }
-    long long version() const { return mVersion; }  // another one with every other path
-    // Puts another one in its place; what fails is told. The last ones can be had back.
+    long long version() const { return mVersion; }  // differs for every path
+    // Replaces the path by an edited one; failures become notices. Recent ones can be restored.
     void edit(const std::function<RecordedPath(const RecordedPath&)>& edit);
-    void open(RecordedPath path);  // the same, with one that lies in a file
+    void open(RecordedPath path);  // the same, with a path from a file
     void undo();
     void save();
-    // In its place without a step back or a word: one that is being worked on.
+    // Replaces the path without undo or a notice: for one that is being edited.
     void set(RecordedPath path);
-    // Before the session ends: what is being recorded ends, and it or a path that was changed and not saved
-    // goes into a file. What to tell of that; "" where there is neither.
+    // Ends a recording before the session ends, and saves it, or a path that was changed and not saved.
+    // Returns a notice; "" where there is neither.
     std::string keepWork();
-    // Another scene is shown. raised: its ground was raised; then what was recorded was kept before.
+    // Goes on in another scene. raised: its ground has other heights; then a recording was saved before.
     void replaceScene(const std::optional<RaisedGround>& raised);
 
     void toggleRecording();
-    void endRecording() { saveFlight(); }  // recording() holds
+    void endRecording() { saveFlight(); }  // requires recording()
     bool recording() const { return mRecorder.recording(); }
-    double recorded() const { return mRecorder.duration(); }  // seconds
-    // dt seconds later one is here.
+    double recorded() const { return mRecorder.duration(); }  // in seconds
+    // Adds the pose dt seconds later to the recording.
     void record(double dt, const Pose& pose) { mRecorder.step(dt, pose); }
-    // Why it can not be kept as it is made, told once; "": it can.
+    // Returns once why the recording can not be saved; "": it can.
     std::string takeProblem() { return mRecorder.takeProblem(); }
 
     void togglePlaying();
-    void stop();           // the flight goes on where it was played to
-    void step(double dt);  // while it plays
+    void stop();           // the flight goes on where playing has stopped
+    void step(double dt);  // to be called while it plays
     bool playing() const { return mPlaying; }
     double time() const { return mTime; }  // seconds since the path's start
     const Pose& played() const { return mPlayed; }
-    Pose ahead(double seconds) const;  // where it will be then
+    Pose ahead(double seconds) const;  // pose after so many seconds
 
 private:
     enum class Is { InFile, Unsaved };
     struct Before {
         RecordedPath path;
-        bool own;  // the scene's: given back, it is that of the scene that is shown then
+        bool own;  // the scene's own: when restored, it is that of the present scene
         Is where;
     };
     void saveFlight();
@@ -81,7 +81,7 @@ private:
     FlightRecording mRecorder;
     RecordedPath mPath;
     Is mIs = Is::InFile;  // the scene's own needs no file
-    bool mOwn;            // it is the scene's own
+    bool mOwn;            // whether it is the scene's own
     long long mVersion = 0;
     std::vector<Before> mBefore;
     bool mPlaying = false;

@@ -63,7 +63,7 @@ void SessionSlices::show(std::shared_ptr<const SliceStudy> study) {
     mView.emplace(mStudy, mEye(), mChoices ? *mChoices : choicesOf(*mScene->scene));
 }
 
-// What was chosen in it and not looked for yet is there again when it is opened.
+// Choices that were made and not applied are kept for the next time.
 void SessionSlices::close() {
     mChoices.reset();
     if (mView->choices() != choicesOf(*mScene->scene)) mChoices = mView->choices();

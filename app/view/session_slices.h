@@ -1,4 +1,4 @@
-// The slices of a session's study: when it is read, and the view of it, in which pieces of the lumen are
+// The slices of a session's study: when it is read, and the slice view, in which pieces of the lumen are
 // chosen.
 #pragma once
 
@@ -18,17 +18,18 @@ namespace stereonav {
 
 class SessionSlices {
 public:
-    // scene, notice: outlive this. eye: where one is, world.
+    // scene and notice must outlive this object. eye: returns the eye's place in the world.
     SessionSlices(const std::shared_ptr<const OpenScene>& scene, PassingNotice& notice,
                   std::function<glm::dvec3()> eye)
         : mScene(scene), mNotice(notice), mEye(std::move(eye)) {}
 
-    // Does what the command says; false: it is another one's.
+    // Executes a command; returns false for commands of others.
     bool act(ViewCommand command, SessionSurface& surface);
 
-    // The study is read by the caller, whom takeStudyWish() tells once. Null until it is there.
+    // Returns the study, which the caller reads after takeStudyWish(), which returns true once. Null until it
+    // is there.
     const std::shared_ptr<const SliceStudy>& study() const { return mStudy; }
-    // It is read for panels, without the view.
+    // Asks for the study for panels, without the view.
     void wishStudy();
     bool takeStudyWish() { return std::exchange(mStudyWished, false); }
     void dropStudyWish() { mStudyWished = mViewWished = false; }
@@ -40,10 +41,10 @@ public:
     const Plane<PackedColor>& picture(int width, int height);
     long long version() const { return mView ? mView->version() : 0; }
     std::string status() const { return mView ? mView->status() : ""; }
-    void turnPages(int by) { mView->turnPages(by); }  // shown() holds
-    // Sets a seed where it is shown; x, y: pixels of the last picture. What to tell, "" for nothing.
+    void turnPages(int by) { mView->turnPages(by); }  // requires shown()
+    // Sets a seed at a pixel x, y of the last picture. Returns a notice, "" for none.
     std::string click(double x, double y);
-    // Another scene takes the place of this: what was chosen is not of it where it has other pieces.
+    // Goes on in another scene: choices are dropped where it has other pieces.
     void replaceScene(const Scene& next);
 
 private:
@@ -56,7 +57,7 @@ private:
     std::optional<SliceView> mView;
     std::shared_ptr<const SliceStudy> mStudy;
     bool mStudyWished = false, mViewWished = false;
-    std::optional<PieceChoices> mChoices;  // when the view was left
+    std::optional<PieceChoices> mChoices;  // kept when the view was left
     int mWidth = 1, mHeight = 1;           // pixels of the last picture
 };
 

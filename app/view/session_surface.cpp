@@ -46,7 +46,7 @@ bool SessionSurface::act(ViewCommand command) {
 }
 
 bool SessionSurface::actOnAmbient(ViewCommand command) {
-    constexpr double kStep = 1.25;  // of radius and sigma, a key press
+    constexpr double kStep = 1.25;  // factor on radius and sigma per key press
     const auto act = [&](const auto& what) {
         if (mAmbient)
             what();
@@ -101,11 +101,11 @@ void SessionSurface::set(const SurfaceChange& surface) {
 }
 
 void SessionSurface::forgetChange() {
-    if (mChange) return;  // asked for since
+    if (mChange) return;  // another change was asked for meanwhile
     const std::optional<AmbientChoice> before = mAmbient;
     take();
     if (!before || !mAmbient) return;
-    // What is not shown keeps its radius for when it is.
+    // A radius that is not in use is kept for later.
     if (!mAmbient->lit) mAmbient->radius = before->radius;
     if (mAmbient->modulate.empty() && !mAmbient->lit) mAmbient->modulateRadius = before->modulateRadius;
 }
@@ -115,7 +115,7 @@ void SessionSurface::nextTransfer() {
     if (!surface || surface->transfers.empty()) return;
     const std::vector<std::string>& all = surface->transfers;
     const auto at = std::find(all.begin(), all.end(), mTriedTransfer);
-    // One that is opaque is first seen as it would be.
+    // A surface that is opaque is first shown with the present function.
     if (mTranslucent) mTransfer = at == all.end() || at + 1 == all.end() ? all.front() : *(at + 1);
     mTriedTransfer = mTransfer;
     mTranslucent = true;
@@ -123,7 +123,7 @@ void SessionSurface::nextTransfer() {
     mNotice.say("transfer function: " + (mTransfer.empty() ? "that of the options" : mTransfer));
 }
 
-// Off, and then each method.
+// Steps through off and each method.
 void SessionSurface::stepAmbient(int by) {
     const std::vector<std::string>& methods = choices()->ambientMethods;
     if (methods.empty()) return mNotice.say("baked light takes the place of ambient light");
@@ -132,7 +132,7 @@ void SessionSurface::stepAmbient(int by) {
                                mAmbient->method.empty() ? methods.front() : mAmbient->method);
     const int at = mAmbient->lit ? static_cast<int>(now - methods.begin()) % (count - 1) + 1 : 0;
     const int next = (at + by + count) % count;
-    // Opacity may be modulated by the same: what held without ambient light holds again.
+    // Opacity may be modulated by the same method: the one before ambient light is restored.
     if (!mAmbient->lit) mMethodUnlit = mAmbient->method;
     mAmbient->lit = next > 0;
     mAmbient->method = next > 0 ? methods[static_cast<std::size_t>(next - 1)] : mMethodUnlit;

@@ -1,5 +1,5 @@
-// How a volume's surface is shown: isovalue, transfer function, opacity, ambient light. Keys and panels
-// change it, and it asks for a scene that shows it so.
+// The look of a volume's surface: isovalue, transfer function, opacity, ambient light. Keys and panels change
+// it, and it asks for a scene that shows it.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,8 @@
 
 namespace stereonav {
 
-// Another scene that the user asks for: the same study, seen differently, or with its lumen found again of
-// other pieces.
+// Request for another scene: the same study with another look, or with its lumen found again from other
+// pieces.
 struct SceneChange {
     SurfaceChange surface;
     std::optional<PieceChoices> pieces;
@@ -22,19 +22,19 @@ struct SceneChange {
 
 class SessionSurface {
 public:
-    // Both outlive this.
+    // scene and notice must outlive this object.
     SessionSurface(const std::shared_ptr<const OpenScene>& scene, PassingNotice& notice);
 
-    // Does what the command says; false: it is another one's.
+    // Executes a command; returns false for commands of others.
     bool act(ViewCommand command);
     SurfaceChange now() const;
     void set(const SurfaceChange& surface);
     bool hasIsovalue() const { return mIsovalue.has_value(); }
-    // What was asked for since the last call.
+    // Returns the change that was asked for since the last call.
     std::optional<SceneChange> takeChange() { return std::exchange(mChange, std::nullopt); }
-    // The last change can not be done: what the scene shows counts again.
+    // Returns to the scene's look, as the last change is not possible.
     void forgetChange();
-    // The lumen is to be found again of these.
+    // Asks for a lumen of these pieces.
     void askForPieces(const PieceChoices& pieces);
     std::string text() const;  // for the status line
 
@@ -57,9 +57,9 @@ private:
     PassingNotice& mNotice;
     std::optional<double> mIsovalue;
     bool mTranslucent = false;
-    std::string mTransfer, mTriedTransfer;  // the second may not have gone
+    std::string mTransfer, mTriedTransfer;  // mTriedTransfer may have failed
     std::optional<AmbientChoice> mAmbient;
-    std::string mMethodUnlit;  // its method, before ambient light was turned on
+    std::string mMethodUnlit;  // method before ambient light was switched on
     std::optional<SceneChange> mChange;
 };
 

@@ -21,7 +21,7 @@ std::string lineOf(const std::vector<std::string>& words) {
     return line;
 }
 
-// Of this run of the program alone, and no setting.
+// Returns whether the option is for this run only, and no setting.
 bool isOfTheRun(std::string_view key) {
     return key == "json" || key == "quiet" || key == "bench";
 }
@@ -42,8 +42,8 @@ SettingTexts textsOf(const GivenOptions& given, bool ofFile) {
     return settings;
 }
 
-// In bash's own form, which is text however the name is made: pasted control characters would act on the
-// terminal.
+// Returns the word in bash's own form, which is plain text for any name: pasted control characters would act
+// on the terminal.
 std::string escapedShellWord(std::string_view text) {
     std::string word = "$'";
     for (std::size_t at = 0; at < text.size();) {
@@ -109,11 +109,11 @@ std::vector<std::string> commandWords(CommandSet command, const SettingTexts& se
     for (const auto& [key, texts] : settings) {
         const Option* const option = findOption(command, key);
         if (!option || option->positional()) continue;
-        // Some keys stand for another thing with another command.
+        // Some keys mean another thing with another command.
         const Option* const shown = viewOption(key);
         if (shown && shown != option && shown->scenes != option->scenes) continue;
         for (const std::string& text : texts) {
-            // As one word, so that a value that begins with a dash is none of an option's own.
+            // Written as one word, so that a value that begins with a dash is not taken for an option.
             words.push_back(option->value.kind == ValueKind::Flag ? option->name()
                                                                   : option->name() + "=" + text);
         }

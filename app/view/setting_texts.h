@@ -1,5 +1,5 @@
-// The settings of a shown scene as texts by the options' keys, as the command line has them: what the window
-// sets, undoes, saves and tells is this, and what it shows is made from it by the table of options.
+// Settings of a scene as texts by the options' keys, in the form of the command line. The window sets,
+// undoes, saves and copies them, and makes the scene from them by the table of options.
 #pragma once
 
 #include <filesystem>
@@ -13,41 +13,42 @@
 
 namespace stereonav {
 
-// By key. Of options that may be given several times all values; of flags one "".
+// Texts by key: all values of options that can be repeated; one "" for flags.
 using SettingTexts = std::map<std::string, std::vector<std::string>>;
 
-// Those of `view` that were given: all, or those alone that a scene file says.
+// Return the options of `view` that were given: all, or only those in a scene file.
 SettingTexts settingTextsOf(const GivenOptions& given);
 SettingTexts fileTextsOf(const GivenOptions& given);
 
-// What `view` shows with these. Throws Error, in the words of the command line.
+// Returns the options of `view` for these settings. Throws Error, in the words of the command line.
 ViewOptions viewOptionsOf(const SettingTexts& settings);
 
-// The option of `view`, null where it has none of this key.
+// Returns the option of `view`; null where it has none of this key.
 const Option* viewOption(const std::string& key);
 
-// What does not go with it (Option::excludes) gives way.
+// Sets an option; others that conflict with it (Option::excludes) are removed.
 void setText(SettingTexts& settings, const std::string& key, const std::string& text);
 
-// "stereonav view 'my dem.tif' --sun 250,15": words that a shell reads as they were meant.
+// Returns "stereonav view 'my dem.tif' --sun 250,15": words that a shell reads unchanged.
 std::string commandLineOf(const SettingTexts& settings);
-// The command line that writes what is shown, seen from there, into a picture: without options that `render`
-// has not.
+// Returns the command line that makes a picture of the scene from this pose, without options that `render`
+// does not have.
 std::string renderLineOf(const SettingTexts& settings, const std::string& pose, const SizeOption& size);
-// Where one is and looks, as --pose takes it.
+// Returns a pose in the form of --pose.
 std::string poseText(const Pose& pose);
-// With eyes as they are, for a picture: its eyes neither follow a room nor fit themselves to what they see.
+// Returns the settings with these eyes, for a picture, whose eyes then neither follow the room nor fit
+// themselves to it.
 SettingTexts withEyes(SettingTexts settings, const StereoSetting& eyes);
-// The words of a command, after the program's name, with the settings that are the same options there as of
-// `view`.
+// Returns the arguments of a command, with those settings that it shares with `view`.
 std::vector<std::string> commandWords(CommandSet command, const SettingTexts& settings);
-// The text as one word of a POSIX shell; where it is not printable, in the form $'\x1b' of bash, ksh and zsh.
+// Returns the text as one word of a POSIX shell; where it is not printable, in the form $'\x1b' of bash, ksh
+// and zsh.
 std::string shellWord(const std::string& text);
 
-// The text of a scene file (docs/formats.md) that shows these settings: `before`, "" for none, with the keys
-// under [options] that are not as it says (`said`, fileTextsOf) exchanged or added, and all else, comments
-// too, as it was. scene: what the file is to name; "" where it does already, or is a terrain's own. Files are
-// named in full. Throws Error where a value that spans lines is to change.
+// Returns the text of a scene file (docs/formats.md) that shows these settings: `before`, "" for none, where
+// keys under [options] that differ from `said` (fileTextsOf) are replaced or added, and everything else,
+// comments included, is kept. scene: the scene to name; "" where it is named already, or is a terrain's own.
+// Files are written with full paths. Throws Error where a value over several lines would have to change.
 std::string savedScene(const std::string& before, const std::string& scene, const SettingTexts& said,
                        const SettingTexts& settings);
 

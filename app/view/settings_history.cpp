@@ -44,7 +44,7 @@ void SettingsHistory::backTo(const SettingTexts& now) {
     mPending.reset();
     const auto isNow = [&](const SettingTexts& step) { return step == now; };
     const auto here = mSteps.begin() + static_cast<std::ptrdiff_t>(mAt);
-    // A step back that did not come about is taken forth again; what is after it was there before.
+    // An undo that failed is redone; the steps after it were there before.
     if (const auto after = std::find_if(here, mSteps.end(), isNow); after != mSteps.end()) {
         mAt = static_cast<std::size_t>(after - mSteps.begin());
         return;

@@ -12,13 +12,13 @@ namespace stereonav {
 namespace {
 
 constexpr int kMarkRadius = 7;      // pixels
-constexpr double kMarkSlices = 12;  // marks further away are not shown
-constexpr double kDim = 0.35;       // of a mark in another slice
+constexpr double kMarkSlices = 12;  // farther marks are not shown
+constexpr double kDim = 0.35;       // opacity of a mark in another slice
 constexpr float kTint = 0.5f;       // share of a piece's colour
 constexpr PackedColor kOutline = 1023u | 560u << 10 | 200u << 20;
 
 PackedColor greyOf(double share) {
-    // Windows are linear on the display: sRGB bytes, as radiology's viewers show them.
+    // The window is linear in sRGB bytes, as in viewers of radiology.
     const double byte = std::clamp(share, 0.0, 1.0) * 255 + 0.5;
     const PackedColor channel = packedFromSrgbByte()[static_cast<std::size_t>(byte)];
     return channel | channel << 10 | channel << 20;
@@ -28,12 +28,12 @@ PackedColor dimmed(PackedColor c, double share) {
     return packColor(unpackColor(c) * static_cast<float>(share));
 }
 
-// Along one axis of the picture: the voxels before and behind each pixel's middle, as steps from the first
-// value, and the share of the one behind.
+// Interpolation along one axis of the picture: for each pixel the voxels before and after its middle, as
+// steps from the first value, and the weight of the one after.
 struct Between {
     std::ptrdiff_t before = 0, behind = 0;
     double share = 0;
-    bool within = false;  // of the study
+    bool within = false;  // whether it is inside the study
 };
 
 std::vector<Between> betweenVoxels(int pixels, int size, std::ptrdiff_t step,
@@ -53,14 +53,14 @@ std::vector<Between> betweenVoxels(int pixels, int size, std::ptrdiff_t step,
     return list;
 }
 
-// Where the lumen changes between a pixel and the one to its right or below.
+// Draws the lumen's outline, where a pixel and its neighbour to the right or below differ.
 void outline(const SliceContent& content, const SliceLayout& layout, int slice, Plane<PackedColor>& picture) {
     const MaskVolume& mask = *content.lumen;
     Plane<std::uint8_t> inside(picture.width() + 1, picture.height() + 1);
     const auto maskVoxelAt = [&](double x, double y) {
         return mask.frame.voxelFromWorld(content.grey->frame.worldFromVoxel(layout.voxelAt(x, y, slice)));
     };
-    // One frame's voxels from the other's, and from pixels: the same step everywhere.
+    // Step between voxels of the other frame per pixel, the same everywhere.
     const double w = inside.width(), h = inside.height();
     const glm::dvec3 first = maskVoxelAt(0.5, 0.5), right = (maskVoxelAt(w + 0.5, 0.5) - first) / w,
                      down = (maskVoxelAt(0.5, h + 0.5) - first) / h;
@@ -118,14 +118,14 @@ void drawMark(const SliceMark& mark, double slicesAway, const glm::dvec2& at, Pl
 
 SliceLayout::SliceLayout(const VolumeFrame& frame, SliceAxis axis, int width, int height)
     : mFrame(frame), mMiddle(width / 2.0, height / 2.0) {
-    // World axes along the picture: right, down, into it; the sign of down turns the head up.
+    // World axes of the picture: right, down, into it; the sign of down puts the head at the top.
     struct Axes {
         int across, down, normal;
         double downSign;
     };
     constexpr Axes kAxes[3] = {{0, 1, 2, 1}, {0, 2, 1, -1}, {1, 2, 0, -1}};
     const Axes& world = kAxes[static_cast<int>(axis)];
-    // Each world axis gets a voxel axis of its own: the best for the cut one first.
+    // Each world axis gets a voxel axis of its own; the cut axis is assigned first.
     const auto best = [&](int worldAxis, int taken, int takenToo) {
         int found = -1;
         for (int k = 0; k < 3; ++k)
@@ -178,8 +178,8 @@ SliceLayout SliceLayout::zoomed(double factor, const glm::dvec3& world) const {
     SliceLayout larger = *this;
     if (!(factor > 1)) return larger;
     larger.mScale *= factor;
-    // The place's way from the study's middle, in pixels of the larger picture; the study's border goes no
-    // further in than it is in the fitted one.
+    // Distance of the place from the study's middle, in pixels of the larger picture; the study's border
+    // stays at least as far out as in the fitted one.
     const glm::dvec2 away = larger.pixelOf(mFrame.voxelFromWorld(world)) - mMiddle;
     if (std::isnan(away.x) || std::isnan(away.y)) return larger;
     const auto half = [&](int axis) { return mFrame.size[axis] * mFrame.spacing[axis] * larger.mScale / 2; };
@@ -208,8 +208,8 @@ Plane<PackedColor> drawSlice(const SliceContent& content, const SliceLayout& lay
     Plane<PackedColor> picture(width, height);
     const int across = layout.across(), down = layout.down(), normal = layout.normal();
     const glm::i64vec3 steps(1, size.x, static_cast<std::int64_t>(size.x) * size.y);
-    // Bilinear in the slice; along the cut axis the voxel is whole. A pixel's voxel is a number by its column
-    // and one by its row.
+    // Values are bilinear within the slice, and nearest along the cut axis. A pixel's voxel is the sum of a
+    // number for its column and one for its row.
     const auto columns = betweenVoxels(width, size[across], steps[across],
                                        [&](double x) { return layout.voxelAt(x, 0, slice)[across]; });
     const auto rows = betweenVoxels(height, size[down], steps[down],

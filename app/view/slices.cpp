@@ -13,18 +13,18 @@ namespace {
 constexpr PackedColor packed(unsigned red, unsigned green, unsigned blue) {  // linear, 0 to 1023
     return red | green << 10 | blue << 20;
 }
-// Colours of pieces (taken, left out, left out without being sure) and of marks (taken, left, the eye).
+// Colours of pieces (taken, left out, left out without certainty) and of marks (taken, left out, the eye).
 constexpr PackedColor kTaken = packed(40, 500, 60), kLeft = packed(120, 180, 700),
                       kUnsure = packed(900, 620, 30), kTake = packed(300, 1000, 300),
                       kLeave = packed(1000, 300, 300), kEye = packed(300, 800, 1023);
-constexpr double kEyeMoved = 2e-4;  // metres: less than a voxel is not worth a new picture
+constexpr double kEyeMoved = 2e-4;  // metres: smaller moves need no new picture
 
 struct AxisText {
     const char *name, *letter;
 };
 constexpr AxisText kAxisTexts[3] = {{"axial", "z"}, {"coronal", "y"}, {"sagittal", "x"}};
 
-// LPS millimetres, as the command line takes them.
+// Returns a place in LPS millimetres, in the form of the command line.
 std::string clickedPlace(const glm::dvec3& world) {
     return fmt::format("{:.1f},{:.1f},{:.1f}", 1000 * world.x, 1000 * world.y, 1000 * world.z);
 }

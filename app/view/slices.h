@@ -1,5 +1,5 @@
-// The slice view: leafs through a study's slices and takes or leaves pieces by clicks. Lives while it is
-// shown; the session owns it.
+// The slice view: leafs through a study's slices, and takes or leaves out pieces by clicks. Exists while it
+// is shown; owned by the session.
 #pragma once
 
 #include <memory>
@@ -14,29 +14,29 @@ namespace stereonav {
 
 class SliceView {
 public:
-    // Opens at the slice through `eye` (world). choices: to start with.
+    // Opens at the slice through `eye` (world). choices: those to begin with.
     SliceView(std::shared_ptr<const SliceStudy> study, const glm::dvec3& eye, const PieceChoices& choices);
 
-    void nextAxis(const glm::dvec3& eye);  // goes to the slice through the eye, or the newest choice's
+    void nextAxis(const glm::dvec3& eye);  // goes to the slice through the eye, or that of the newest choice
     void turnPages(int by);
-    // Leaves out the piece that was taken, and the other way round. x, y: continuous pixels of a picture of
-    // this size. "" beside the study, else what to tell.
+    // Leaves out a piece that was taken, or the other way round. x, y: pixels with fractions of a picture of
+    // this size. Returns a notice; "" outside the study.
     std::string click(double x, double y, int width, int height, const OpenScene& scene);
-    void removeChoice();  // the newest
+    void removeChoice();  // removes the newest choice
 
     PieceChoices choices() const;
     const std::shared_ptr<const SliceStudy>& study() const { return mStudy; }
     SliceAxis axis() const { return mAxis; }
     int slice() const { return mSlice; }
     std::string status() const;
-    // Asked for again with the same arguments and nothing changed, nothing is drawn: version() tells.
+    // Returns the picture; drawn again only where arguments or choices have changed, which version() shows.
     const Plane<PackedColor>& picture(int width, int height, const glm::dvec3& eye,
                                       const std::shared_ptr<const OpenScene>& scene);
     long long version() const { return mVersion; }
 
 private:
     struct Choice {
-        glm::dvec3 place{0.0};  // world
+        glm::dvec3 place{0.0};  // in the world
         bool taken = false;
     };
 
@@ -48,7 +48,7 @@ private:
     std::shared_ptr<const SliceStudy> mStudy;
     SliceAxis mAxis = SliceAxis::Axial;
     int mSlice = 0;
-    std::vector<Choice> mChoices;  // at most one a piece
+    std::vector<Choice> mChoices;  // at most one per piece
     Plane<PackedColor> mPicture;
     std::shared_ptr<const OpenScene> mDrawnScene;
     glm::dvec3 mDrawnEye{0.0};

@@ -9,7 +9,7 @@
 namespace stereonav {
 namespace {
 
-// Of what is not comfortable; first what is worst.
+// Returns advice for the worst discomfort.
 std::string adviceFor(const ComfortReading& reading) {
     if (reading.range > kParallaxBudget)
         return fmt::format(
@@ -28,7 +28,7 @@ std::string adviceFor(const ComfortReading& reading) {
 }  // namespace
 
 std::string frameText(const ViewFrame& frame, double framesPerSecond) {
-    // Nothing is known of the rate before the first frames that followed each other.
+    // The rate is not known before the first two successive frames.
     std::string line = framesPerSecond > 0 ? fmt::format("{:.1f} fps  ", framesPerSecond) : "";
     const FrameTimings& timings = frame.timings;
     if (timings.left_ms > 0)

@@ -1,4 +1,4 @@
-// What the viewer's lines of text say of a frame.
+// Texts of the viewer's status bar about a frame.
 #pragma once
 
 #include <string>
@@ -8,22 +8,22 @@
 
 namespace stereonav {
 
-// Times, holes, method and stereo setting of a frame. framesPerSecond: 0 while it is not known.
+// Returns times, holes, method and stereo setting of a frame. framesPerSecond: 0 while it is not known.
 std::string frameText(const ViewFrame& frame, double framesPerSecond);
 
-// For a meter of the frame's parallax. Its bars are ViewFrame::parallax.
+// Values for the meter of the frame's parallax. ViewFrame::parallax has its bars.
 struct ComfortReading {
     double near = 0, far = 0, range = 0;  // shares of the picture's width
     ComfortState state = ComfortState::Comfortable;
     std::string advice;  // "" where it is comfortable
 };
-// One eye is comfortable.
+// One eye is always comfortable.
 ComfortReading comfortReading(const ViewFrame& frame);
 
-// Advice where the parallax of the frame is too much, else "".
+// Returns advice where the frame's parallax is too large, else "".
 std::string warningLine(const ViewFrame& frame);
 
-// "error 52.3 dB, 41 of 255 at most, in 6.1 % of the right eye", or why that is not known.
+// Returns "error 52.3 dB, 41 of 255 at most, in 6.1 % of the right eye", or why it is not known.
 std::string truthText(const FrameTruth& truth);
 
 }  // namespace stereonav

@@ -9,15 +9,15 @@
 namespace stereonav {
 namespace {
 
-constexpr double kStereoSeconds = 0.35;      // time constant: eyes follow a slow change, not a jump
+constexpr double kStereoSeconds = 0.35;      // time constant: eyes follow slow changes, not jumps
 constexpr double kSettled = 1e-3;            // relative difference at which a slow change ends
-constexpr double kFirstSeparation = 1e-3;    // of the zero-parallax distance: the step up from none
-constexpr double kLargestSeparation = 0.25;  // of the zero-parallax distance
-// Relative change below which following counts as done: less than 0.05 pixels of 1280 at the most parallax
-// that is comfortable. What is shown at rest gets better only once the eyes stay where they are.
+constexpr double kFirstSeparation = 1e-3;    // share of the zero-parallax distance: the step up from 0
+constexpr double kLargestSeparation = 0.25;  // share of the zero-parallax distance
+// Relative change below which the eyes count as at rest: less than 0.05 pixels of 1280 at the largest
+// comfortable parallax. A resting picture is refined only once the eyes do not move.
 constexpr double kFollowed = 1e-3;
 
-// Exponential approach in the logarithm, so that halving and doubling feel alike.
+// Exponential approach in the logarithm, so that halving and doubling look alike.
 double approach(double now, double target, double dt) {
     if (!(now > 0) || !(target > 0) || std::abs(now - target) <= kSettled * target) return target;
     return target * std::pow(now / target, std::exp(-dt / kStereoSeconds));
@@ -33,7 +33,7 @@ bool differs(const StereoSetting& a, const StereoSetting& b, double share = kFol
 ViewStereo::ViewStereo(const Scene& scene) : mGiven(scene.eyesGiven) {
     reset(scene);
     mNow = mByHand = mTarget;
-    if (follows()) follow();  // from there
+    if (follows()) follow();  // follows from the new setting
     mArrives = follows();
 }
 
@@ -62,7 +62,7 @@ void ViewStereo::follow() {
     if (follows()) mComfort.restart();
 }
 
-// What is shown is what was asked for.
+// Takes the shown setting as the one asked for.
 void ViewStereo::takeOver() {
     if (follows() || clamping()) {
         mTarget = mByHand = mNow;
@@ -72,7 +72,7 @@ void ViewStereo::takeOver() {
     mFits = mFitted = mArrives = false;
 }
 
-// The largest separation goes before the distance of the screen.
+// The largest separation has priority over the distance of the screen.
 void ViewStereo::setTarget(const StereoSetting& target) {
     mTarget.zeroParallax = target.zeroParallax;
     const double least = kFirstSeparation * target.zeroParallax;
@@ -112,7 +112,7 @@ void ViewStereo::adopt(const StereoSetting& fitting) {
     mFits = false;
     mStart = mNow = mTarget = mByHand = fitting;
     mComfort.restart();
-    if (follows()) follow();  // from there
+    if (follows()) follow();  // follows from the new setting
 }
 
 void ViewStereo::refit(const Scene& scene) {
@@ -137,11 +137,11 @@ void ViewStereo::stepByHand(double dt) {
     if (mComfort.share() == 1 || differs(wanted, mNow)) mNow = wanted;
 }
 
-// Eyes that follow from the start are where they would get in time with the first picture, before anybody has
-// looked for long: a picture at rest does not get better while they move.
+// Lets eyes that follow from the start reach their final place with the first picture, before anybody has
+// looked at it: a resting picture is not refined while they move.
 void ViewStereo::arrive(double free, double depth, double dt) {
     constexpr double kLong_s = 60;
-    constexpr int kMostSteps = 1000;  // a follower may bound each
+    constexpr int kMostSteps = 1000;  // a follower may limit each step
     constexpr double kArrived = 1e-6;
     StereoSetting arrived = mNow;
     for (int n = 0; n < kMostSteps; ++n) {

@@ -1,5 +1,5 @@
-// The viewer's eyes: how far apart they are and what distance lies in the screen, by hand or following the
-// room around them; never in jumps once the first picture was seen.
+// The viewer's eyes: their separation and the distance of the screen, set by hand or following the room;
+// without jumps once the first picture was seen.
 #pragma once
 
 #include <optional>
@@ -10,53 +10,52 @@ namespace stereonav {
 
 class ViewStereo {
 public:
-    // The follower, where the scene has one, is at work from the start.
+    // Begins with the scene's follower, where it has one.
     explicit ViewStereo(const Scene& scene);
 
-    // As at the start: the scene's own setting, or what fitted its first picture; follows as at the start.
+    // Restores the beginning: the scene's own setting, or the one that fitted its first picture, and
+    // following.
     void reset(const Scene& scene);
-    // What reset() goes to.
+    // Returns the setting that reset() goes to.
     const StereoSetting& begun(const Scene& scene) const { return mStart ? *mStart : scene.stereo; }
-    // Another scene: the eyes stay as they are and go on from there.
+    // Goes on in another scene with the present setting.
     void replaceScene(const Scene& scene);
 
-    // By hand: each ends following.
+    // Change the setting by hand, which ends following.
     void scaleSeparation(double factor);
     void scaleZeroParallax(double factor);
-    // Metres, brought within what is possible; what is no number, or a screen that is not ahead, changes
-    // nothing.
+    // Set metres, limited to what is possible; values that are no numbers, or a screen that is not ahead,
+    // change nothing.
     void setSeparation(double metres);
     void setZeroParallax(double metres);
     bool follows() const { return static_cast<bool>(mFollower); }
     void follow();
 
-    // Eyes that nobody asked for (Scene::eyesGiven) are made comfortable with the first picture: until that
-    // one is there, requests say so (FrameRequest::fitEyes).
+    // Returns whether the eyes, which nobody has set (Scene::eyesGiven), are still to be fitted to the first
+    // picture; until it is there requests say so (FrameRequest::fitEyes).
     bool fits() const { return mFits; }
-    // They are as they were fitted then, and that was not what the scene has.
+    // Returns whether the eyes are as they were fitted, and differ from the scene's.
     bool fitted() const { return mFitted; }
-    // Where they are set by hand: brings them together, slowly, while a picture's parallax is too much, and
-    // back again after it. Off at first.
+    // Sets the clamp for eyes set by hand: it slowly brings them together while the parallax of pictures is
+    // too large, and then back. Off at first.
     void setClamp(bool on) { mClamp = on; }
     bool clamp() const { return mClamp; }
-    bool clamping() const;  // they are nearer to each other than was asked for
+    bool clamping() const;  // whether the eyes are closer than asked for
 
-    // Pictures have another shape from now on: eyes that were fitted, and not touched since, are fitted to
-    // them anew.
+    // Fits the eyes to pictures of another shape, where they were fitted and not changed since.
     void refit(const Scene& scene);
 
-    // A frame has come: the parallax that it shows limits what is followed.
-    // fitsNow: its shape is that of the pictures that are asked for; eyes that fitted another one are not
-    // taken.
+    // Takes a frame, whose parallax limits following. fitsNow: it has the shape of the pictures asked for;
+    // otherwise eyes fitted to it are ignored.
     void observe(const ViewFrame& frame, bool fitsNow = true);
     // free: distance around the head; depth: in the middle of the last picture; metres.
     void step(double free, double depth, double dt);
 
     const StereoSetting& now() const { return mNow; }
-    // By hand: where they go, without the clamp.
+    // Returns the setting that the eyes go to, without the clamp.
     const StereoSetting& target() const { return follows() ? mNow : mTarget; }
-    bool moving() const { return mMoving; }  // since the last step
-    // For the line of figures: "eyes follow", "comfort", "comfort clamp"; "" where there is nothing to say.
+    bool moving() const { return mMoving; }  // in the last step
+    // Returns "eyes follow", "comfort", "comfort clamp" for the status bar; "" for none of them.
     const char* word() const;
 
 private:
@@ -67,17 +66,17 @@ private:
     void stepByHand(double dt);
     void arrive(double free, double depth, double dt);
 
-    // As shown; where it slowly goes, by hand; and how far that is, before the clamp.
+    // Settings: shown; gone to slowly, by hand; and the latter before the clamp.
     StereoSetting mNow, mTarget, mByHand;
-    double mLargest;                    // metres
-    const RoomAround* mRoom = nullptr;  // the scene's, which outlives this or is replaced first
+    double mLargest;                    // in metres
+    const RoomAround* mRoom = nullptr;  // the scene's; it outlives this object or is replaced first
     StereoFollower mFollower;
     ComfortLimit mComfort;
-    bool mGiven = false;  // by the user or the scene's file
+    bool mGiven = false;  // whether the user or the scene's file has set them
     bool mFits = false, mFitted = false, mClamp = false;
-    std::optional<StereoSetting> mStart;  // that fitted the first picture
+    std::optional<StereoSetting> mStart;  // the one that fitted the first picture
     bool mMoving = false;
-    bool mArrives = false, mSeen = false;  // at once, with the first picture; one was seen
+    bool mArrives = false, mSeen = false;  // arrive with the first picture; one was seen
 };
 
 }  // namespace stereonav

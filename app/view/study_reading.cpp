@@ -20,7 +20,7 @@ void StudyReading::abandon() {
 }
 
 void StudyReading::follow(ViewSession& session, Notices& notices) {
-    // A panel asks with each layout, and not again for what failed; the key V does.
+    // Panels ask with each layout, but not again after a failure; the key V does.
     if (!mReading.busy() && session.slices().takeStudyWish() && (!mFailed || session.slices().wantsView())) {
         mFailed = false;
         mReading.start(session.openShared(), mWake);

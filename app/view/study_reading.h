@@ -1,5 +1,5 @@
-// The study that a scene's slices are of: read beside the frames once somebody wants it, for the slice view
-// or for a panel, and then the session's.
+// The study of a scene's slices: read beside the frames once it is needed, for the slice view or for a panel,
+// and then owned by the session.
 #pragma once
 
 #include <functional>
@@ -18,17 +18,17 @@ public:
     // wake: called from another thread when it is read.
     explicit StudyReading(std::function<void()> wake) : mWake(std::move(wake)) {}
 
-    // The session's; null until it is there, or where there is none. Asks for it.
+    // Returns the session's study, and asks for it; null until it is there, or where there is none.
     std::shared_ptr<const SliceStudy> wanted(ViewSession& session);
-    // A picture is there: before the first, which is what is waited for, nothing is read.
+    // Notes that there is a picture: nothing is read before the first, which the user is waiting for.
     void noteFrame() { mFrame = true; }
     bool busy() const { return mReading.busy(); }
-    // How much of it, while it is read.
+    // Returns the progress while it is read.
     std::optional<double> fraction() const;
     void cancel() { mReading.cancel(); }
-    // Another session begins.
+    // Drops the study, for another session.
     void abandon();
-    // Each turn: begins what the session wants, and hands over what was read.
+    // Begins reading where the session needs the study, and hands it over; to be called each turn.
     void follow(ViewSession& session, Notices& notices);
 
 private:

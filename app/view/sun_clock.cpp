@@ -33,7 +33,7 @@ double midnightOf(const SunClock& clock) {
     return secondsFromUtc(clock.year, 1, 1) + kDay * (clock.day - 1) - kHour * clock.offset;
 }
 
-// Whole numbers between marks, all of the text; none where there are more or fewer.
+// Reads whole numbers between marks from a whole text; empty where there are more or fewer.
 template <std::size_t count>
 std::optional<std::array<int, count>> wholesOf(std::string_view text, char between) {
     std::array<int, count> numbers{};

@@ -1,4 +1,4 @@
-// The choice between the two sweeps, the textures of each medium shown, and the way back to the processor.
+// Choice between the two sweeps, textures of each medium that is shown, and the fallback to the CPU.
 #include "app/view/sweep.h"
 
 #include <epoxy/gl.h>
@@ -31,7 +31,7 @@ public:
     }
 
 private:
-    // The first frame also compiles shaders, uploads and allocates, so that the second one counts.
+    // Compares the second frame, since the first one also compiles shaders, uploads and allocates.
     bool isFaster(const SweepTask& task, const std::function<void()>& cpu) {
         if (!tried(task)) return false;
         Stopwatch watch;
@@ -57,7 +57,7 @@ private:
         }
     }
 
-    // Names are deleted in the context that they are of, or, where that can not be had, with it.
+    // Objects are deleted in their own context or, where that is not available, with it.
     void end() {
         mUsable = false;
         if (mGpus.empty()) return;
@@ -72,7 +72,7 @@ private:
     HiddenContext* mContext;
     std::function<void(const std::string&)> mTell;
     bool mDecided, mUsable = true;
-    std::map<const Medium*, std::unique_ptr<MediumGpu>> mGpus;  // of the models that are shown
+    std::map<const Medium*, std::unique_ptr<MediumGpu>> mGpus;  // for the models that are shown
 };
 
 }  // namespace
@@ -99,7 +99,7 @@ ViewSweep::ViewSweep(SweepChoice choice) : mChoice(choice) {
 ViewSweep::~ViewSweep() = default;
 
 void ViewSweep::tell(const std::string& notice) {
-    if (mChoice != SweepChoice::Gpu) return;  // nobody asked for it
+    if (mChoice != SweepChoice::Gpu) return;  // nobody has asked for the graphics card
     const std::lock_guard lock(mMutex);
     mNotice = "swept on the CPU: " + notice;
 }

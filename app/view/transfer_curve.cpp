@@ -9,14 +9,14 @@
 namespace stereonav {
 namespace {
 
-constexpr double kLargest = 1e30;  // of values: floats hold it
-constexpr double kMargin = 0.02;   // of a view, at both ends
-constexpr double kFar = 1;         // widths of the values: points farther beyond them are out of view
-constexpr double kSteps = 1000;    // across a view
+constexpr double kLargest = 1e30;  // largest value, within the range of floats
+constexpr double kMargin = 0.02;   // share of a view, at both ends
+constexpr double kFar = 1;         // multiple of the values' range: points farther outside are out of view
+constexpr double kSteps = 1000;    // steps across a view
 constexpr double kRampOpacity = 0.5, kMillimetre = 0.001;
-constexpr double kFinest = 1e-9;  // of the values' size: a view is not smaller
+constexpr double kFinest = 1e-9;  // least size of a view, as a share of the values' size
 
-// What two neighbours are apart at least.
+// Returns the least distance of two neighbours.
 double gapBeside(double value) {
     return std::max(std::abs(value) * 1e-9, 1e-9);
 }
@@ -75,7 +75,7 @@ std::size_t TransferCurve::insert(double value, double opacity) {
     const auto above = std::lower_bound(mPoints.begin(), mPoints.end(), value,
                                         [](const CurvePoint& p, double v) { return p.value < v; });
     const std::size_t index = static_cast<std::size_t>(above - mPoints.begin());
-    // Too near a neighbour is that neighbour.
+    // A point too close to a neighbour becomes that neighbour.
     for (const std::size_t beside : {index, index - 1}) {
         if (beside >= mPoints.size() || std::abs(mPoints[beside].value - value) > gapBeside(value)) continue;
         mPoints[beside].opacity = share(opacity);
@@ -120,7 +120,7 @@ TransferCurve rampBetween(double low, double high) {
 }
 
 double ValueView::shareOf(double value) const {
-    // Halves: the difference of two finite numbers may be infinite.
+    // Halves are used, since the difference of two finite numbers may be infinite.
     const double at = (value / 2 - low / 2) / (high / 2 - low / 2);
     return std::isnan(at) ? 0 : std::clamp(at, -1e6, 1e6);
 }
@@ -140,7 +140,7 @@ double ValueView::step() const {
 double ValueView::rounded(double value) const {
     const double by = step();
     if (!(by > 0) || !std::isfinite(by)) return value;
-    // As a quotient of whole numbers where the step is below 1, so that its text is short.
+    // Quotients of whole numbers for steps below 1 give short texts.
     return by < 1 ? std::round(value * std::round(1 / by)) / std::round(1 / by) : std::round(value / by) * by;
 }
 
@@ -152,7 +152,7 @@ ValueView viewOf(double lowest, double highest, const TransferCurve& curve) {
     ValueView view{lowest, highest};
     const double far = kFar * std::max(highest - lowest, gapBeside(lowest));
     for (const CurvePoint& point : curve.points()) {
-        // One value is no width: then all of the points are shown.
+        // A single value has no range: then all points are shown.
         if (highest > lowest && (point.value < lowest - far || point.value > highest + far)) continue;
         view.low = std::min(view.low, point.value);
         view.high = std::max(view.high, point.value);

@@ -1,4 +1,4 @@
-// What a key, a menu or a panel asks of the window.
+// Actions that keys, menus and panels ask the window for.
 #pragma once
 
 #include "engine/image/stereo_compose.h"
@@ -6,8 +6,8 @@
 namespace stereonav {
 
 enum class ViewCommand {
-    Quit,  // first what is open over the picture, then the window
-    // Of the interface, not the session.
+    Quit,  // closes what is open over the picture first, then the window
+    // Actions of the interface, not of the session.
     Help,
     HideInterface,
     Panels,
@@ -30,7 +30,7 @@ enum class ViewCommand {
     OpenPath,
     FullScreen,
     QuitAtOnce,
-    // Of the session.
+    // Actions of the session.
     Screenshot,
     Home,
     TurnRound,
@@ -44,7 +44,7 @@ enum class ViewCommand {
     PreviousMode,
     SetMode,
     NextMethod,
-    ShowFullCast,  // these three: again ends it
+    ShowFullCast,  // these three: the same again ends it
     ShowDifference,
     ShowHoles,
     NextModel,
@@ -82,8 +82,8 @@ enum class ViewCommand {
 
 struct ViewAction {
     ViewCommand command;
-    OutputMode mode = OutputMode::Left;  // of SetMode
-    int number = 0;                      // of SetFlightMode
+    OutputMode mode = OutputMode::Left;  // for SetMode
+    int number = 0;                      // for SetFlightMode
 };
 
 }  // namespace stereonav

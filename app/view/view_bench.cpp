@@ -13,16 +13,16 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSettling = 2;  // seconds at rest before the flight: eyes that follow have arrived
+constexpr double kSettling = 2;  // seconds at rest before the flight, in which following eyes arrive
 constexpr const char* kJudging = "judging";
-constexpr std::size_t kSweptSamples = 4;  // of media one of so many is judged: a pair takes seconds
-constexpr int kTruthSide = 8;             // 64 rays a pixel
-constexpr int kMovingTruthSide = 4;       // 16, of pictures in motion
-constexpr int kSweptTruthSide = 2;        // of media, where a frame of that many takes seconds
-constexpr double kTruthEffort = 4;        // times the slices
+constexpr std::size_t kSweptSamples = 4;  // samples of media per judged one, as a pair takes seconds
+constexpr int kTruthSide = 8;             // 64 rays per pixel
+constexpr int kMovingTruthSide = 4;       // 16 rays per pixel, for pictures in motion
+constexpr int kSweptTruthSide = 2;        // for media, where a frame of so many rays takes seconds
+constexpr double kTruthEffort = 4;        // multiple of the slices
 constexpr double kMs = 1000;
 
-// The smallest value that so large a share of them does not exceed; none of nothing.
+// Returns the smallest value that such a share of them does not exceed; NaN for no values.
 double quantile(std::vector<double> values, double share) {
     if (values.empty()) return std::nan("");
     std::sort(values.begin(), values.end());
@@ -41,7 +41,7 @@ bool sameMoment(const FrameRequest& a, const FrameRequest& b) {
            a.stereo.separation == b.stereo.separation && a.stereo.zeroParallax == b.stereo.zeroParallax;
 }
 
-// Squared errors of all channels of all pictures together.
+// Squared errors of all channels, over all pictures.
 class ErrorMean {
 public:
     void add(const Plane<PackedColor>& truth, const ShownPicture::Eye& eye) {
@@ -81,7 +81,7 @@ void addPair(const EyePair& pair, const ShownPicture& picture, ErrorMean& error)
     if (picture.of.twoEyes) error.add(pair.right.color, picture.right);
 }
 
-// Each eye by itself, as the scene's exact method makes it.
+// Adds the error of each eye against the scene's exact method.
 void addExact(const Scene& scene, const FrameRequest& request, const ShownPicture& picture, EyePair& pair,
               ErrorMean& error) {
     setLight(scene, request);
@@ -93,7 +93,7 @@ void addExact(const Scene& scene, const FrameRequest& request, const ShownPictur
     addPair(pair, picture, error);
 }
 
-// A truth has the detail of the picture that is held against it.
+// Gives truths the detail of the picture that is compared.
 void lookFrom(const Scene& scene, const StereoViews& views) {
     if (const auto* const rays = scene.offered<RayCast>()) rays->renderer->lookFrom(views.left, views.right);
 }
@@ -102,7 +102,7 @@ Plane<PackedColor> fineEye(const Scene& scene, const EyeView& view, double time,
                            int side = kTruthSide) {
     if (const auto* const rays = scene.offered<RayCast>())
         return renderSupersampled(*rays->renderer, view, side, progress);
-    // In one sweep: strips would each pass all of the light.
+    // One sweep is used, since each strip would sweep all of the light.
     EyePair fine;
     scene.frames().makeOne(view.supersampled(kSweptTruthSide), time, fine);
     Plane<PackedColor> mean(view.width, view.height);
@@ -137,7 +137,7 @@ void addFine(const Scene& scene, const ShownPicture& picture, ErrorMean& error, 
     if (swept) swept->setEffort(1);
 }
 
-// Of rays: against more of them in each pixel than one, which no way of making a pair casts.
+// Adds the error of cast pictures against more rays per pixel, which no method of making a pair casts.
 void addMovingTruth(const Scene& scene, const ShownPicture& picture, ErrorMean& error, Progress& progress) {
     setLight(scene, picture.of);
     const StereoViews views = viewsAt(picture.of, picture);
@@ -254,7 +254,7 @@ void ViewBench::judgeRest(const Scene& scene, Progress& progress) {
     const bool swept = !scene.offered<RayCast>(), same = sameMoment(mAfterOne->of, mAfterTen->of);
     mTruthRays = swept ? kSweptTruthSide * kSweptTruthSide : kTruthSide * kTruthSide;
     mTruthEffort = swept ? kTruthEffort : 1;
-    // One truth for both, where nothing moved between them.
+    // One truth serves both, where nothing moved between them.
     Progress first(progress, 0, same ? 1 : 0.5), second(progress, 0.5, 1);
     addFine(scene, *mAfterOne, one, same ? &*mAfterTen : nullptr, ten, first);
     if (!same) addFine(scene, *mAfterTen, ten, nullptr, ten, second);

@@ -1,6 +1,6 @@
-// `view --bench`: what a flight in the window is like, measured. The window flies, rests and draws as it
-// always does; this says when it is to do which, notes when a picture was shown and of which moment it was,
-// and keeps some pictures, which are held against truths when the flight is over. No window and no clock.
+// `view --bench`: measures a flight in the window. The window flies, rests and draws as usual; this object
+// decides when it does which, notes when a picture was shown and of which moment it was, and keeps some
+// pictures for comparison with truths after the flight. Needs no window and no clock.
 #pragma once
 
 #include <array>
@@ -15,38 +15,37 @@
 
 namespace stereonav {
 
-// A picture as it came to the screen.
+// A picture as it was shown on the screen.
 struct ShownPicture {
     using Eye = std::shared_ptr<const Plane<PackedColor>>;
-    Eye left, right;    // right: null or empty of one eye
-    FrameRequest of;    // what it shows: the pose it was cast for, or warped to
-    FrameRequest cast;  // of the picture that was cast
+    Eye left, right;    // right: null or empty for one eye
+    FrameRequest of;    // request that it shows: the pose that it was cast for, or warped to
+    FrameRequest cast;  // request of the picture that was cast
     bool warped = false;
 };
 
 class ViewBench {
 public:
     static constexpr double kLongestFlight = 20, kRest = 10.2;  // seconds
-    static constexpr int kSamples = 24;  // pictures in motion that are held against their truth
+    static constexpr int kSamples = 24;  // number of pictures in motion that are compared with their truth
 
-    // whole: the flight is flown to its end; else it is broken off where it is longer than the longest.
+    // whole: fly the flight to its end; otherwise it is ended at the longest duration.
     explicit ViewBench(bool whole = false) : mWhole(whole) {}
 
     enum class Wish { None, Fly, Stop, Judge };
-    // What the window is to do now; each once. ready: a picture is there and rests; flying: the flight goes
-    // on. duration: of the flight, seconds.
+    // Returns what the window has to do now, each wish once. ready: there is a picture and it rests; flying:
+    // the flight goes on. duration: of the flight, seconds.
     Wish step(double now, bool ready, bool flying, double duration);
     bool judging() const { return mStage == Stage::Judge; }
 
-    // A picture was shown at this time, seconds. now: what was asked for at that moment.
+    // Notes a picture that was shown at this time in seconds. now: the request of that moment.
     void shown(const ShownPicture& picture, const FrameRequest& now, double at);
-    // A picture was cast.
+    // Notes a picture that was cast.
     void cast(const ViewFrame& frame);
 
-    // Holds the kept pictures against what they should have been. On the thread that makes frames; throws
-    // Cancelled.
+    // Compares the kept pictures with their truths. On the thread that makes frames; throws Cancelled.
     void judge(const Scene& scene, Progress& progress);
-    // After judge(), or of what there is.
+    // Returns the results: all after judge(), or those that there are.
     Facts facts() const;
 
 private:
@@ -62,19 +61,19 @@ private:
     bool mWhole;
     Stage mStage = Stage::Wait;
     double mReadySince = -1, mStarted = 0, mStopped = 0, mDuration = 0, mLast = -1;
-    std::vector<double> mBetween, mAge, mDelay, mShownAge;  // milliseconds
-    int mCoarse = 0;                                        // pictures cast that lacked detail
-    std::vector<double> mCast;                              // milliseconds a cast picture took
-    std::vector<double> mScale, mGuard;  // of cast pictures; the second: share of pixels beyond what is shown
+    std::vector<double> mBetween, mAge, mDelay, mShownAge;  // in milliseconds
+    int mCoarse = 0;                                        // cast pictures that lacked detail
+    std::vector<double> mCast;                              // milliseconds of each cast picture
+    std::vector<double> mScale, mGuard;  // for cast pictures; mGuard: share of pixels outside the visible
     int mSizeChanges = 0;
     std::vector<Kept> mSamples;
     std::optional<ShownPicture> mNewest;
-    std::optional<ShownPicture> mAfterOne, mAfterTen;  // what was shown a second and ten after the stop
-    int mWarped = 0, mJudged = 0;                      // mJudged: moments in motion
+    std::optional<ShownPicture> mAfterOne, mAfterTen;  // pictures shown one and ten seconds after the stop
+    int mWarped = 0, mJudged = 0;                      // mJudged: number of moments in motion
     std::optional<double> mMovingPsnr, mMovingTruePsnr, mNowPsnr, mOnePsnr, mTenPsnr;
-    std::optional<double> mOneOfPair, mTenOfPair;  // of media: against the exact pair as it is in flight
-    int mTruthRays = 0;                            // a pixel, of those at rest
-    double mTruthEffort = 1;                       // of media
+    std::optional<double> mOneOfPair, mTenOfPair;  // for media: compared with the exact pair as in flight
+    int mTruthRays = 0;                            // rays per pixel, for pictures at rest
+    double mTruthEffort = 1;                       // for media
 };
 
 }  // namespace stereonav

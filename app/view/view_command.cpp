@@ -1,4 +1,4 @@
-// The command that opens the window.
+// The command `view`, which opens the window.
 #include "app/view/view_command.h"
 
 #include "app/options/output_place.h"
@@ -15,10 +15,10 @@ int runView(const ViewOptions& options) {
     if (!options.json.empty()) checkOutputFile("--json", options.json);
     checkNoInput({"--json", options.json}, inputsOf(options.scene));
     ViewOptions shown = options;
-    shown.scene.skyTurns = !shownAs(options.scene).swept;  // a medium's keys turn its own light
+    shown.scene.skyTurns = !shownAs(options.scene).swept;  // keys turn a medium's own light
     shown.scene.detailLater = true;
     shown.scene.standInFirst = !options.bench;
-    // What is measured does not depend on how far light is that is worked out meanwhile.
+    // Measurements do not depend on the progress of light that is computed meanwhile.
     if (options.bench) shown.scene.lightLater = false;
     if (options.bench && !shown.scene.given.has("ground-detail")) shown.scene.groundDetail = false;
     Viewer(shown).run();

@@ -1,4 +1,4 @@
-// `stereonav view`, which the program without a command runs too.
+// `stereonav view`, which also runs without a command.
 #pragma once
 
 #include "app/options/picture_options.h"

@@ -64,7 +64,7 @@ void ViewDisplay::draw(const ComposeSetting& setting,
     if (alternating && (!mSequence || mPlace != mWindow.place())) {
         const std::optional<Monitor> on = monitor();
         mPlace = mWindow.place();
-        // Told anew on another monitor only.
+        // Reported again only on another monitor.
         const double rate = on ? on->refreshRate : 0;
         if (!mSequence || mSequence->toldRate() != rate) mSequence.emplace(rate);
     }
@@ -75,7 +75,7 @@ void ViewDisplay::draw(const ComposeSetting& setting,
     if (mWindow.quadBuffered()) drawInto(BackBuffer::Both);
     if (!mSequence) return mWindow.swapBuffers();
     mSequence->swapped(mWindow.swapTimed());
-    if (!mNotice.empty()) return;  // not told yet
+    if (!mNotice.empty()) return;  // the last notice was not taken yet
     if (auto problem = mSequence->takeProblem()) mNotice = *std::move(problem);
 }
 
@@ -105,7 +105,7 @@ ScreenTold ViewDisplay::told() const {
 
 double ViewDisplay::pictureWidthOf(const ViewFrame& frame, const ScreenTold& on) const {
     const int window = mWindow.place().width, pixels = mWindow.framebufferSize().x;
-    // Of the monitor's size, which is in the window's units.
+    // Width on the monitor, in the window's units.
     const double width = pixels > 0 ? (frame.left.width() - 2 * frame.request.guard.x) / frame.request.scale *
                                           (static_cast<double>(window) / pixels)
                                     : 0;

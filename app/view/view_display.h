@@ -1,5 +1,5 @@
-// How the viewer's window stands on its display: full screen, a buffer for each eye, eyes that take turns at
-// the display's refresh, and what parallax is there in millimetres.
+// The viewer's window on its display: full screen, a buffer for each eye, eyes that alternate at the
+// display's refresh, and parallax in millimetres.
 #pragma once
 
 #include <functional>
@@ -15,67 +15,69 @@
 
 namespace stereonav {
 
-// Of parallax on the real screen; "" for nothing to say.
+// Texts on parallax on the real screen; "" for none.
 struct ScreenWords {
     std::string parallax, warning;
 };
 
 // The screen that the window is on.
 struct ScreenAnswer {
-    std::string words;    // how large it is, and who says so
-    double width_mm = 0;  // in use
-    bool asks = false;    // it is a guess that nobody was asked about
+    std::string words;    // size of the screen, and where that comes from
+    double width_mm = 0;  // width in use
+    bool asks = false;    // whether the width is a guess and the user has not been asked
 };
 
 class ViewDisplay {
 public:
-    // Fills the monitor that the options name. The window is asked for a quad buffer where their mode is that
-    // (wantsQuadBuffer), and outlives this. Throws Error where there is no such monitor.
+    // Fills the monitor that the options name. The window is asked for a quad buffer where their mode needs
+    // it (wantsQuadBuffer); it must outlive this object. Throws Error where there is no such monitor.
     ViewDisplay(Window& window, const ViewOptions& options);
 
     static bool wantsQuadBuffer(const ViewOptions& options) { return options.mode == OutputMode::QuadBuffer; }
-    // The mode to begin with: that of the options, or what stands in where the driver grants none.
+    // Returns the mode to begin with: that of the options, or its replacement where the driver does not grant
+    // it.
     OutputMode mode() const { return mMode; }
 
-    void toggleFullScreen();  // a refusal is a notice
-    // Options that were changed: the screen's size, and the monitor where that is another one than before.
+    void toggleFullScreen();  // a refusal becomes a notice
+    // Applies options that were changed: the screen's size, and the monitor where it is another one.
     void follow(const ViewOptions& options);
 
-    // Whether the window has to be drawn at each refresh, new picture or not.
+    // Returns whether the window has to be drawn at each refresh, even without a new picture.
     static bool alternates(const ComposeSetting& setting);
-    // Seconds to wait before the next of them; only while the last picture alternated.
+    // Returns the seconds until the next refresh; only while the last picture alternated.
     std::optional<double> wait() const;
-    // Draws each eye or both of them where they belong, then swaps. drawOne: fills the window by a setting.
+    // Draws each eye, or both, in its place, then swaps buffers. drawOne: fills the window with a setting.
     void draw(const ComposeSetting& setting, const std::function<void(const ComposeSetting&)>& drawOne);
 
-    // What to tell, once; "" for nothing.
+    // Returns a notice once; "" for none.
     std::string takeNotice();
 
-    // Of the screen that the window is on: how large it is, as far as anybody knows.
+    // Return the size of the window's screen, as far as it is known.
     ScreenSizes& sizes() { return mSizes; }
     const ScreenSizes& sizes() const { return mSizes; }
     ScreenTold told() const;
     ScreenAnswer screen() const;
-    void leaveUnknown() { mSizes.noteAsked(told().name); }  // it is not asked again
+    void leaveUnknown() { mSizes.noteAsked(told().name); }  // the user is not asked again
     bool fullScreen() const { return mWindow.fullScreen(); }
-    double refreshPeriod() const;  // seconds: of the monitor that the window is on, as it tells
+    double refreshPeriod() const;  // seconds per refresh of the window's monitor, as it reports
 
-    // On the real screen: parallax for the status line, and a warning where eyes would have to turn outwards.
+    // Returns texts for the real screen: parallax for the status bar, and a warning where eyes would have to
+    // diverge.
     ScreenWords wordsOf(const ViewFrame& frame) const { return {parallaxText(frame), warning(frame)}; }
     std::string parallaxText(const ViewFrame& frame) const;
     std::string warning(const ViewFrame& frame) const;
 
 private:
     void fill(const std::string& monitor);
-    std::optional<Monitor> monitor() const;  // that the window is on
+    std::optional<Monitor> monitor() const;  // monitor that the window is on
     double pictureWidthOf(const ViewFrame& frame, const ScreenTold& on) const;
 
     Window& mWindow;
     OutputMode mMode;
-    std::string mFullScreen;  // as the options say it
+    std::string mFullScreen;  // value of the option
     ScreenSizes mSizes;
-    std::optional<FrameSequence> mSequence;  // while eyes alternate
-    ScreenRect mPlace;                       // of the window when that began
+    std::optional<FrameSequence> mSequence;  // set while eyes alternate
+    ScreenRect mPlace;                       // place of the window when that began
     std::string mNotice;
 };
 

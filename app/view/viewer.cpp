@@ -13,8 +13,8 @@
 namespace stereonav {
 namespace {
 
-constexpr double kActiveWait = 1.0 / 120;  // seconds between looks at the keys while something moves
-constexpr double kShortestWait = 0.0005;   // seconds, between pictures that are warped
+constexpr double kActiveWait = 1.0 / 120;  // seconds between checks of the keys while something moves
+constexpr double kShortestWait = 0.0005;   // seconds between warped pictures
 constexpr double kIdleWait = 0.1;          // seconds; events and frames end the wait at once
 
 std::string titleOf(const SceneOptions& scene) {
@@ -59,7 +59,7 @@ Viewer::Viewer(const ViewOptions& options)
 }
 
 Viewer::~Viewer() {
-    mJobs.cancel();  // ends while the rest does
+    mJobs.cancel();  // they end while other parts do
     mWindow.use();
     mChanges.end();
 }
@@ -140,7 +140,7 @@ void Viewer::act(const ViewAction& action) {
     mSession->act(action);
 }
 
-// First what is open over the picture, then what is at work, then the window.
+// Closes first what is open over the picture, then work in progress, then the window.
 bool Viewer::quit() {
     if (mStage.panels().closeOne()) return true;
     if (mSession && mSession->slices().shown() && !mStudy.busy()) return false;
@@ -252,7 +252,7 @@ void Viewer::step(bool forward) {
         mChanges.undo();
 }
 
-// The first scene starts the session, others take its place in it, or a session of their own.
+// Begins the session with the first scene; others take its place, or begin a session of their own.
 void Viewer::takeScene() {
     if (!mChanges.takeScene()) return;
     mFacts.forget();
@@ -283,7 +283,7 @@ void Viewer::beginSession() {
     tell(kept);
 }
 
-// In the same session.
+// Shows another scene in the same session.
 void Viewer::replaceScene() {
     const std::shared_ptr<const OpenScene>& scene = mChanges.scene();
     const auto raised = RaisedGround::between(*mSession->open().scene, *scene->scene);
@@ -292,7 +292,7 @@ void Viewer::replaceScene() {
     if (raised) mKeyframes.raise(*raised, *mSession);
 }
 
-// What was guessed of the scene comes before what helps to begin.
+// Guesses about the scene are reported before hints for beginners.
 void Viewer::greet(bool first) {
     const auto* const terrain = mChanges.scene()->scene->offered<const TerrainScene>();
     const std::vector<std::string> notes = terrain ? terrain->report.notes : std::vector<std::string>();
@@ -315,7 +315,7 @@ void Viewer::fly(double dt) {
 void Viewer::followInstruments() {
     if (mInstruments.follow()) mStage.layOutSoon();
     if (mInstruments.followPaint([this](const std::string& problem) { mNotices.fail(problem); })) {
-        mFacts.forget();  // they tell what is painted
+        mFacts.forget();  // the facts include paint
         mStage.layOutSoon();
     }
     const Instruments::Shows shows = mInstruments.takeShows();
@@ -341,7 +341,7 @@ void Viewer::takeFrame() {
     if (auto frame = mChanges.worker().takeFrame()) {
         if (mAsked.ofSession(*frame))
             takeOwnFrame(std::move(frame));
-        else  // of the scene before: its eyes would become this one's. It is saved where that was asked for
+        else  // frames of the scene before only serve screenshots: their eyes would become this one's
             mScreenshots.take(frame, mSession->compose());
     }
     mPictures.show(*mSession, mAsked, mSettings.options().lateWarp, mDisplay.refreshPeriod());
@@ -365,7 +365,7 @@ void Viewer::takeOwnFrame(std::shared_ptr<const ViewFrame> frame) {
     mPictures.take(std::move(frame), mAsked, mSettings.options().lateWarp);
 }
 
-// An action of panels may open or close the window, or the session, that is being drawn: it waits.
+// Draws the window. Actions of panels wait until then: they may open or close the window, or the session.
 void Viewer::show(double dt, const Stopwatch& turn) {
     const auto drawPanels = [this] { mStage.panels().draw(parts()); };
     mStage.drawControls(dt, mPictures.frame(), drawPanels);

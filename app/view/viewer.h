@@ -1,5 +1,5 @@
-// The window: events and drawing on this thread, loading and rendering on the worker's. Each part of it has
-// an owner; this is the order of their turn.
+// The window: events and drawing on this thread, loading and rendering on the worker's threads. Each part has
+// an owner; this class calls them in their order.
 #pragma once
 
 #include <memory>
@@ -52,10 +52,10 @@ private:
     void takeInput(double dt);
     void takeDrops();
     void act(const ViewAction& action);
-    bool actOnInterface(ViewCommand command);  // what needs no scene
+    bool actOnInterface(ViewCommand command);  // commands that need no scene
     bool actOnInstruments(ViewCommand command);
     bool quit();
-    void step(bool forward);  // one of the steps back and forth
+    void step(bool forward);  // undo or redo
     void takeScene();
     void beginSession();
     void replaceScene();
@@ -67,11 +67,11 @@ private:
     void takeOwnFrame(std::shared_ptr<const ViewFrame> frame);
     void show(double dt, const Stopwatch& turn);
     void report();
-    void tell(const std::string& notice);  // in the window too
+    void tell(const std::string& notice);  // in the window, too
     PanelParts parts();
     void copyPlace();
 
-    // Later ones know earlier ones, and go before them.
+    // Later members refer to earlier ones and are destroyed before them.
     Notices mNotices;
     SceneSettings mSettings;
     std::optional<RecordedPath> mFlight;
@@ -100,7 +100,7 @@ private:
     WindowDrawing mDrawing;
     Clipboard mClipboard;
     Stopwatch mClock;
-    std::string mSwept = kCpuSweep;  // where media are swept, as it was told last
+    std::string mSwept = kCpuSweep;  // processor for media, as last reported
 };
 
 }  // namespace stereonav

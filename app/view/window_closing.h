@@ -1,4 +1,4 @@
-// Closes the window, but not unasked while something is at work that would be lost.
+// Closes the window, after a question while work would be lost.
 #pragma once
 
 #include <optional>
@@ -16,16 +16,17 @@ class WindowJobs;
 
 class WindowClosing {
 public:
-    // All of them outlive this.
+    // The arguments must outlive this object.
     WindowClosing(std::optional<ViewSession>& session, Window& window, const WindowJobs& jobs,
                   const Instruments& instruments)
         : mSession(session), mWindow(window), mJobs(jobs), mInstruments(instruments) {}
 
-    // Closes it, unless there is something to ask first: then what is asked is the question.
+    // Closes the window unless there is something to ask first: then the question is shown.
     void leave();
     std::string question() const;  // "": nothing is asked
     void goOn() { mQuestion.goOn(); }
-    // Whether the last turn was the last one. The window's own button asks as a key does; asked: called then.
+    // Returns whether the last turn was the final one. The window's own button asks like a key; asked: called
+    // then.
     template <typename Asked>
     bool ends(const Asked& asked) {
         if (mWindow.shouldClose() && !mEnds) {
@@ -37,7 +38,7 @@ public:
     }
 
 private:
-    // What would end with the window, and what becomes of it.
+    // Returns the work that would end with the window, with the consequences.
     std::vector<std::string> workAtHand() const;
 
     std::optional<ViewSession>& mSession;
@@ -45,7 +46,7 @@ private:
     const WindowJobs& mJobs;
     const Instruments& mInstruments;
     ClosingQuestion mQuestion;
-    bool mEnds = false;  // the window closes, whatever is at work
+    bool mEnds = false;  // the window closes in spite of work
 };
 
 }  // namespace stereonav

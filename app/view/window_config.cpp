@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kThemes[] = {"dark", "light"};
 constexpr std::size_t kMostPanels = 100, kLongestPanel = 100, kLongestMonitor = 200;
 
-// A basic string of TOML.
+// Returns a basic string of TOML.
 std::string tomlText(const std::string& text) {
     std::string result = "\"";
     for (const char c : text) {
@@ -32,7 +32,7 @@ void readOptional(TomlSection& section, const char* key, std::optional<double>& 
                   const NumberRange& range) {
     double number = range.low - 1;
     section.read(key, number, range);
-    if (number >= range.low) value = number;  // else it is not there, or was noted
+    if (number >= range.low) value = number;  // otherwise it is not there, or has been noted
 }
 
 void readTheme(TomlSection& window, std::string& theme) {
@@ -89,11 +89,11 @@ std::string tomlOf(const WindowConfig& config) {
     if (config.scale) text += fmt::format("scale = {}\n", *config.scale);
     text += fmt::format("place_labels = {}\n", config.placeLabels);
     const std::string folder = config.lastFolder.string();
-    if (!folder.empty() && isUtf8(folder))  // other bytes are no TOML
+    if (!folder.empty() && isUtf8(folder))  // other bytes are not valid in TOML
         text += "last_folder = " + tomlText(folder) + "\n";
     text +=
         fmt::format("\n[panels]\nleft_width = {}\nright_width = {}\n", config.leftWidth, config.rightWidth);
-    // An empty list is none that is read.
+    // Empty lists are not written, since they would not be read.
     for (std::size_t k = 0; k < config.openPanels.size(); ++k)
         text += (k > 0 ? ", " : "open = [") + tomlText(keptText(config.openPanels[k], kLongestPanel));
     if (!config.openPanels.empty()) text += "]\n";

@@ -1,4 +1,4 @@
-// What a person has set of the window itself, for all scenes: window.toml in configFolder().
+// Settings of the window itself, for all scenes: window.toml in configFolder().
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@ namespace stereonav {
 
 constexpr NumberRange kWindowScaleRange = within(0.5, 4);
 constexpr NumberRange kPanelWidthRange = within(80, 4000, "pixels");  // at scale 1
-constexpr NumberRange kScreenWidthRange = within(20, 50'000, "mm");   // of a phone to a wall
+constexpr NumberRange kScreenWidthRange = within(20, 50'000, "mm");   // from a phone to a wall
 constexpr NumberRange kViewingDistanceRange = within(50, 200'000, "mm");
 
-// Of one monitor; that it is there says that its size was asked for.
+// Settings of one monitor; an entry says that its size was asked for.
 struct KeptScreen {
-    std::string monitor;  // its name
+    std::string monitor;
     std::optional<double> width_mm, viewingDistance_mm;
 
     bool operator==(const KeptScreen&) const = default;
@@ -25,10 +25,10 @@ struct KeptScreen {
 constexpr std::size_t kMostScreens = 32;
 
 struct WindowConfig {
-    std::string theme = "dark";   // dark, light
-    std::optional<double> scale;  // none: the desktop's
+    std::string theme = "dark";   // dark or light
+    std::optional<double> scale;  // empty: the desktop's
     double leftWidth = 260, rightWidth = 300;
-    std::vector<std::string> openPanels;  // by their names
+    std::vector<std::string> openPanels;  // by name
     std::filesystem::path lastFolder;     // "" where there is none
     bool speedByDistance = false;
     bool placeLabels = true;
@@ -37,17 +37,17 @@ struct WindowConfig {
     bool operator==(const WindowConfig&) const = default;
 };
 
-std::filesystem::path windowConfigFile();  // "" where there is no home
+std::filesystem::path windowConfigFile();  // "" where there is no home directory
 
 struct ReadConfig {
     WindowConfig config;
     std::string problem;  // one line; "": none
 };
 
-// What is wrong or unknown is told in one line and stands at its default; a file that is no TOML is set
-// aside. Throws no Error.
+// Reads the settings. Invalid or unknown ones are reported in one line, and have their defaults; a file that
+// is no TOML is set aside. Throws no Error.
 ReadConfig readWindowConfig(const std::filesystem::path& file = windowConfigFile());
-// "" or why it could not be kept, one line. Keys that this program does not know are left out.
+// Writes the settings; returns "" or why it failed, one line. Keys that this program does not know are lost.
 std::string writeWindowConfig(const WindowConfig& config,
                               const std::filesystem::path& file = windowConfigFile());
 

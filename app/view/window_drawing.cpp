@@ -17,7 +17,7 @@ WindowDrawing::WindowDrawing(std::optional<ViewSession>& session, Window& window
       mPointer(pointer),
       mMarks(marks) {}
 
-// The mode of the session; but until a picture made for it is there, that of the one shown.
+// Returns the session's mode; until there is a picture made for it, the mode of the one that is shown.
 ComposeSetting WindowDrawing::setting() const {
     ComposeSetting setting =
         mSession ? mSession->compose() : ComposeSetting{mStage.firstMode(), false, false};
@@ -68,7 +68,7 @@ void WindowDrawing::show(const ComposeSetting& setting) {
     mDisplay.draw(setting, [&](const ComposeSetting& one) {
         glDisable(GL_SCISSOR_TEST);
         glViewport(0, 0, size.width, size.height);
-        // Pictures and panels cover both parts; where these do not cover the window, it is black.
+        // Pictures and panels cover both parts; the rest of the window is cleared to black.
         if (!mPictures.eyes().hasPicture() || !partsCover(one.mode, size)) {
             glClearColor(0, 0, 0, 1);
             glClear(GL_COLOR_BUFFER_BIT);

@@ -1,5 +1,5 @@
-// Draws the window: the picture in its mode with what lies over it, once there is something new: the
-// processor is the ray caster's.
+// Draws the window: the picture in its mode with everything over it, when something has changed, since the
+// CPU is needed for ray casting.
 #pragma once
 
 #include <functional>
@@ -16,13 +16,13 @@ namespace stereonav {
 
 class WindowDrawing {
 public:
-    // All of them outlive this.
+    // The arguments must outlive this object.
     WindowDrawing(std::optional<ViewSession>& session, Window& window, ViewDisplay& display,
                   PanelStage& stage, FramePresenter& pictures, const PicturePointer& pointer,
                   PictureMarks& marks);
 
     // turn: runs since the turn began; dt: seconds of the last one; busy: something is being loaded;
-    // drawPanels: lays them out. True: it was drawn.
+    // drawPanels: lays out the panels. Returns true where the window was drawn.
     bool draw(const Stopwatch& turn, double dt, bool busy, const std::function<void()>& drawPanels);
 
 private:
@@ -37,7 +37,7 @@ private:
     const PicturePointer& mPointer;
     PictureMarks& mMarks;
     ComposeSetting mDrawn;
-    PicturePlace mPlace;  // of what is drawn
+    PicturePlace mPlace;  // place of the picture that was drawn
     WindowTimes mTimes;
 };
 

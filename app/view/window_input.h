@@ -1,5 +1,6 @@
-// Keys, gamepad and 3-D mouse of the window, and of the panels' own, as actions and as a wish to fly; and
-// what panels ask for, which is done once they are drawn: it may open or close what is being drawn.
+// Input of the window, and of the panels' own window, from keys, gamepad and 3-D mouse, as actions and as
+// flight input; and actions of panels, which are executed after drawing: they may open or close what is being
+// drawn.
 #pragma once
 
 #include <utility>
@@ -26,14 +27,14 @@ private:
 
 class WindowInput {
 public:
-    explicit WindowInput(Window& window) : mWindow(window) {}  // outlives this
+    explicit WindowInput(Window& window) : mWindow(window) {}  // window must outlive this object
 
     AskedActions& panels() { return mPanels; }
     const AskedActions& panels() const { return mPanels; }
-    // What was asked for since the last turn. controls: the panels' own window, null for none. dt: seconds.
+    // Returns the actions since the last turn. controls: the panels' own window, null for none. dt: seconds.
     std::vector<ViewAction> take(ControlWindow* controls, double dt);
     FlightInput flight(const ControlWindow* controls) const;
-    // Something is pushed, or a gamepad is there to be looked at.
+    // Returns whether something is pushed, or a gamepad has to be read.
     bool active() const;
 
 private:

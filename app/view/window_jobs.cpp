@@ -31,8 +31,8 @@ void WindowJobs::cancel() {
     if (mJob) mJob->cancel();
 }
 
-// Swapped eyes are another mode of the same layout, where there is one. Throws Error for modes that no file
-// can have.
+// Returns the mode for files; swapped eyes are another mode of the same layout, where there is one. Throws
+// Error for modes that no file can have.
 std::string WindowJobs::modeOfFiles() const {
     const OutputModeInfo& shown = infoOf(mSession->mode());
     if (!fitsInPicture(shown.mode))
@@ -52,10 +52,10 @@ void WindowJobs::savePicture(const PictureWish& picture) {
         const std::filesystem::path place = held->path();
         SettingTexts settings = withEyes(mSettings.now(), mSession->stereo());
         settings["size"] = {fmt::format("{}x{}", picture.width, picture.height)};
-        // Nobody waits for it in flight.
+        // Movies are not made in flight, so time does not matter.
         settings.try_emplace("method",
                              std::vector{std::string(mSession->open().scene->frames().exactMethod())});
-        settings.erase("mode");  // files of both eyes have their own
+        settings.erase("mode");  // files of both eyes have an arrangement of their own
         if (!isJps(place) && !isMpo(place)) settings["mode"] = {modeOfFiles()};
         std::vector<std::string> words = commandWords(command::kRender, settings);
         words.push_back("--pose=" + poseText(mSession->pose()));
@@ -73,13 +73,13 @@ void WindowJobs::makeMovie(const MovieWish& movie) {
         settings["size"] = {fmt::format("{}x{}", movie.width, movie.height)};
         settings["mode"] = {modeOfFiles()};
         std::vector<std::string> words = commandWords(command::kPlay, settings);
-        // Whole, so that it is told where the movie is.
+        // The full path, so that the notice says where the movie is.
         const std::filesystem::path wanted = std::filesystem::absolute(movie.file).lexically_normal();
         const bool video = wanted.has_extension();
         auto held =
             std::make_unique<HeldPlace>(wanted, video ? HeldPlace::Kind::File : HeldPlace::Kind::Folder);
         const std::filesystem::path place = held->path();
-        // Named as temporaries are, so that it goes though the window crashes (removeLeftovers()).
+        // Named like temporary files, so that it is removed even after a crash (removeLeftovers()).
         mPath = std::make_unique<JobFile>(keptFile(fmt::format(".flight.{}.window.part.gltf", getpid())));
         writePath(mPath->path(), mSession->paths().path());
         words.push_back("--path=" + mPath->path().string());

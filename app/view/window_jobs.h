@@ -1,5 +1,5 @@
-// Movies, pictures and bakes that the window asks for: made by the program's own commands in a process of
-// their own, one at a time.
+// Movies, pictures and bakes that the user asks for in the window: made by commands of the program in a
+// process of their own, one at a time.
 #pragma once
 
 #include <memory>
@@ -17,58 +17,58 @@ namespace stereonav {
 class Notices;
 
 struct MovieWish {
-    std::string file;                // .mp4, .mkv, .avi; or a folder's name, for pictures
-    int width = 1280, height = 720;  // pixels of an eye
+    std::string file;                // .mp4, .mkv, .avi; or the name of a folder, for pictures
+    int width = 1280, height = 720;  // size of an eye
     double fps = 25;
 };
 
 struct PictureWish {
     std::string file;                // .png, .jps, .mpo
-    int width = 1280, height = 720;  // pixels of an eye
+    int width = 1280, height = 720;  // size of an eye
 };
 
-// What fails is told.
+// Failures become notices.
 class WindowJobs {
 public:
-    // All of them outlive this.
+    // The arguments must outlive this object.
     WindowJobs(std::optional<ViewSession>& session, const SceneSettings& settings, Notices& notices)
         : mSession(session), mSettings(settings), mNotices(notices) {}
 
-    // The one at work, or the last one; null before the first.
+    // Returns the present job, or the last one; null before the first.
     const Job* job() const { return mJob.get(); }
     bool busy() const { return mJob && mJob->running(); }
     void cancel();
-    // The path that Play plays, as the window is set.
+    // Makes a movie of the path that Play plays, with the window's settings.
     void makeMovie(const MovieWish& movie);
-    // What is seen, as the window is set.
+    // Saves the present view, with the window's settings.
     void savePicture(const PictureWish& picture);
-    // Whether the scene has light to bake, and whether `bake` takes this option of it.
+    // Return whether the scene has light to bake, and whether `bake` takes this option for it.
     bool bakes() const;
     bool bakeTakes(const std::string& key, const std::string& value) const;
-    // The scene's light, to be shown when it is done.
+    // Bakes the scene's light, and shows it when it is done.
     void bakeLight(const std::string& what, double minutes);
-    // Writes what is measured, by the file's name: .csv and .svg of the profile, .geojson.
+    // Writes measurements in the format of the file's extension: .csv and .svg for the profile, .geojson.
     void saveMeasured(const MeasuredLine& line, const std::string& file);
 
-    // Each turn: tells what came of it. Baked light that is to be shown now; none mostly.
+    // Reports a finished job; to be called each turn. Returns baked light that is to be shown now, if any.
     std::optional<std::string> look();
-    // What would end with the window, and what becomes of it; "": nothing.
+    // Returns the work that would end with the window, with the consequences; "": none.
     std::string atWork() const;
 
 private:
     void checkNone() const;
     std::string modeOfFiles() const;
-    // place: of the file that it makes, where that is to be a new one.
+    // place: of the file to make, where it has to be a new one.
     void start(const std::string& what, const std::vector<std::string>& words,
                std::unique_ptr<HeldPlace> place = nullptr);
 
     std::optional<ViewSession>& mSession;
     const SceneSettings& mSettings;
     Notices& mNotices;
-    std::unique_ptr<JobFile> mPath;     // the flight that the job plays; goes after it
-    std::unique_ptr<HeldPlace> mPlace;  // of the file that it makes; the same
+    std::unique_ptr<JobFile> mPath;     // flight that the job plays; destroyed after it
+    std::unique_ptr<HeldPlace> mPlace;  // place of the file that it makes; destroyed after it
     std::unique_ptr<Job> mJob;
-    std::string mBaked, mBakedScene;  // the file of a bake at work, and the scene that it belongs to
+    std::string mBaked, mBakedScene;  // file of the bake in progress, and its scene
 };
 
 }  // namespace stereonav

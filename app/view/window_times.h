@@ -1,6 +1,6 @@
-// How long the window's own work takes: what it lays out, what it draws, and the whole turn between two looks
-// at the events, which is how late a key or a picture can be. For tests/bench/window_times.sh; without the
-// environment variable STEREONAV_WINDOW_TIMES nothing is kept.
+// Times of the window's own work: layout, drawing, and the whole turn between two checks of events, which is
+// the delay of a key or picture. For tests/bench/window_times.sh; does nothing without the environment
+// variable STEREONAV_WINDOW_TIMES.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@ namespace stereonav {
 class WindowTimes {
 public:
     WindowTimes();
-    ~WindowTimes();  // prints medians, 99th percentiles and the longest to standard error
+    ~WindowTimes();  // prints medians, 99th percentiles and maxima to standard error
     WindowTimes(const WindowTimes&) = delete;
     WindowTimes& operator=(const WindowTimes&) = delete;
 
     bool on() const { return mOn; }
-    // drew: whether this turn drew; milliseconds.
+    // Adds a turn. drew: whether it drew; times in milliseconds.
     void add(double layout_ms, double draw_ms, double turn_ms, bool drew);
 
 private:

@@ -20,9 +20,9 @@
 namespace stereonav {
 namespace {
 
-constexpr int kAheadStep = 4;  // every fourth pixel of every fourth row tells what lies ahead
-constexpr int kMostFits = 3;   // pictures until eyes fit: those apart see a little more than those together
-constexpr double kFitting = 1e-6;  // relative change of the eyes that is none
+constexpr int kAheadStep = 4;  // every fourth pixel of every fourth row is used to measure the distance ahead
+constexpr int kMostFits = 3;   // pictures until the eyes fit: eyes apart see a little more than eyes together
+constexpr double kFitting = 1e-6;  // relative change of the eyes that is ignored
 
 bool isWhole(const FrameRequest& request) {
     return request.whole.x < 1 || (request.scale == 1 && request.effort == 1);
@@ -32,7 +32,7 @@ Lens castLens(const FrameRequest& request) {
     return guarded(request.lens, request.guard);
 }
 
-// The same picture with nothing left out.
+// Returns the request in full size.
 FrameRequest inFull(FrameRequest request) {
     request.scale = request.effort = 1;
     request.guard = {0, 0};
@@ -41,7 +41,7 @@ FrameRequest inFull(FrameRequest request) {
     return request;
 }
 
-// What the frame's left eye tells of the room around it.
+// Measures the room around the head from the frame's left eye.
 void lookAround(const StereoViews* views, ViewFrame& frame) {
     frame.depthAhead = depthAhead(frame.left.viewDepth, kAheadStep);
     frame.nearParallax = frame.farParallax = 0;
@@ -58,7 +58,7 @@ bool sameEyes(const StereoSetting& a, const StereoSetting& b) {
     return same(a.separation, b.separation) && same(a.zeroParallax, b.zeroParallax);
 }
 
-// Both eyes, and again with eyes that fit what was seen, where that is asked for.
+// Makes both eyes, and again with eyes that fit the picture, where that is asked for.
 StereoViews makeEyes(const Scene& scene, const FrameWay& way, ViewFrame& frame) {
     FrameRequest& request = frame.request;
     for (int fit = 0;; ++fit) {
@@ -76,7 +76,7 @@ StereoViews makeEyes(const Scene& scene, const FrameWay& way, ViewFrame& frame) 
 
 void prepareLate(const Scene& scene, ViewFrame& frame) {
     const SimdTarget simd = scene.simd;
-    const bool soft = scene.offered<FrameEffort>() != nullptr;  // media but layers over a ground
+    const bool soft = scene.offered<FrameEffort>() != nullptr;  // media, except layers over ground
     for (LateEye& eye : frame.late) eye.forget();
     const FrameRequest& request = frame.request;
     if (!request.late || request.truth != TruthView::None) return;
@@ -120,7 +120,7 @@ void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& tr
         takeTruth(truth.showOfOneEye(request.truth), frame);
     }
     prepareLate(scene, frame);
-    // Not between the eyes, which are to be lit alike.
+    // Not called between the eyes, which have to be lit alike.
     if (auto* const light = scene.offered<SeenLight>()) light->seen(view, frame.left);
     const auto* const detail = scene.offered<LateDetail>();
     frame.lacksDetail = detail && detail->late();
@@ -182,7 +182,7 @@ std::optional<ViewWorker::Load> ViewWorker::nextLoad() {
     return takeWish();
 }
 
-// Under the mutex.
+// Takes the next wish; the mutex has to be held.
 ViewWorker::Load ViewWorker::takeWish() {
     if (mLoad) return *std::exchange(mLoad, std::nullopt);
     return [change = *std::exchange(mChange, std::nullopt), now = mScene](Progress& progress) {
@@ -195,14 +195,14 @@ void ViewWorker::loadOne(const Load& load) {
         auto scene = std::make_shared<const OpenScene>(load(*mProgress));
         const std::lock_guard lock(mMutex);
         if (!mProgress->cancelled()) mScene = std::move(scene);
-        mLoading.busy = mLoad || mChange;  // who sees the scene sees that it is all there
+        mLoading.busy = mLoad || mChange;  // whoever sees the scene sees this, too
     } catch (const Cancelled&) {
-        // by a newer wish, or at the end
+        // Cancelled by a newer wish, or at the end.
     } catch (const std::exception& error) {
         const std::lock_guard lock(mMutex);
         if (!mScene)
             mFailure = std::current_exception();
-        else if (!mProgress->cancelled() && !mLoad && !mChange)  // else something newer is wanted
+        else if (!mProgress->cancelled() && !mLoad && !mChange)  // otherwise something newer is wanted
             mReloadProblem = error.what();
     }
 }
@@ -211,7 +211,7 @@ void ViewWorker::reload(Load load) {
     {
         const std::lock_guard lock(mMutex);
         mLoad = std::move(load);
-        mChange.reset();  // it is part of the newer wish
+        mChange.reset();  // the newer wish includes it
         mReloadProblem.clear();
         mLoading = {true, 0, ""};
         if (mProgress && mScene) mProgress->cancel();
@@ -249,7 +249,7 @@ void ViewWorker::runTask(const Job& job) {
     try {
         job.task(*job.scene);
     } catch (const std::exception&) {
-        // it tells who asked, or nobody
+        // The task reports its own failures.
     }
     mWake();
 }
@@ -275,10 +275,10 @@ std::shared_ptr<const OpenScene> ViewWorker::scene() const {
 struct ViewWorker::Drawn {
     std::optional<Job> job;                  // none yet
     std::shared_ptr<const ViewFrame> frame;  // null once it was measured, or where it is not to be
-    bool whole = true;                       // not smaller than it is to be at rest, or something moves
-    std::uint64_t lightChanges = 0;          // that it was drawn after
+    bool whole = true;                       // in the size for rest, or something moves
+    std::uint64_t lightChanges = 0;          // changes of light when it was drawn
     std::chrono::steady_clock::time_point since;
-    bool gaveBack = true;  // what was free, since it was drawn
+    bool gaveBack = true;  // free memory was returned since it was drawn
 };
 
 void ViewWorker::renderFrames() {
@@ -295,9 +295,10 @@ void ViewWorker::renderFrames() {
     }
 }
 
-// A picture of what takes long to make is dropped when something begins to move: the first small one is to be
-// there soon; and one in flight when those that are asked for by now are much smaller. That happens where
-// frames become slow all at once: the next large one is begun before anybody knows what the last one took.
+// Returns whether to drop the picture that is being made: a slow one when something begins to move, so that
+// the first small one is there soon; and one in flight when the present requests are much smaller. That
+// happens where frames suddenly become slow: the next large one is begun before the time of the last is
+// known.
 bool ViewWorker::drops(const FrameRequest& request) const {
     constexpr double kMuchSmaller = 0.7;
     const auto work = [](const FrameRequest& of) { return of.scale * of.scale * of.effort; };
@@ -338,9 +339,9 @@ void ViewWorker::draw(const Job& job, Drawn& drawn) {
     frame->made_ms = watch.elapsed_ms();
     std::shared_ptr<const ViewFrame> shared = mPool->share(std::move(frame));
     if (job.request.fitEyes && !job.again)
-        drawn.job->request = shared->request;  // drawn again, it stays as it is
+        drawn.job->request = shared->request;  // drawn again with the same eyes
     drawn.whole = isWhole(job.request) || job.request.flying;
-    // A difference is measured already.
+    // Differences are measured already.
     if (!shared->truthError && drawn.whole) drawn.frame = shared;
     drawn.since = std::chrono::steady_clock::now();
     drawn.gaveBack = false;
@@ -412,7 +413,7 @@ void ViewWorker::measure(Drawn& drawn) {
         const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
         truth = mTruthMaker.measure(*drawn.job->scene->scene, views, request.time, request.way, *frame,
                                     mInterrupt);
-    } catch (const std::exception& error) {  // the picture is there all the same
+    } catch (const std::exception& error) {  // the picture remains valid
         mTruthMaker.forget();
         truth.emplace().note = std::string("the right eye could not be measured: ") + error.what();
     }
@@ -432,14 +433,14 @@ void ViewWorker::refine(const Drawn& drawn) {
     try {
         shows = mRefiner->step(*drawn.job->scene->scene, *frame);
     } catch (const std::exception&) {
-        // The picture is there all the same; something new is asked for, or no more can be had.
+        // The picture remains valid; something new is asked for, or it can not be refined further.
     }
     interruptLoopsBy(nullptr);
     std::shared_ptr<const ViewFrame> shared = mPool->share(std::move(frame));
     if (!shows) return;
     {
         const std::lock_guard lock(mMutex);
-        if (mRequest) return;  // it would be shown after the first step of what moves now
+        if (mRequest) return;  // it would be shown after the first step of the new motion
         mNewest.swap(shared);
     }
     mWake();

@@ -1,6 +1,5 @@
-// The threads beside the window's: one loads the scene, and others in its place later on; one makes the
-// newest frame that was asked for. The window asks, polls and draws; it never waits for them until it
-// closes.
+// The threads beside the window's: one loads scenes, one makes the newest frame that was asked for. The
+// window asks, polls and draws; it never waits for them until it closes.
 #pragma once
 
 #include <array>
@@ -33,65 +32,64 @@
 
 namespace stereonav {
 
-// A scene as the window shows it. What changes behind it (light, the sun, a medium's model) is changed on the
-// thread that makes frames.
+// A scene as the window shows it. Changes behind it (light, the sun, a medium's model) are made on the thread
+// that makes frames.
 struct OpenScene {
     std::shared_ptr<Scene> scene;
-    FrameWay way;  // as planned when the scene was opened; its method has a name
-    SunPlace sun;  // as it begins: where its light stands, if that turns, and its model
+    FrameWay way;  // planned when the scene was opened; names its method
+    SunPlace sun;  // at the beginning: place of its light, if that turns, and its model
     int model = 0;
-    bool changed = false;  // made from the one before, which showed the same (SurfaceChoices::changed)
+    bool changed = false;  // made from the scene before, which showed the same (SurfaceChoices::changed)
 };
 
-// All that a frame depends on: one value, taken at the start of a frame.
+// Everything that a frame depends on: one value, read at the beginning of a frame.
 struct FrameRequest {
     long long version = 0;
-    double asked_s = 0;  // when that was: seconds of the window's clock
-    double ahead_s = 0;  // it is of so much later
+    double asked_s = 0;  // time of asking, in seconds of the window's clock
+    double ahead_s = 0;  // seconds after that for which it is made
     Pose pose;
     Lens lens;
     StereoSetting stereo;
     FrameWay way;
-    int model = 0;                       // of LightModels::names()
-    double time = 0;                     // seconds, where the scene is animated
-    SunPlace sun;                        // where it can be moved
-    long long paint = 0;                 // LivePaint::version(), where it is offered
-    bool twoEyes = true;                 // false: one eye, from the head itself
-    OutputMode mode = OutputMode::Left;  // that the eyes' size was chosen for
-    // The eyes may be changed to be comfortable in this picture (comfortableEyes): its own request says to
-    // what.
+    int model = 0;                       // one of LightModels::names()
+    double time = 0;                     // seconds, for animated scenes
+    SunPlace sun;                        // for scenes whose sun can be moved
+    long long paint = 0;                 // LivePaint::version(), where the scene offers it
+    bool twoEyes = true;                 // false: one eye, at the head itself
+    OutputMode mode = OutputMode::Left;  // mode that the eyes' size was chosen for
+    // Whether the eyes may be changed to be comfortable in this picture (comfortableEyes); the frame's
+    // request has the result.
     bool fitEyes = false;
-    TruthView truth = TruthView::None;            // in the place of the right eye
-    double scale = 1;                             // of the eyes' full size: less while something moves
-    glm::ivec2 guard{0};                          // pixels that are cast beyond the lens's, at each side
-    glm::ivec2 whole{0};                          // that size; 0: the lens's
-    double effort = 1;                            // FrameEffort, where it is offered
-    bool flying = false;                          // something moves: a newer one comes soon
-    bool late = false;                            // it will be seen from elsewhere too (ViewFrame::late)
-    bool refines = false;                         // while it rests (rest_refiner.h)
-    std::shared_ptr<const EyePainter> paintOver;  // over what the scene is painted with; null: nothing
+    TruthView truth = TruthView::None;            // picture instead of the right eye
+    double scale = 1;                             // share of the full size: less while something moves
+    glm::ivec2 guard{0};                          // pixels that are cast outside the lens's, on each side
+    glm::ivec2 whole{0};                          // the full size; 0: the lens's
+    double effort = 1;                            // FrameEffort, where the scene offers it
+    bool flying = false;                          // something moves: a newer request comes soon
+    bool late = false;                            // it will also be seen from elsewhere (ViewFrame::late)
+    bool refines = false;                         // whether it is refined while it rests (rest_refiner.h)
+    std::shared_ptr<const EyePainter> paintOver;  // over the scene's own paint; null: nothing
 };
 
 struct ViewFrame : EyePair {
     FrameRequest request;
-    std::string sweep;  // where they were swept, "" where nobody tells
-    // Parallax of the nearest and the farthest thing, as shares of the width; positive is behind the screen.
-    // Of every pixel of the left eye, by its view depth: of what is translucent, and of a medium, that of
-    // what its ray first met, however little of that is seen.
+    std::string sweep;  // processor of the sweep, "" where it is not known
+    // Parallax of the nearest and the farthest object, as shares of the width; positive is behind the screen.
+    // Measured for every pixel of the left eye by its view depth: for translucent objects and media that of
+    // the first hit, however faint.
     double nearParallax = 0, farParallax = 0;
-    ParallaxHistogram parallax;  // of all pixels; empty of one eye
-    double depthAhead = 0;       // metres: typical of the picture's middle; infinite where nothing is there
-    // Why the right eye does not show what request.truth asks for, or what it is held against; "" mostly.
+    ParallaxHistogram parallax;  // for all pixels; empty for one eye
+    double depthAhead = 0;       // metres: typical for the picture's middle; infinite where it is empty
+    // Why the right eye does not show request.truth, or an explanation of it; mostly "".
     std::string truthNote;
-    std::optional<PictureError> truthError;  // of the right eye as made, where the difference is shown
-    double made_ms = 0;                      // all that the frame took
-    // A picture that rested: rays a pixel of each eye, and the PSNR against very many that is expected; 0 of
-    // one.
+    std::optional<PictureError> truthError;  // error of the right eye as made, where the difference is shown
+    double made_ms = 0;                      // time of the whole frame
+    // Rays per pixel of a picture that rested, and its expected PSNR against very many; 0 for one ray.
     int rays = 1;
-    double effort = 1;  // of a medium: times the slices that the scene asks for
+    double effort = 1;  // for media: multiple of the scene's slices
     double expected_db = 0;
-    bool lacksDetail = false;     // that comes later (LateDetail)
-    std::array<LateEye, 2> late;  // to be warped; not ready where nobody asked for that
+    bool lacksDetail = false;     // detail comes later (LateDetail)
+    std::array<LateEye, 2> late;  // planes for the late warp; not ready where nobody asked for it
 };
 
 class RestRefiner;
@@ -100,17 +98,17 @@ class FramePool;
 
 class ViewWorker {
 public:
-    // load runs on a thread of the worker's and may report progress; wake is called from there when there
-    // is something new.
+    // load runs on a thread of the worker and may report progress; wake is called from there when there is
+    // something new.
     using Load = std::function<OpenScene(Progress&)>;
     ViewWorker(Load load, std::function<void()> wake);
-    ~ViewWorker();  // stops loading, and ends after the frame at work
+    ~ViewWorker();  // stops loading, and ends after the present frame
 
-    // Loads another scene while the present one is shown; it takes its place when it is there. The newest
-    // wish replaces one that is not done.
+    // Loads another scene while the present one is shown, which it replaces. The newest wish replaces one
+    // that is not done.
     void reload(Load load);
-    // Makes a scene from the newest one, after what is being loaded. The newest wish replaces one that is not
-    // begun; one at work is finished first, so that a key held down shows every scene that there is time for.
+    // Makes a scene from the newest one, after loading. The newest wish replaces one that is not begun; one
+    // in progress is finished first, so that a held key shows as many scenes as there is time for.
     using Change = std::function<OpenScene(const OpenScene& now, Progress&)>;
     void change(Change change);
 
@@ -120,40 +118,41 @@ public:
         std::string what;
     };
     Loading loading() const;
-    // What the last reload or change failed with, "" when it did not, or when another one is asked for since;
-    // told once.
+    // Returns once why the last reload or change failed, "" where it did not, or another one was asked for
+    // since.
     std::string takeReloadProblem();
 
-    // Ends what is being loaded, or is to be; the present scene stays.
+    // Cancels loading, also of scenes that wait; the present scene stays.
     void cancelLoading();
-    // Calls it once with the newest scene on the thread that makes frames, between two of them, or not at all
-    // where the worker ends before. What it throws is dropped.
+    // Calls the task once with the newest scene on the thread that makes frames, between two frames, or not
+    // at all where the worker ends before. Its exceptions are dropped.
     using Task = std::function<void(const OpenScene&)>;
     void ask(Task task);
 
-    // The newest scene, null until one is loaded. Throws here what the first load or rendering threw there.
+    // Returns the newest scene, null until one is loaded. Throws the exceptions of the first load, and of
+    // rendering.
     std::shared_ptr<const OpenScene> scene() const;
-    // The newest request replaces one that was not begun.
+    // Asks for a frame; the newest request replaces one that was not begun.
     void request(const FrameRequest& request);
-    // The newest frame, null when there is none since the last call. Throws as scene() does.
+    // Returns the newest frame, null where there is none since the last call. Throws like scene().
     std::shared_ptr<const ViewFrame> takeFrame();
 
-    // While the newest frame rests, its right eye is held against its truth, once: what came out, none when
-    // there is nothing new since the last call. A request ends that (TruthMaker::measure).
+    // Returns the result of comparing the right eye with its truth, once while the newest frame rests; empty
+    // where there is nothing new since the last call. A request ends the comparison (TruthMaker::measure).
     std::optional<FrameTruth> takeTruth();
     void measureTruth(bool on);  // on at first
     static constexpr std::chrono::milliseconds kRest{300};
-    // When nothing was drawn for so long, what frames and scenes left free goes back to the system.
+    // Time without drawing after which free memory of frames and scenes is returned to the system.
     static constexpr std::chrono::milliseconds kLongRest{5000};
 
 private:
-    // What was drawn last.
+    // The frame that was drawn last.
     struct Drawn;
     struct Job {
         FrameRequest request;
         std::shared_ptr<const OpenScene> scene;
-        Task task = nullptr;  // instead of a frame
-        bool again = false;   // what rests, in full: any newer wish goes first
+        Task task = nullptr;  // done instead of a frame
+        bool again = false;   // the resting picture in full: any newer wish goes first
     };
     void loadScenes();
     std::optional<Load> nextLoad();
@@ -161,22 +160,22 @@ private:
     void loadOne(const Load& load);
     void renderFrames();
     void runTask(const Job& job);
-    // None at the end. Where nothing is asked for, measures what was drawn.
+    // Returns the next job; empty at the end. Where nothing is asked for, measures the last frame.
     std::optional<Job> nextJob(Drawn& drawn);
     void draw(const Job& job, Drawn& drawn);
     bool renderUnlessDropped(const Job& job, ViewFrame& frame);  // false: it was dropped
-    bool drops(const FrameRequest& request) const;               // the frame that is being made, for this
+    bool drops(const FrameRequest& request) const;               // whether to drop the present frame
     void measure(Drawn& drawn);
     void refine(const Drawn& drawn);
     void fail(std::exception_ptr failure);
 
     std::function<void()> mWake;
     std::shared_ptr<FramePool> mPool;
-    mutable std::mutex mMutex;  // guards what follows
+    mutable std::mutex mMutex;  // guards the members below
     std::condition_variable mAsked;
     std::optional<Load> mLoad;            // not begun
     std::optional<Change> mChange;        // not begun; after mLoad
-    std::shared_ptr<Progress> mProgress;  // of the load at work
+    std::shared_ptr<Progress> mProgress;  // progress of the present load
     Loading mLoading;
     std::string mReloadProblem;
     std::shared_ptr<const OpenScene> mScene;
@@ -187,12 +186,12 @@ private:
     std::optional<FrameTruth> mTruth;
     bool mMeasures = true;
     bool mStop = false;
-    FrameRequest mAtWork;                  // the newest that was begun
-    std::atomic<bool> mDrop = false;       // the picture that is being made
-    std::atomic<bool> mInterrupt = false;  // what is measured: there is something else to do
-    TruthMaker mTruthMaker;                // the frame maker's thread's own, as is
+    FrameRequest mAtWork;                  // newest request that was begun
+    std::atomic<bool> mDrop = false;       // drops the picture that is being made
+    std::atomic<bool> mInterrupt = false;  // ends measuring: there is something else to do
+    TruthMaker mTruthMaker;                // only for the thread that makes frames, like mRefiner
     std::unique_ptr<RestRefiner> mRefiner;
-    std::thread mLoader, mRenderer;  // last: they start when all else is there
+    std::thread mLoader, mRenderer;  // last: they start when all other members exist
 };
 
 }  // namespace stereonav

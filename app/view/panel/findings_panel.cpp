@@ -29,7 +29,7 @@ std::optional<glm::dvec3> FindingsPanel::draw(Instruments& instruments, StudyRea
     quietText(list->maker()->notice());
     if (!list->rows().empty()) {
         list->use();
-        study.wanted(session);  // whose values are shown
+        study.wanted(session);  // values of the study are shown
     }
     if (list->busy()) {
         const std::string text = fmt::format("{} {:.0f} %", list->doing(), 100 * list->fraction());

@@ -30,7 +30,7 @@ private:
                    FindingList& list);
 
     int mCommenting = 0;  // row whose comment is edited; 0: none
-    bool mFocus = false;  // its field was just opened
+    bool mFocus = false;  // whether the field was just opened
     std::string mComment, mPage = "findings.html", mReport = "findings.dcm";
     std::optional<glm::dvec3> mChosen;
 };

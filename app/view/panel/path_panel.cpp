@@ -27,7 +27,7 @@ bool button(const char* label, const char* tip) {
 
 void drawEdits(ViewSession& session, KeyframeEdit& edit) {
     const RecordedPath& path = session.paths().path();
-    static double from = 0, to = 1;  // as shares of the duration
+    static double from = 0, to = 1;  // shares of the duration
     ImGui::SetNextItemWidth(-FLT_MIN);
     float ends[2] = {static_cast<float>(from), static_cast<float>(to)};
     if (ImGui::SliderFloat2("##ends", ends, 0, 1, "%.3f")) {

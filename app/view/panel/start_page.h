@@ -27,7 +27,7 @@ private:
     PanelTexture* pictureOf(const RecentFile& file);
 
     bool mShown = false;
-    std::map<std::string, PanelTexture> mPictures;  // of recent files, by file
+    std::map<std::string, PanelTexture> mPictures;  // pictures of recent files, by file
     std::filesystem::path mForget;                  // file to remove from the list
 };
 
