@@ -55,7 +55,7 @@ bool isThere(const std::filesystem::path& place, const FineLightShape& shape) {
     } catch (const DiskError&) {
         throw;
     } catch (const Error&) {
-        return false;  // of other light, or cut off: it is baked anew
+        return false;  // light of another bake, or cut off: it is baked anew
     }
     std::filesystem::rename(place, partOf(place));
     return false;

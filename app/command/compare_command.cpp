@@ -60,7 +60,7 @@ struct Shown {
 // and its difference from the eye by itself.
 void writePictures(const ComparedFrame& frame, int truthRays, const fs::path& folder) {
     const bool rightAlone = !frame.truth.empty();
-    const int factor = rightAlone ? 5 : 20;  // as in fig. 6e of Wan et al. 2004; media differ less
+    const int factor = rightAlone ? 5 : 20;  // see fig. 6e of Wan et al. 2004; media differ less
     if (rightAlone) {
         writeColorImage(folder / "left.png", frame.left.color);
         writeColorImage(folder / "full_right.png", frame.right.color);

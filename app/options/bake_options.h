@@ -20,7 +20,7 @@ struct BakeOptions {
     SceneOptions scene;
     Telling telling;
     std::optional<BakeKind> what;  // kind of light; empty: irradiance for volumes, transfer for terrains
-    std::optional<int> samples;    // of these three at most one is given
+    std::optional<int> samples;    // at most one of these three is given
     std::optional<double> error, minutes;
     // Texels a voxel, or baked samples a height sample in memory, along each axis.
     std::optional<double> resolution;

@@ -38,7 +38,7 @@ FeltTimes feltTimes(const Scene& scene, double time) {
 // The exact frames of a moment, from which all ways are made and with which they are compared.
 struct FeltMoment {
     EyePair exact, exactNext;
-    FeltTruth truth;  // its pictures are sent with the order
+    FeltTruth truth;  // pictures are sent with the order
 };
 
 FeltMoment momentAt(const ReportScene& scene, const FeltTimes& times) {

@@ -17,7 +17,7 @@ namespace {
 
 struct Case {
     std::string scene, size, separation;
-    FrameCosts costs;                         // as measured by the plan
+    FrameCosts costs;                         // measured by the plan itself
     RightEyeMethod chosen, warp;              // the plan's choice; the way that it compares with casting
     double cast_ms = 1e300, warp_ms = 1e300;  // least times, measured independently of the plan; mean frame
 

@@ -16,8 +16,8 @@ struct ReportOptions {
     std::string out = "report";       // folder
     bool quick = false;               // within a minute, with fewer frames and repeats
     std::vector<std::string> scenes;  // scenes beside the built-in ones
-    std::optional<UpAxis> up;         // as in VolumeOptions, for CT studies
-    bool curvature = false;           // as in SceneOptions, for ground
+    std::optional<UpAxis> up;         // see VolumeOptions; for CT studies
+    bool curvature = false;           // see SceneOptions; for ground
     std::optional<double> refraction;
     std::string compare;             // report.json of an earlier run; "": none
     std::string stability;           // rows of the stability tests; "": those of this build, if any

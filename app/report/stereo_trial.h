@@ -38,7 +38,7 @@ struct StereoTimes {
 
 // Counts over all frames.
 struct StereoCounts {
-    long long surfacePixels = 0, holePixels = 0;   // as counted by surface_difference.h
+    long long surfacePixels = 0, holePixels = 0;   // counted like in surface_difference.h
     double rightEnd = 0, middle = 0, leftEnd = 0;  // holes in these parts of the picture
     double squares = 0, compared = 0;              // sums of the error over channels and frames
 

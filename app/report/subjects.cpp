@@ -17,7 +17,7 @@ double rootMeanSquare(const std::vector<double>& values) {
 }  // namespace
 
 GreyVolume blockWithHoles() {
-    constexpr double kNoise = 3, kPerVoxel = 50;  // of the values; their change per voxel at the surface
+    constexpr double kNoise = 3, kPerVoxel = 50;  // noise of values; their change per voxel at the surface
     VolumeFrame frame;
     frame.size = {72, 96, 56};
     frame.spacing = glm::dvec3(1e-3);

@@ -92,7 +92,7 @@ void RightEyeTrial::run(ReportRun& run, const std::string& what, int frames, dou
     for (std::size_t n = 0; n < poses.size(); ++n) {
         run.tell(what);
         frame(run, makeStereoViews(poses[n], mScene.lens, mStereo), what);
-        // As many frames are measured as there is time for; the first is the same for any number of them.
+        // The number of frames is limited by the time; the first is the same for any number of them.
         const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
         if (n == 0 && affordable < frames) poses = posesOf(std::max(1, static_cast<int>(affordable)));
         if (n == 0) chooseRepeats(watch.elapsed_ms(), poses.size(), seconds);

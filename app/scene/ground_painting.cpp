@@ -219,7 +219,7 @@ void GroundPainting::work(Layer layer, long long number, const Wish& wish, Progr
 const SurveyGround& GroundPainting::survey(Progress& progress) {
     if (mSurvey) return *mSurvey;
     SceneOptions options = mOptions;
-    if (mTerrain.tiled || mTerrain.standIn) options.tiles = TilesChoice::On;  // as for the scene itself
+    if (mTerrain.tiled || mTerrain.standIn) options.tiles = TilesChoice::On;  // like the scene itself
     mSurvey = std::make_unique<SurveyGround>(loadSurveyGround(options, progress));
     return *mSurvey;
 }

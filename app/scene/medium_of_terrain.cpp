@@ -11,7 +11,7 @@ namespace stereonav {
 namespace {
 
 constexpr float kSnowRadiance =
-    0.65f;  // of parallel light on terrain, except in its own colours, which are dark
+    0.65f;  // radiance of light on terrain, except in its own colours, which are dark
 // Slices and light texels: ridges and valleys show grain where texels are wider than a hundred metres.
 constexpr int kTerrainSlices = 1200, kTerrainLight = 512;
 

@@ -19,7 +19,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kGroundOpacity = 0.9;  // of a layer as thick as one sample spacing, or as kSoftSlices slices
+constexpr double kGroundOpacity = 0.9;  // at a thickness of one sample spacing, or of kSoftSlices slices
 constexpr double kSoftSlices = 3;       // with fewer each slice shows as a terrace
 constexpr double kThickness = 0.02;     // share of the longer side down to which the ground is solid
 constexpr double kTaper = 0.5;          // least height of the taper in sample spacings

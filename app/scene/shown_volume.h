@@ -65,7 +65,7 @@ private:
     mutable CastFrames mFrames;
     std::unique_ptr<SeenVolumeLight> mLight;  // light that is computed while it is shown, or turns; else null
     SurfaceChoices mChoices;
-    std::vector<std::shared_ptr<const EyePainter>> mPainters;  // as the options say, also while translucent
+    std::vector<std::shared_ptr<const EyePainter>> mPainters;  // chosen by options, also while translucent
     SurfacePaint mPaint;
     std::unique_ptr<WallToSee> mWall;  // for a colon; else null
 };
