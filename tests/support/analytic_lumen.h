@@ -16,7 +16,7 @@ namespace stereonav {
 
 struct AnalyticLumen {
     std::string name;
-    std::function<double(const glm::dvec3&)> distance;  // to the wall; <= 0 in it
+    std::function<double(const glm::dvec3&)> distance;  // distance to the wall; <= 0 inside it
     Centreline line;
     Pose home;
 
@@ -25,13 +25,13 @@ struct AnalyticLumen {
     }
 };
 
-// Looks along `forward` with the head as upright as it can be.
+// Returns a pose that looks along `forward`, with the head as upright as possible.
 inline Pose lookingAlong(const glm::dvec3& position, const glm::dvec3& forward) {
     const double pitch = std::asin(std::clamp(forward.z, -1.0, 1.0));
     return poseFromAngles(position, std::atan2(forward.x, forward.y), pitch, 0);
 }
 
-// Points every `spacing` metres along straight lines between corners.
+// Returns points every `spacing` metres along straight lines between corners.
 inline Centreline lineThrough(const std::vector<glm::dvec3>& corners, double radius, double spacing = 0.001,
                               int segment = 1) {
     Centreline line;
@@ -52,8 +52,8 @@ inline double distanceToPiece(const glm::dvec3& p, const glm::dvec3& a, const gl
     return glm::distance(p, a + t * way);
 }
 
-// Everything within `radius` of straight pieces. Exact beside straight tubes; inside corners, where balls
-// overlap, below the true distance, as a free distance may be.
+// Returns everything within `radius` of straight pieces. The distance is exact beside straight tubes; inside
+// corners, where balls overlap, it is below the true one, as a free distance may be.
 inline AnalyticLumen tubeAlong(const std::string& name, const std::vector<glm::dvec3>& corners,
                                double radius) {
     AnalyticLumen lumen;
@@ -73,7 +73,7 @@ inline AnalyticLumen straightTube(double radius = 0.02, double length = 0.3) {
     return tubeAlong("straight tube", {{0, 0, 0}, {0, length, 0}}, radius);
 }
 
-// Nine tenths round a torus in the plane z = 0.
+// Returns nine tenths of a torus in the plane z = 0.
 inline AnalyticLumen torus(double large = 0.05, double small = 0.015) {
     AnalyticLumen lumen;
     lumen.name = "torus";
@@ -91,7 +91,7 @@ inline AnalyticLumen torus(double large = 0.05, double small = 0.015) {
     return lumen;
 }
 
-// A tube with thin folds across it, each with a round opening, off the axis by turns.
+// Returns a tube with thin folds across it, each with a round opening, alternately off the axis.
 inline AnalyticLumen foldedTube(double radius = 0.02, double opening = 0.006) {
     AnalyticLumen lumen = straightTube(radius, 0.2);
     lumen.name = "tube with narrow folds";
@@ -107,13 +107,14 @@ inline AnalyticLumen foldedTube(double radius = 0.02, double opening = 0.006) {
     return lumen;
 }
 
-// A hairpin: legs a wall of a millimetre apart, with a bend too tight to see around.
+// Returns a hairpin: legs with a wall of a millimetre between them, and a bend too tight to see around.
 inline AnalyticLumen flexure(double radius = 0.012) {
     const double apart = 2 * radius + 0.001;
     return tubeAlong("tight flexure", {{0, 0, 0}, {0, 0.1, 0}, {apart, 0.1, 0}, {apart, 0, 0}}, radius);
 }
 
-// A tube that narrows smoothly to `least` half way: below the true distance by its slope, so divided by it.
+// Returns a tube that narrows smoothly to `least` half way. Its slope makes the plain distance too large, so
+// it is divided by it.
 inline AnalyticLumen throat(double least, double radius = 0.015, double length = 0.16) {
     AnalyticLumen lumen = straightTube(radius, length);
     lumen.name = "throat";
@@ -128,7 +129,7 @@ inline AnalyticLumen throat(double least, double radius = 0.015, double length =
     return lumen;
 }
 
-// Two tubes with tissue between their ends.
+// Returns two tubes with tissue between their ends.
 inline AnalyticLumen interrupted(double radius = 0.012) {
     AnalyticLumen lumen;
     lumen.name = "two segments";

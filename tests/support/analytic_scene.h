@@ -1,5 +1,6 @@
-// Scenes whose rays have closed answers: planes, spheres and boxes with a smooth pattern, over a sky.
-// One pixel at a time and without any shortcut, so they can serve as the truth for the warp.
+// Scenes whose rays have closed answers: planes, spheres and boxes with a smooth pattern, over a sky. They
+// are computed one pixel at a time and without any shortcut, so that they can serve as the truth for the
+// warp.
 #pragma once
 
 #include <algorithm>
@@ -45,7 +46,7 @@ inline Shape sphere(const glm::dvec3& centre, double radius) {
     };
 }
 
-// Where a ray leaves the sphere.
+// Returns the shape that a ray hits where it leaves the sphere.
 inline Shape sphereFromInside(const glm::dvec3& centre, double radius) {
     return [=](const glm::dvec3& origin, const glm::dvec3& direction) {
         SurfacePoint hit;
@@ -59,7 +60,7 @@ inline Shape sphereFromInside(const glm::dvec3& centre, double radius) {
     };
 }
 
-// Axes of the world; slabs.
+// Returns a box along the world's axes, by its slabs.
 inline Shape box(const glm::dvec3& low, const glm::dvec3& high) {
     return [=](const glm::dvec3& origin, const glm::dvec3& direction) {
         SurfacePoint hit;
@@ -101,7 +102,8 @@ public:
         return nearest;
     }
 
-    // A smooth pattern of the place, another hue for each shape; the sky depends on the direction.
+    // Returns a smooth pattern of the place, with another hue for each shape; the sky depends on the
+    // direction.
     glm::dvec3 baseColor(const EyeView& view, double x, double y, const SurfacePoint& hit) const {
         if (hit.shape < 0) {
             const glm::dvec3 d = glm::normalize(view.rayDirection(x, y));
@@ -192,13 +194,13 @@ protected:
 
 private:
     std::vector<Shape> mShapes;
-    double mWaves;  // radians a metre
+    double mWaves;  // radians per metre
     bool mGlossy;
 };
 
 // Surfaces of one colour under a lamp at the head, whose light falls off, with a highlight: colours follow
-// from normal and depth alone (ViewDependence::Normal). The pattern is in the normals: bumps, as of a
-// surface that waves a little. The sky is black.
+// from normal and depth alone (ViewDependence::Normal). The pattern is in the normals: bumps, like those of a
+// slightly wavy surface. The sky is black.
 class LitScene : public AnalyticScene {
 public:
     explicit LitScene(std::vector<Shape> surfaces, double waves = 4, double bumps = 0.15)
@@ -249,11 +251,11 @@ protected:
     }
 
 private:
-    double mWaves, mBumps;  // radians a metre; share of the normal
+    double mWaves, mBumps;  // radians per metre; share of the normal
 };
 
-// Glass before an opaque wall: what a ray meets are thin layers, each of which takes a share of the light
-// that grows towards grazing incidence. Closed form; a shell is met twice: sphere and sphereFromInside.
+// Glass before an opaque wall: rays meet thin layers, each of which takes a share of the light that grows
+// towards grazing incidence. In closed form; a shell is met twice: sphere and sphereFromInside.
 class GlassScene : public AnalyticScene {
 public:
     GlassScene(std::vector<Shape> glass, Shape wall, double waves = 0.5, double opacity = 0.35)
@@ -283,7 +285,7 @@ private:
         return glass;
     }
 
-    // Layers at `from` and behind it only: what a ray that starts there meets.
+    // Composites only the layers at `from` and behind it, which a ray that starts there meets.
     void composite(const EyeView& view, int x, int y, double from, EyeImage& image) const {
         const glm::dvec3 direction = view.rayDirection(x + 0.5, y + 0.5);
         std::vector<SurfacePoint> layers;
@@ -321,7 +323,7 @@ private:
     double mOpacity;
 };
 
-// An eye image cast in full.
+// Returns an eye image cast in full.
 inline EyeImage castEye(const EyeRenderer& renderer, const EyeView& view) {
     EyeImage image;
     image.resize(view.width, view.height, renderer.viewDependence());

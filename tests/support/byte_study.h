@@ -7,8 +7,8 @@
 
 namespace stereonav::test {
 
-// Voxels of 1 mm; value(i, j, k) gives the samples. origin: millimetres, of the first voxel. Gives the file
-// back.
+// Writes voxels of 1 mm; value(i, j, k) gives the samples. origin: of the first voxel, millimetres. Returns
+// the file.
 template <typename Value>
 std::filesystem::path writeByteStudy(const std::filesystem::path& file, const glm::ivec3& size,
                                      const glm::dvec3& origin, Value value) {

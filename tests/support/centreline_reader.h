@@ -1,4 +1,4 @@
-// Centrelines read back from their files by plain search, without a word of the program's.
+// Centrelines read from their files by plain search, without code of the program.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace stereonav::test {
 
-// The numbers that follow a mark's line, up to what is none.
+// Returns the numbers that follow a mark's line, up to the first text that is no number.
 inline std::vector<double> numbersBehind(const std::string& text, const std::string& mark) {
     std::vector<double> values;
     const std::size_t at = text.find(mark);
@@ -21,12 +21,12 @@ inline std::vector<double> numbersBehind(const std::string& text, const std::str
     return values;
 }
 
-// Numbers between the tags of the array with this name.
+// Returns the numbers between the tags of the array with this name.
 inline std::vector<double> arrayOf(const std::string& xml, const std::string& name) {
     return numbersBehind(xml, "Name=\"" + name + "\"");
 }
 
-// Of lines that go through all points in order.
+// Reads a file whose lines go through all points in order.
 inline Centreline readCentreline(const std::filesystem::path& file) {
     const std::string text = readTextFile(file), extension = file.extension().string();
     const std::string radius = "MaximumInscribedSphereRadius";

@@ -1,5 +1,5 @@
-// Numbers made by chance at the pixels of a picture (voxels, samples of a ground) whose places are all alike:
-// whether any two of them were made of the same random numbers. Means do not tell.
+// Tests of random numbers at the pixels of a picture (voxels, samples of a ground) whose places are all
+// alike: whether any two of them were made of the same random numbers. Means do not show that.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 
 namespace stereonav::test {
 
-// Two places whose values are all within `tolerance` of each other: "3 and 17"; "" where there are none.
-// Their values must come from far more than places^2 possible ones, or two are alike by chance.
+// Returns two places whose values are all within `tolerance` of each other: "3 and 17"; "" where there are
+// none. The values must come from far more than places^2 possible ones, or two are alike by chance.
 template <std::size_t count>
 std::string placesAlike(const std::vector<std::array<double, count>>& values, double tolerance = 0) {
     std::vector<std::size_t> order(values.size());
@@ -34,7 +34,7 @@ std::string placesAlike(const std::vector<std::array<double, count>>& values, do
     return "";
 }
 
-// The variance of the values around their mean.
+// Returns the variance of the values around their mean.
 inline double spreadOfAll(const std::vector<double>& values) {
     const double count = static_cast<double>(values.size());
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
@@ -43,8 +43,8 @@ inline double spreadOfAll(const std::vector<double>& values) {
     return squares / (count - 1);
 }
 
-// Three numbers for each pixel of a picture, row by row. One alone would be alike in two pixels now and then:
-// there are no more than some million floats of about the same size.
+// Three numbers for each pixel of a picture, row by row. With one number two pixels would be alike now and
+// then: there are only some million floats of about the same size.
 struct ChanceField {
     using Value = std::array<double, 3>;
     int width = 0, height = 0;
@@ -65,13 +65,13 @@ inline ChanceField oneAboveTheOther(const ChanceField& a, const ChanceField& b) 
               std::copy(a.values.begin(), a.values.end(), both.values.begin()));
     return both;
 }
-template <typename Color>  // of GLM
+template <typename Color>  // Color: a vector of GLM
 ChanceField::Value chanceValue(const Color& c) {
     return {static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)};
 }
 
-// The first numbers by their ranks, from -1 to 1; equal ones have the same. However numbers are spread, those
-// of few places tell little more than their share.
+// Replaces the first numbers by their ranks, from -1 to 1; equal ones have the same rank. Then the
+// distribution has no influence, and a few outliers have little.
 inline ChanceField byRank(const ChanceField& field) {
     const std::vector<double> numbers = field.first();
     std::vector<std::size_t> order(numbers.size());
@@ -87,11 +87,11 @@ inline ChanceField byRank(const ChanceField& field) {
     return ranked;
 }
 
-// How far the correlation of pairs is from that of independent ones, in its standard deviations.
+// Distance of the correlation of pairs from that of independent ones, in its standard deviations.
 class PairSums {
 public:
     void add(double a, double b) { ++mPairs, mA += a, mB += b, mAA += a * a, mBB += b * b, mAB += a * b; }
-    // 0 for few pairs.
+    // Returns 0 for few pairs.
     double correlation_z() const {
         constexpr double kFewest = 100;
         const double spread = (mAA - mA * mA / mPairs) * (mBB - mB * mB / mPairs);
@@ -120,9 +120,9 @@ inline double diagonalCorrelation_z(const ChanceField& field) {
 
 constexpr double kMostCorrelation_z = 5.5;
 
-// No first number, which is a rank, goes with that of the pixel so many columns and rows away, whatever these
-// are, nor with that of the pixel across the diagonal. Of 10,000 correlations of independent numbers one is
-// as far off as this in one of 2,600 fields.
+// Expects that no first number, which is a rank, is correlated with that of the pixel at any distance in
+// columns and rows, nor with that of the pixel across the diagonal. With 10,000 correlations of independent
+// numbers, one of 2,600 fields has one that is as far off as this.
 inline void expectRanksUncorrelated(const ChanceField& ranked) {
     EXPECT_GT(spreadOfAll(ranked.first()), 0) << "there is no chance in it";
     for (int dy = 0; dy < ranked.height; ++dy)
@@ -136,13 +136,14 @@ inline void expectUncorrelated(const ChanceField& field) {
     expectRanksUncorrelated(byRank(field));
 }
 
-// Nor do any two pixels have the same value.
+// Expects that no two pixels have the same value, either.
 inline void expectUnrelated(const ChanceField& field) {
     EXPECT_EQ(placesAlike(field.values), "") << "of rows of " << field.width;
     expectUncorrelated(field);
 }
 
-// Two fields of the same size, by other numbers: no value goes with that of the other in the same place.
+// Expects of two fields of the same size, from other numbers, that no value is correlated with that of the
+// other in the same place.
 inline void expectUncorrelated(const ChanceField& a, const ChanceField& b) {
     PairSums sums;
     const ChanceField ofA = byRank(a), ofB = byRank(b);
@@ -150,7 +151,7 @@ inline void expectUncorrelated(const ChanceField& a, const ChanceField& b) {
     EXPECT_LE(std::abs(sums.correlation_z()), kMostCorrelation_z);
 }
 
-// Nor is any value of one in the other.
+// Expects that no value of one is in the other, either.
 inline void expectUnrelated(const ChanceField& a, const ChanceField& b) {
     EXPECT_EQ(placesAlike(oneAboveTheOther(a, b).values), "") << "of " << a.values.size() << " in each";
     expectUncorrelated(a, b);

@@ -31,7 +31,7 @@ inline const char* uidOf(DicomSyntax syntax) {
     }
 }
 
-// Elements one after another, in the order of the calls.
+// Elements in the order of the calls.
 class DicomBytes {
 public:
     explicit DicomBytes(DicomSyntax syntax) : mSyntax(syntax) {}
@@ -47,7 +47,7 @@ public:
     }
     std::string tag(std::uint32_t tag) const { return number(tag >> 16, 2) + number(tag & 0xffff, 2); }
 
-    // `length`: the one that is written, where it is to be another than the value's.
+    // `length`: the one to write, where it has to differ from the value's.
     void element(std::uint32_t tag_, const std::string& kind, const std::string& value,
                  std::int64_t length = -1) {
         const std::uint64_t said = length < 0 ? value.size() : static_cast<std::uint64_t>(length);
@@ -68,7 +68,7 @@ public:
     void word(std::uint32_t tag_, int value) {
         element(tag_, "US", number(static_cast<std::uint16_t>(value), 2));
     }
-    // An item of a sequence, of known length or not.
+    // Returns an item of a sequence, of known length or not.
     std::string item(const std::string& content, bool known) const {
         if (known) return tag(0xfffee000) + number(content.size(), 4) + content;
         return tag(0xfffee000) + number(0xffffffff, 4) + content + tag(0xfffee00d) + number(0, 4);
@@ -83,7 +83,7 @@ private:
     std::string mBytes;
 };
 
-// A file's head and the data set behind it, packed where the syntax says so.
+// Returns a file's head and the data set after it, packed where the syntax says so.
 inline std::string dicomFile(DicomSyntax syntax, const std::string& set,
                              const std::string& mediaClass = "1.2.840.10008.5.1.4.1.1.2",
                              const std::string& otherSyntax = "") {
@@ -106,24 +106,24 @@ inline std::string dicomFile(DicomSyntax syntax, const std::string& set,
     return std::string(128, '\0') + "DICM" + head.bytes() + packed;
 }
 
-// As SliceSpec has it, in any syntax, with what a test may want otherwise.
+// Description of a slice like SliceSpec, in any syntax, with more choices.
 struct DicomSpec {
     SliceSpec slice;
     DicomSyntax syntax = DicomSyntax::Explicit;
     std::string imageType = "ORIGINAL\\PRIMARY\\AXIAL", sopClass = "1.2.840.10008.5.1.4.1.1.2";
     int samples = 1, bits = 16;       // bits allocated: 8, 16 or 32
-    std::int64_t pixelLength = -1;    // another than the pixels'
-    std::vector<glm::dvec3> frames;   // of an enhanced image: their positions
-    bool knownLengths = true;         // of sequences
-    std::vector<double> intercepts;   // of each frame
-    std::vector<std::string> packed;  // compressed pictures in the place of pixels, one a frame
+    std::int64_t pixelLength = -1;    // a length other than the pixels'
+    std::vector<glm::dvec3> frames;   // positions of the frames of an enhanced image
+    bool knownLengths = true;         // whether lengths of sequences are known
+    std::vector<double> intercepts;   // one per frame
+    std::vector<std::string> packed;  // compressed pictures instead of pixels, one per frame
     std::string packedSyntax;
-    int plainFrames = 0;                               // of a file of several without functional groups
+    int plainFrames = 0;                               // several frames without functional groups
     std::string spacingBetween, offsets, doseScaling;  // "" for none
-    // A modality LUT: its head of three numbers and its bytes; no rescale then.
+    // Head of a modality LUT, three numbers, beside its bytes; there is no rescale then.
     std::vector<int> tableHead;
     std::vector<int> tableValues;
-    int tableWidth = 2;    // bytes of each
+    int tableWidth = 2;    // bytes per entry
     bool rescaled = true;  // false: neither slope nor intercept
 };
 

@@ -1,6 +1,6 @@
-// A struct of settings with each of its members changed in turn, so that a test can hold that each of them
-// counts: in the key of a cache, or where settings are compared. A struct that gets another member does not
-// compile here until that member is named (Members), and then it is changed as well.
+// A struct of settings with each of its members changed in turn, so that a test can check that each of them
+// counts: in the key of a cache, or where settings are compared. When a struct gets another member, this does
+// not compile until that member is named (Members), and then it is changed as well.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -32,8 +32,8 @@ concept HasMembers = requires {
     Members<T>::names.size();
 };
 
-// References to all members. A binding that has fewer or more names than the struct has members is an error
-// of the compiler.
+// Returns references to all members. A binding with fewer or more names than the struct has members is an
+// error of the compiler.
 template <std::size_t count, typename T>
 constexpr auto membersOf(T& s) {
     if constexpr (count == 1) {
@@ -86,8 +86,8 @@ struct Changed {
     T value;
 };
 
-// Makes the changes. Names in `leftOut` are those of members that are not changed: what does not count, and
-// pointers and functions, which a test changes by itself where they count.
+// Makes the changes. Names in `leftOut` are those of members that are not changed: ones that do not count,
+// and pointers and functions, which a test changes itself where they count.
 class MemberChanger {
 public:
     explicit MemberChanger(std::vector<std::string> leftOut) : mLeftOut(std::move(leftOut)) {}
@@ -95,7 +95,7 @@ public:
     template <typename T>
     using Take = std::function<void(const std::string& what, const T& changed)>;
 
-    // Calls take() with values that differ from this one in one thing.
+    // Calls take() with values that differ from this one in one member.
     template <typename T>
     void change(const T& value, const std::string& name, const Take<T>& take) {
         if (isLeftOut(name)) return;
@@ -111,7 +111,7 @@ public:
             take(name, value / "x");
         else if constexpr (requires(T & all) { all.emplace_back(); })
             changeList<T>(value, name, take);
-        else if constexpr (requires { T::length(); })  // GLM's vectors and matrices
+        else if constexpr (requires { T::length(); })  // vectors and matrices of GLM
             for (int n = 0; n < static_cast<int>(T::length()); ++n)
                 changePart<T>(
                     value, place(name, n), [n](T & all) -> auto& { return all[n]; }, take);
@@ -124,7 +124,7 @@ public:
                           << " is of a type that is not known here: leave it out, or change it by hand";
     }
 
-    // The names that were left out and that nothing has.
+    // Returns the names that were left out and that no member has.
     const std::set<std::string>& unknown() const { return mUnknown; }
 
 private:
@@ -139,7 +139,7 @@ private:
         return true;
     }
 
-    // The changes of a part of the whole, put back into it. part(whole): a reference to it.
+    // Makes the changes of a part, put back into the whole. part(whole): a reference to the part.
     template <typename T, typename Part>
     void changePart(const T& whole, const std::string& name, const Part& part, const Take<T>& take) {
         T copy = whole;
@@ -161,7 +161,7 @@ private:
          ...);
     }
 
-    // By as little as can be, and by a lot.
+    // Changes a number by as little as possible, and by a lot.
     template <typename T>
     static void changeNumber(T value, const std::string& name, const Take<T>& take) {
         if constexpr (std::same_as<T, bool>) {
@@ -208,7 +208,8 @@ private:
     std::set<std::string> mUnknown{mLeftOut.begin(), mLeftOut.end()};
 };
 
-// The struct with each of its members, and of theirs, changed in turn, but for those that are left out.
+// Returns the struct with each of its members, and of theirs, changed in turn, except those that are left
+// out.
 template <typename T>
 std::vector<Changed<T>> eachMemberChanged(const T& base, const std::vector<std::string>& leftOut = {}) {
     MemberChanger changer(leftOut);
@@ -221,7 +222,7 @@ std::vector<Changed<T>> eachMemberChanged(const T& base, const std::vector<std::
     return all;
 }
 
-// Any two of the base and what was changed have different keys, and equal settings equal ones.
+// Expects that any two of the base and the changed ones have different keys, and equal settings equal ones.
 template <typename T, typename Key>
 void expectKeysDiffer(const T& base, const std::vector<Changed<T>>& changes, const Key& key) {
     std::map<std::decay_t<decltype(key(base))>, std::string> known{{key(base), "the base"}};
@@ -232,13 +233,14 @@ void expectKeysDiffer(const T& base, const std::vector<Changed<T>>& changes, con
     }
 }
 
-// What does not change the result: it has the key of the base, so that what is kept is found again.
+// Expects that members without influence on the result leave the key of the base, so that a kept result is
+// found again.
 template <typename T, typename Key>
 void expectKeysEqual(const T& base, const std::vector<Changed<T>>& changes, const Key& key) {
     for (const Changed<T>& changed : changes) EXPECT_EQ(key(changed.value), key(base)) << changed.what;
 }
 
-// operator== of a struct looks at each member.
+// Expects that operator== of a struct compares each member.
 template <typename T>
 void expectEachMemberCompared(const T& base, const std::vector<std::string>& leftOut = {}) {
     EXPECT_TRUE(base == T(base));

@@ -1,5 +1,5 @@
-// A disk that fails at a place of a file: pread() on it that comes to some byte gives what is before, and
-// then EIO. It takes the C library's place in a test program, of which one file alone may include it.
+// A disk that fails at a place of a file: pread() up to some byte returns what is before, and then EIO. It
+// replaces the C library's function in a test program, of which only one file may include it.
 #pragma once
 
 #include <dlfcn.h>
@@ -16,7 +16,7 @@ namespace stereonav::test {
 
 class FailingReads {
 public:
-    // byte: of the file, counted from 0.
+    // byte: place in the file, counted from 0.
     FailingReads(const std::filesystem::path& file, std::uint64_t byte) {
         struct stat is {};
         if (stat(file.c_str(), &is) == 0) sFile = is.st_ino;
@@ -26,7 +26,7 @@ public:
     FailingReads(const FailingReads&) = delete;
     FailingReads& operator=(const FailingReads&) = delete;
 
-    // Bytes that can be read of so many from there on; those of other files all.
+    // Returns how many of so many bytes can be read from there on; for other files all.
     static std::size_t readable(int file, std::size_t bytes, off_t at) {
         struct stat is {};
         const std::uint64_t from = static_cast<std::uint64_t>(at), bad = sByte;
@@ -41,7 +41,7 @@ private:
 
 }  // namespace stereonav::test
 
-// Under another name in C++, since the header declares the true one.
+// Declares another name in C++, since the header declares the true one.
 extern "C" ssize_t stereonavPread(int file, void* data, std::size_t bytes, off_t at) asm("pread")
     __attribute__((visibility("default"), used));
 ssize_t stereonavPread(int file, void* data, std::size_t bytes, off_t at) {

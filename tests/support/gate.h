@@ -1,5 +1,5 @@
-// A gate on the way of some work of another thread: a test waits until the work has come to it, does what is
-// to come meanwhile, and opens it. Nothing depends on how fast anything is.
+// A gate for work of another thread: a test waits until the work has come to it, does what has to happen
+// meanwhile, and opens it. Nothing depends on speed.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,14 +13,14 @@ namespace stereonav::test {
 
 class Gate {
 public:
-    // The work calls it: says that it is here, and waits until the gate is open.
+    // To be called by the work: says that it is here, and waits until the gate is open.
     void pass() {
         std::unique_lock lock(mMutex);
         ++mCame;
         mChanged.notify_all();
         mChanged.wait(lock, [this] { return mOpen; });
     }
-    // The test calls it: waits until so many have come, whether they have passed or not.
+    // To be called by the test: waits until so many have come, whether they have passed or not.
     void await(int many = 1) {
         std::unique_lock lock(mMutex);
         ASSERT_TRUE(mChanged.wait_for(lock, kLongestWait, [&] { return mCame >= many; }))

@@ -1,4 +1,4 @@
-// What this process holds: tests allow so much more.
+// Memory of this process, to which tests add what they allow.
 #pragma once
 
 #include <fstream>
@@ -6,7 +6,7 @@
 
 namespace stereonav::test {
 
-// Bytes of its own memory, files and libraries left out.
+// Returns the bytes of its own memory, without files and libraries.
 inline double bytesHeld() {
     std::ifstream status("/proc/self/status");
     double kilobytes = 0;

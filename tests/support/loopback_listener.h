@@ -1,5 +1,5 @@
-// Listens on this machine's loopback and counts who connects, so that a test sees whether anything asked an
-// address in a file.
+// Listens on this machine's loopback and counts connections, so that a test sees whether anything has
+// connected to an address in a file.
 #pragma once
 
 #include <arpa/inet.h>
@@ -29,7 +29,7 @@ public:
         mThread = std::thread([this] { run(); });
     }
     ~LoopbackListener() {
-        shutdown(mSocket, SHUT_RDWR);  // ends the wait for who comes next
+        shutdown(mSocket, SHUT_RDWR);  // ends the wait for the next connection
         mThread.join();
         close(mSocket);
     }
@@ -41,8 +41,8 @@ public:
         return "http://127.0.0.1:" + std::to_string(mPort) + "/" + of;
     }
 
-    // How many others have connected since this was last asked. It connects itself, and is taken in after
-    // those who came before: so it is also seen to listen.
+    // Returns how many others have connected since the last call. It connects itself, and is accepted after
+    // those who came before: that also shows that it listens.
     int connections() {
         const int own = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
         sockaddr_in from = onLoopback(0);

@@ -1,4 +1,4 @@
-// A helper program that answers what a test wants, in the place of one of the program's own
+// A helper program that gives the answer that a test wants, instead of one of the program's own
 // (tests/base/liar).
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace stereonav::test {
 
-// A message as helpers send it; kind and length may be others than what there is.
+// Returns a message in the helpers' format; kind and length may differ from the true ones.
 inline std::string helperMessage(const std::string& bytes, std::uint64_t kind = 0, std::int64_t length = -1) {
     const HelperHead head{length < 0 ? bytes.size() : static_cast<std::uint64_t>(length), kind};
     return std::string(reinterpret_cast<const char*>(&head), sizeof head) + bytes;
@@ -27,12 +27,12 @@ std::string bytesOfStructure(const Structure& structure) {
 
 class LyingHelper {
 public:
-    // Stands in for stereonav_<name> while it lives: each that is started says this once, as it is.
+    // Replaces stereonav_<name> during its life: each process that is started says this once, unchanged.
     LyingHelper(const std::string& name, const std::string& said) {
         std::ofstream(mFolder / "answer", std::ios::binary) << said;
         stand(name, mFolder / "answer");
     }
-    // The same for one that ends by SIGKILL over each request.
+    // The same for a helper that ends by SIGKILL at each request.
     explicit LyingHelper(const std::string& name) { stand(name, mFolder / "nothing"); }
     ~LyingHelper() {
         unsetenv("STEREONAV_TEST_ANSWER");

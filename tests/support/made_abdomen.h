@@ -1,6 +1,6 @@
 // A CT of an abdomen around the generated colon: lungs cut at some height, a stomach, gas in small bowel, hip
-// prostheses with their streaks; segments of the colon that collapsed or are full of fluid, and stool. What
-// of it is the colon's lumen is known.
+// prostheses with their streaks; segments of the colon that collapsed or are full of fluid, and stool. The
+// colon's lumen in it is known.
 #pragma once
 
 #include <algorithm>
@@ -20,12 +20,12 @@ namespace stereonav::test {
 struct AbdomenSetting {
     std::uint64_t seed = 1;
     glm::ivec3 size{224, 224, 180};
-    double lungs = 0.04;        // metres of them in the scan, 0: none
-    double lungDensity = -850;  // HU, mean; emphysema lies about -925
+    double lungs = 0.04;        // height of the lungs in the scan in metres; 0: none
+    double lungDensity = -850;  // mean in HU; emphysema is about -925
     bool stomach = true;
     bool prostheses = false;
     int smallBowel = 4;  // pieces of gas
-    int collapsed = 1;   // segments of the colon
+    int collapsed = 1;   // collapsed segments of the colon
     int drowned = 1;     // segments full of fluid, every second one without a contrast agent
     int stool = 4;       // balls on the wall
 };
@@ -38,7 +38,7 @@ struct Abdomen {
 
 constexpr std::uint8_t kTrueColon = 1, kTrueLung = 2, kTrueStomach = 3, kTrueSmallBowel = 4;
 
-// Numbers by chance that are the same with every standard library.
+// Random numbers that are the same with every standard library.
 class AbdomenChances {
 public:
     explicit AbdomenChances(std::uint64_t seed)
@@ -89,7 +89,7 @@ private:
     static constexpr double kFarFromColon = 1, kWidestGap = 0.009;  // metres
     static constexpr double kTissue = 40, kGas = -1000;             // HU
 
-    // For each voxel near the axis its nearest point, and how far it lies beyond the tube's radius there.
+    // Finds for each voxel near the axis its nearest point, and its distance beyond the tube's radius there.
     void findColon() {
         const VolumeFrame& frame = mMade.scan.frame;
         std::fill_n(mAway.values.data(), frame.count(), static_cast<float>(kFarFromColon));
@@ -106,7 +106,7 @@ private:
         }
     }
 
-    // Metres to the colon, of all that are near.
+    // Measures the distance to the colon in metres.
     void measureGap() {
         const VolumeFrame& frame = mMade.scan.frame;
         std::fill_n(mGap.values.data(), frame.count(), static_cast<float>(kFarFromColon));
@@ -158,7 +158,7 @@ private:
         return mGap.at(v) > fromColon && mMade.truth.at(v) == 0 && mMade.scan.at(v) > -150;
     }
 
-    // A piece of the colon is filled up with something.
+    // Fills a piece of the colon.
     void changeSegment(double hu) {
         const int length = 20 + mChance.below(60), count = static_cast<int>(mAxis.size());
         const int from = 60 + mChance.below(std::max(1, count - length - 120));
@@ -180,7 +180,7 @@ private:
         });
     }
 
-    // From the diaphragm's two domes up, with vessels.
+    // Adds lungs from the diaphragm's two domes upwards, with vessels.
     void addLungs() {
         const VolumeFrame& frame = mMade.scan.frame;
         const double top = frame.worldFromVoxel(glm::dvec3(frame.size - 1)).z;
@@ -201,7 +201,7 @@ private:
         }
     }
 
-    // Lies to the left at the front; its gas lies in front of its fluid.
+    // Adds a stomach to the left at the front; its gas lies in front of its fluid.
     void addStomach() {
         const VolumeFrame& frame = mMade.scan.frame;
         const glm::dvec3 half(mChance.between(0.03, 0.05), mChance.between(0.02, 0.03),
@@ -233,7 +233,7 @@ private:
         }
     }
 
-    // Two balls of metal, with a dark streak between them and bright ones beside it.
+    // Adds two balls of metal, with a dark streak between them and bright ones beside them.
     void addProstheses() {
         const VolumeFrame& frame = mMade.scan.frame;
         const double low = frame.worldFromVoxel(glm::dvec3(0)).z + 0.03;
@@ -259,11 +259,11 @@ private:
     std::vector<CentrelinePoint> mAxis;
     Abdomen mMade;
     Volume<std::uint16_t> mAlong;
-    Volume<float> mAway;  // beyond the tube's radius
-    Volume<float> mGap;   // from the lumen, metres
+    Volume<float> mAway;  // distance beyond the tube's radius
+    Volume<float> mGap;   // distance from the lumen in metres
 };
 
-// What varies from study to study, by chance.
+// Returns a setting with random variations between studies.
 inline AbdomenSetting anyAbdomen(std::uint64_t seed) {
     AbdomenChances chance(seed + 1000);
     AbdomenSetting setting;

@@ -1,4 +1,4 @@
-// A CT made from materials: scanner blur and noise over a volume of HU. What is inside is known.
+// A CT made from materials: scanner blur and noise over a volume of HU. Its content is known.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace stereonav::test {
 
-// hu(metres from the first voxel), cubic voxels
+// hu: function of metres from the first voxel; voxels are cubic.
 inline GreyVolume filled(const glm::ivec3& size, double spacing, const std::function<int(glm::dvec3)>& hu) {
     VolumeFrame frame;
     frame.size = size;
@@ -29,7 +29,8 @@ inline GreyVolume filled(const glm::ivec3& size, double spacing, const std::func
     return study;
 }
 
-// About normal, mean 0, deviation 1, from a voxel's number: the sum of four even numbers.
+// Returns noise, about normal, with mean 0 and deviation 1, from a voxel's number: the sum of four uniform
+// numbers.
 inline double noiseAt(std::uint64_t n) {
     n = (n + 1) * 0x9E3779B97F4A7C15ull;
     n = (n ^ (n >> 30)) * 0xBF58476D1CE4E5B9ull;

@@ -24,7 +24,7 @@ struct NiftiSpec {
     std::array<double, 12> srow = {0.5, 0, 0, 10, 0, 0.75, 0, 20, 0, 0, 2, 30};
     std::array<double, 4> pixdim = {1, 0.5, 0.75, 2};
     std::array<double, 3> quatern = {0, 0, 0}, qoffset = {10, 20, 30};
-    double offset = -1;  // below 0: as usual
+    double offset = -1;  // below 0: the usual one
 };
 
 inline bool turnsBytes(const NiftiSpec& s) {
@@ -110,7 +110,7 @@ std::string niftiSamples(const std::vector<T>& samples, const NiftiSpec& s) {
     return bytes;
 }
 
-// Header and samples of a single file.
+// Returns header and samples of a single file.
 template <typename T>
 std::string niftiFile(const std::vector<T>& samples, const NiftiSpec& s) {
     return niftiHeader(s) + std::string(4, '\0') + niftiSamples(samples, s);

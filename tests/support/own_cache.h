@@ -1,5 +1,5 @@
-// Tests keep what they make out of the user's cache: in a folder of the build, which all tests share, so that
-// built-in scenes are made once; those that look at the cache itself set one of their own.
+// Keeps files of tests out of the user's cache: in a folder of the build, which all tests share, so that
+// built-in scenes are made once. Tests of the cache itself set one of their own.
 #pragma once
 
 #include <cstdlib>
@@ -14,7 +14,7 @@ inline void useOwnCache() {
     setenv("XDG_CACHE_HOME", cache.c_str(), 1);
 }
 
-// To include this is enough.
+// Including this header is enough.
 inline const bool kOwnCacheUsed = (useOwnCache(), true);
 
 }  // namespace stereonav::test

@@ -1,5 +1,5 @@
-// Steps back and forth in their plainest form: a list of all states and a place in it. What the program's own
-// stacks of steps are held against, action by action.
+// Undo and redo in their plainest form: a list of all states and a place in it. The program's own stacks are
+// compared with it, action by action.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ public:
     explicit PlainSteps(State first) : mStates{std::move(first)} {}
 
     const State& now() const { return mStates[mAt]; }
-    // Another way is taken from here: what was ahead is no more.
+    // Takes another way from here: the states ahead are dropped.
     void change(State next) {
         mStates.resize(mAt + 1, mStates.front());
         mStates.push_back(std::move(next));

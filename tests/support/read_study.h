@@ -1,4 +1,4 @@
-// Reads a study, or catches what is said of one that can not be read.
+// Reads a study, or catches the error of one that can not be read.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ inline std::string errorOf(const std::filesystem::path& file, const StudyOptions
     return "no error";
 }
 
-// One line that names the file and holds all of the parts.
+// Expects an error of one line that names the file and has all of the parts.
 inline void expectError(const std::filesystem::path& file, const std::vector<std::string>& parts,
                         const StudyOptions& options = {}) {
     const std::string message = errorOf(file, options);

@@ -1,6 +1,6 @@
-// A row of the stability table: an extreme case, what was measured in it, the worst value seen and its bound.
-// The test that measures writes the row, so that the table can not say what no test showed. Rows are appended
-// to the file that STEREONAV_STABILITY_ROWS names, one JSON object a line; without it nothing is written.
+// A row of the stability table: an extreme case, what was measured in it, the worst value and its bound. The
+// test that measures writes the row, so that the table shows only what a test has shown. Rows are appended to
+// the file that STEREONAV_STABILITY_ROWS names, one JSON object per line; without it nothing is written.
 #pragma once
 
 #include <fcntl.h>
@@ -14,10 +14,11 @@
 
 namespace stereonav::test {
 
-// The end of its life fails the test where the worst value is above the bound or NaN, or nothing was seen.
+// Fails the test at the end of its life where the worst value is above the bound or NaN, or nothing was
+// measured.
 class StabilityRow {
 public:
-    // id: "group/case", unique over all tests; bound: the largest value that is right, by reasoning.
+    // id: "group/case", unique over all tests; bound: the largest correct value, by reasoning.
     StabilityRow(std::string id, std::string words, std::string quantity, double bound, std::string unit)
         : mId(std::move(id)),
           mWords(std::move(words)),
@@ -35,7 +36,7 @@ public:
         if (!mAny || std::isnan(value) || value > mWorst) mWorst = std::isnan(mWorst) ? mWorst : value;
         mAny = true;
     }
-    // For counts: what is seen is added up; a row of none counts as 0.
+    // Counts: values are added up; a row of none counts as 0.
     void count(double amount = 1) { saw(mAny ? mWorst + amount : amount); }
     double worst() const { return mWorst; }
 
@@ -71,7 +72,7 @@ private:
         }
         return out + "\"";
     }
-    // One write of a whole line: tests that run side by side do not cut into each other's.
+    // Writes a whole line at once: tests that run side by side do not mix their lines.
     static void append(const char* file, const std::string& text) {
         const int fd = open(file, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
         const bool written = fd >= 0 && write(fd, text.data(), text.size()) == ssize_t(text.size());
@@ -84,7 +85,7 @@ private:
     bool mAny = false;
 };
 
-// "1e-06" and the like, for ids and names of tests: "1e-6", "0.001", "inf".
+// Returns "1e-6", "0.001" or "inf" for ids and names of tests.
 inline std::string shortNumber(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%g", value);
@@ -96,7 +97,7 @@ inline std::string shortNumber(double value) {
     return s;
 }
 
-// The name of a parameterised test: letters, digits and _ only.
+// Returns the name of a parameterised test: letters, digits and _ only.
 inline std::string testName(std::string text) {
     for (char& c : text) {
         if (c == '-') c = 'm';

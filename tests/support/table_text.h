@@ -1,5 +1,4 @@
-// Tables of comma-separated values (RFC 4180) as they were written, and the units that names of figures end
-// with.
+// Tables of comma-separated values (RFC 4180) as written, and the units at the end of figures' names.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,8 +13,8 @@
 
 namespace stereonav::test {
 
-// What one of a unit is in metres, square and cubic metres, seconds, radians, or parts of a whole:
-// "volume_mm3" is in 1e-9. A name without a unit is in ones.
+// Returns the value of one of a unit in metres, square and cubic metres, seconds, radians, or parts of a
+// whole: 1e-9 for "volume_mm3". A name without a unit has 1.
 inline double unitOf(std::string_view name) {
     constexpr std::pair<std::string_view, double> kUnits[] = {{"_mm", 1e-3},
                                                               {"_mm2", 1e-6},
@@ -72,18 +71,18 @@ public:
         ADD_FAILURE() << "no row " << row << " of a column " << column;
         return "";
     }
-    // The figure as it is written; NaN where that is no number.
+    // Returns the figure as written; NaN where it is no number.
     double number(std::size_t row, std::string_view column) const {
         const std::string text = at(row, column);
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
         return text.empty() || *end != 0 ? std::nan("") : value;
     }
-    // In metres and so on, by the column's name.
+    // Returns the figure in metres and so on, by the column's name.
     double inBaseUnits(std::size_t row, std::string_view column) const {
         return number(row, column) * unitOf(column);
     }
-    // Half of the last digit that is written, in the same units: what rounding may take away.
+    // Returns half of the last written digit, in the same units: the largest error of rounding.
     double rounding(std::size_t row, std::string_view column) const {
         const std::string text = at(row, column);
         const std::size_t point = text.find('.');

@@ -1,5 +1,5 @@
-// Heightfields for tests: flat, tilted, smooth, rough, spiked, cliffed, with a hole; and real ones where
-// the real data is there.
+// Heightfields for tests: flat, tilted, smooth, rough, spiked, cliffed, with a hole; and real ones where the
+// real data are available.
 #pragma once
 
 #include <cmath>
@@ -43,7 +43,7 @@ inline std::vector<std::string> groundKinds() {
     return {"flat", "tilted", "smooth", "rough", "spiked", "cliffed", "holed"};
 }
 
-// A scene around a ground: checkered colour with detail, the built-in sky, nothing else.
+// Returns a scene around a ground: checkered colour with detail, the built-in sky, nothing else.
 inline TerrainScene makeScene(Heightfield ground) {
     TerrainScene scene;
     const int width = 2 * ground.width(), height = 2 * ground.height();
@@ -62,7 +62,7 @@ inline TerrainScene makeScene(Heightfield ground) {
     return scene;
 }
 
-// Folder of the real test data, empty where there is none.
+// Returns the folder of the real test data, empty where there is none.
 inline std::filesystem::path realData() {
     if (const char* set = std::getenv("STEREONAV_TEST_DATA")) return set;
     const std::filesystem::path beside =

@@ -1,4 +1,4 @@
-// Several processes played by threads of one: messages go through queues instead of MPI.
+// Several processes simulated by threads of one: messages go through queues instead of MPI.
 #pragma once
 
 #include <deque>
@@ -18,7 +18,7 @@ public:
     struct Boxes {
         explicit Boxes(int count) : messages(static_cast<std::size_t>(count)) {}
         std::mutex mutex;
-        std::vector<std::deque<PeerMessage>> messages;  // to each
+        std::vector<std::deque<PeerMessage>> messages;  // messages to each process
     };
     QueueLink(std::shared_ptr<Boxes> boxes, int rank) : mBoxes(std::move(boxes)), mRank(rank) {}
 

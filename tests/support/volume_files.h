@@ -17,7 +17,7 @@
 
 namespace stereonav::test {
 
-// A NRRD file of these header lines (after the magic) and bytes.
+// Writes a NRRD file with these header lines (after the magic) and bytes.
 inline std::filesystem::path writeNrrd(const std::filesystem::path& file, const std::string& lines,
                                        const std::string& bytes) {
     writeBytes(file, "NRRD0005\n" + lines + "\n" + bytes);
@@ -31,7 +31,7 @@ inline std::filesystem::path writeMeta(const std::filesystem::path& file, const 
     return file;
 }
 
-// A NIfTI-1 file: its sform maps (i, j, k) to RAS millimetres (i * spacing - x, ...).
+// Returns a NIfTI-1 file: its sform maps (i, j, k) to RAS millimetres (i * spacing - x, ...).
 inline std::string niftiBytes(const glm::ivec3& size, const glm::dvec3& spacing, const glm::dvec3& originRas,
                               short datatype, short bits, const std::string& samples) {
     nifti_1_header h{};

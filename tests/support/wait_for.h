@@ -1,4 +1,4 @@
-// The one way to wait in a test: until something has come about, however slow or busy the machine is.
+// The only way to wait in a test: until something has happened, however slow or busy the machine is.
 #pragma once
 
 #include <chrono>
@@ -6,7 +6,7 @@
 
 namespace stereonav::test {
 
-// Far more than anything takes that is waited for: only a test that fails waits so long.
+// Far more than any waiting needs: only a test that fails waits so long.
 constexpr std::chrono::seconds kLongestWait{300};
 
 // Asks again and again until the answer counts as true. Returns the last answer.

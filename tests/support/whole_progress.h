@@ -1,5 +1,5 @@
-// What every function of the program that takes a Progress has to tell: 0 first, never less than before, 1
-// last.
+// Check for every function of the program that takes a Progress: it reports 0 first, never less than before,
+// and 1 last.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,17 +14,17 @@
 
 namespace stereonav::test {
 
-// Writes down what is told, in the order in which it comes.
+// Records reports in their order.
 class WrittenProgress {
 public:
     Progress& progress() { return mProgress; }
-    // What was told so far; the work may go on.
+    // Returns the reports so far; the work may go on.
     std::vector<double> told() const {
         const std::lock_guard lock(mMutex);
         return mTold;
     }
 
-    // steps: shares between 0 and 1 that have to be among them at least.
+    // steps: number of shares between 0 and 1 that have to be among them.
     void expectWhole(const std::string& of, std::size_t steps = 0) const {
         const std::vector<double> all = told();
         ASSERT_FALSE(all.empty()) << of << " tells nothing";
@@ -38,7 +38,7 @@ public:
         EXPECT_GE(between, steps) << of << " tells too little on the way";
     }
 
-    // joints: shares where one stage ends and the next begins: each is told by both, one after the other.
+    // joints: shares where one stage ends and the next begins: each is reported by both, one after the other.
     void expectStages(const std::string& of, const std::vector<double>& joints) const {
         const std::vector<double> all = told();
         for (const double joint : joints) {
@@ -59,8 +59,8 @@ private:
     }};
 };
 
-// work(progress) is done once as a whole; a second time it is stopped as soon as it tells anything. joints:
-// as in expectStages().
+// Runs work(progress) once as a whole; a second time it is stopped at its first report. joints: see
+// expectStages().
 template <typename Work>
 void expectWholeProgress(const std::string& of, std::size_t steps, const Work& work,
                          const std::vector<double>& joints = {}) {

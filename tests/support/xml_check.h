@@ -1,4 +1,4 @@
-// Whether text is well-formed XML, by Expat, which nobody here wrote.
+// Check of well-formed XML by Expat, which is independent of this project.
 #pragma once
 
 #include <expat.h>
@@ -7,7 +7,7 @@
 
 namespace stereonav::test {
 
-// "" where it is, else what is wrong and in which line.
+// Returns "" for well-formed text, else what is wrong and in which line.
 inline std::string xmlProblem(const std::string& text) {
     XML_Parser parser = XML_ParserCreate("UTF-8");
     std::string problem;
