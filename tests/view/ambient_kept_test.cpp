@@ -1,5 +1,5 @@
-// Openness and modulation are kept while what they are made of is the same: with any other setting they are
-// those of a volume that was opened with it.
+// Openness and modulation are kept while their inputs are the same: with any other setting they equal those
+// of a volume that was opened with it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ TransferFunction rampFrom(double from) {
     return TransferFunction({{from, {1, 1, 1}, 0}, {from + 300, {1, 1, 1}, 0.8}}, 0.001, "ramp");
 }
 
-// What a person set, and the function that comes of it.
+// Settings of the user, and the function that they give.
 struct AmbientAsked {
     VolumeOptions options;
     double rampStart = 100;
@@ -65,7 +65,7 @@ protected:
         const AmbientMade first = make(mBase, nullptr);
         EXPECT_FALSE(expected == first) << what << " changes nothing";
         EXPECT_TRUE(make(asked, &mBase, first.sigma) == expected) << what;
-        // And back.
+        // The way back gives the first result.
         EXPECT_TRUE(make(mBase, &asked, expected.sigma) == first) << "back from " << what;
     }
 
@@ -97,7 +97,7 @@ TEST_F(AmbientKept, WithAnyOtherSettingItIsMadeAnew) {
         with("its sigma", [&](AmbientAsked& a) {
             a.options.modulateSigma = modulated == Modulation::Gradient ? 0.2 : 20;
         });
-        // A sigma that is chosen looks at what the function shows.
+        // A chosen sigma depends on what the function shows.
         with("the function", [](AmbientAsked& a) {
             a.options.transfer = "another";
             a.rampStart = 300;

@@ -1,4 +1,4 @@
-// Which frames the window asks for, at rest and in flight, and which of those that come are its own.
+// Which frames the window asks for, at rest and in flight, and which of those that come belong to it.
 #include "app/view/asked_frames.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ protected:
         frame.made_ms = 20;
         return frame;
     }
-    // Forwards.
+    // Flies forwards.
     static void fly(ViewSession& session) {
         FlightInput input;
         input.forward = 1;

@@ -16,7 +16,7 @@ using test::Gate;
 
 class BesideWorkTest : public testing::Test {
 protected:
-    // Until it is handed out, or throws.
+    // Waits until it is handed out, or throws.
     std::optional<std::string> outcome() {
         std::optional<std::string> result;
         EXPECT_TRUE(test::waitFor([&] { return (result = mWork.take()) || !mWork.busy(); }));
@@ -33,13 +33,13 @@ protected:
 
     std::atomic<int> mWoken = 0;
     Gate mGate;
-    BesideWork<std::string> mWork;  // last: it is waited for first
+    BesideWork<std::string> mWork;  // last: its end is waited for first
 };
 
 TEST_F(BesideWorkTest, IsHandedOutOnce) {
     EXPECT_FALSE(mWork.busy());
     EXPECT_FALSE(mWork.take());
-    mWork.cancel();  // nothing
+    mWork.cancel();  // does nothing
     start("a");
     EXPECT_TRUE(mWork.busy());
     EXPECT_FALSE(mWork.take());
@@ -52,7 +52,7 @@ TEST_F(BesideWorkTest, IsHandedOutOnce) {
     EXPECT_EQ(outcome(), "b") << "the cancel of before is not of it";
 }
 
-// The wish to end comes when nothing asks for it any more.
+// The wish to cancel comes when nothing checks for it any more.
 TEST_F(BesideWorkTest, CancelledItIsNotHandedOutThoughItCameToItsEnd) {
     start("a");
     mGate.await();
@@ -60,7 +60,7 @@ TEST_F(BesideWorkTest, CancelledItIsNotHandedOutThoughItCameToItsEnd) {
     mGate.open();
     EXPECT_THROW(outcome(), Cancelled);
     EXPECT_FALSE(mWork.busy());
-    // Nor where it has ended before the wish, and was not taken yet.
+    // A result from before the wish that was not taken is not handed out, either.
     start("b");
     ASSERT_TRUE(test::waitFor([this] { return mWoken == 2; }));
     mWork.cancel();

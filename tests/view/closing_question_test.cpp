@@ -1,5 +1,4 @@
-// A window with work at hand closes by the second of two wishes that come soon after one another, and no
-// sooner.
+// A window with unfinished work closes by the second of two wishes within a short time, and no sooner.
 #include "app/view/closing_question.h"
 
 #include <gmock/gmock.h>

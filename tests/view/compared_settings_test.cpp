@@ -1,4 +1,4 @@
-// What is kept is asked for again by comparing settings: each member of each of them counts.
+// Kept results are found by comparing settings: each member of each of them counts.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -174,7 +174,7 @@ protected:
         mParts.moveSun = [](const SunPlace&) {};
         mParts.models = {"one", "two"};
     }
-    // Versions of what is asked for before and after a change, each asked for twice.
+    // Versions of requests before and after a change, each made twice.
     template <typename Change>
     void expectAskedForAgain(const std::string& what, const Change& change) {
         SCOPED_TRACE(what);
@@ -193,7 +193,7 @@ protected:
     std::function<long long()> mAsk;
 };
 
-// Commands whose difference comes slowly.
+// Lets commands with a slow effect finish.
 void rest(ViewSession& session) {
     for (int n = 0; n < 600; ++n) session.step({}, 1.0 / 60);
 }
@@ -223,7 +223,7 @@ TEST_F(AskedFrames, EveryDifferenceIsAskedFor) {
     expectAskedForAgain("elevation", [](ViewSession& s) {
         s.light().place({s.light().sun().azimuth, 1e-9});
     });
-    // The eyes' sizes stay.
+    // The sizes of the eyes stay the same.
     expectAskedForAgain("mode", [](ViewSession& s) { s.chooseMode(OutputMode::CrossEyed); });
     for (const TruthView truth : {TruthView::FullCast, TruthView::Difference, TruthView::Holes})
         expectAskedForAgain("truth", [truth](ViewSession& s) { s.setTruth(truth); });
@@ -257,7 +257,7 @@ TEST(ComparedSettings, OfABakeBesideTheWindowAreAllItsWords) {
                      [](const std::vector<std::string>& words) { return placeOfBake(words).string(); });
 }
 
-// What was told of a file is told again while it has its size and its time.
+// The description of a file is reused while the file has its size and its time.
 TEST(ComparedSettings, OfAFileAreItsPathItsSizeAndItsTime) {
     const fs::path folder = fs::path(testing::TempDir()) / ("stereonav_compared_" + std::to_string(getpid()));
     fs::create_directories(folder);

@@ -1,5 +1,5 @@
-// Coverage while one flies, when things change meanwhile: begun again, judged otherwise and back, shown by
-// another scene. What was looked at before is not counted after it.
+// Coverage in flight, when things change meanwhile: restarted, judged differently and back, shown by another
+// scene. Views from before a change are not counted after it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,9 +16,9 @@ namespace {
 
 using test::Gate;
 
-// Its wall is seen from each whole centimetre once, where that is no farther than it is judged by; percent
-// are those places, and a thousand for each number of the scene. Its flight there is at 1 to 3 cm, back at 11
-// to 15.
+// A wall that is seen from each whole centimetre once, where that is no farther than the judging distance;
+// percent is the number of those places, plus a thousand for each number of the scene. Its own flight there
+// is at 1 to 3 cm, back at 11 to 15.
 class CountedWall final : public Scene, public WallToSee {
 public:
     explicit CountedWall(int number) : mNumber(number) {
@@ -103,7 +103,7 @@ TEST_F(CoverageDetours, JudgedOtherwiseAndBackIsAsBefore) {
     EXPECT_EQ(percent(), 1004);
     mCoverage.judgeBy(within(0.2));
     EXPECT_EQ(percent(), 1009);
-    // There and back before anything was looked at again; and while it is looked at.
+    // The change there and back comes before anything was looked at again, and while it is.
     mCoverage.judgeBy(within(0.0451));
     mCoverage.judgeBy(within(0.2));
     EXPECT_EQ(percent(), 1009);
@@ -134,7 +134,7 @@ TEST_F(CoverageDetours, BegunAgainNothingOfBeforeCounts) {
     EXPECT_EQ(mCoverage.soFar().looked, 1u);
 }
 
-// The scene's own flight comes late: begun again meanwhile it is not counted, and another wish for one is.
+// A late own flight is not counted after a restart; another request for one is.
 TEST_F(CoverageDetours, AnOwnFlightOfBeforeIsNotCounted) {
     mCoverage.open(mWall, "");
     mCoverage.switchOn(true);
@@ -145,7 +145,8 @@ TEST_F(CoverageDetours, AnOwnFlightOfBeforeIsNotCounted) {
     mCoverage.startAgain();
     mWall->flights.open();
     EXPECT_EQ(percent(), 1000);
-    // There and back are wished for: the way back is at work when it is begun again, there alone.
+    // Both ways are asked for: the way back is in progress at the restart, and then only the way there is
+    // asked for.
     mCoverage.addOwnFlight(true);
     EXPECT_EQ(percent(), 1008);
     mCoverage.startAgain();
@@ -171,7 +172,8 @@ TEST_F(CoverageDetours, AFlightThatComesLateIsNoneOfThoseWishedForSince) {
     mWall->flights.await(1);
     mCoverage.startAgain();
     mCoverage.addOwnFlight(true);
-    // The way there is asked for a second time, and then the way back; the first answer is of before.
+    // The way there is asked for a second time, and then the way back; the first answer belongs to the time
+    // before.
     mWall->flights.open();
     EXPECT_EQ(percent(), 1008);
     EXPECT_EQ(mWall->flights.came(), 3) << "what was begun before is not one of them";
@@ -188,7 +190,7 @@ TEST_F(CoverageDetours, AnotherSceneLooksAgainItself) {
     EXPECT_EQ(percent(), 2004);
     mCoverage.replaceScene(mWall);
     EXPECT_EQ(percent(), 1004) << "there and back";
-    // A wish for its own flight goes with it.
+    // A request for its own flight is dropped with it.
     other->flights.close();
     mWall->flights.close();
     mCoverage.addOwnFlight(false);
@@ -203,7 +205,7 @@ TEST_F(CoverageDetours, AnotherSceneLooksAgainItself) {
     EXPECT_EQ(percent(), 2000) << "opened it begins anew";
 }
 
-// Off and on again: with a file all of it comes back once, without one nothing does.
+// Off and on again: with a file everything comes back once, without one nothing does.
 TEST_F(CoverageDetours, OffAndOnAgain) {
     const TemporaryFolder folder;
     for (const bool kept : {true, false}) {

@@ -1,5 +1,5 @@
-// Marks over the picture: both eyes see them where the point in space is that they mark, and no mark leaves
-// the picture.
+// Marks over the picture: both eyes see them at the point in space that they mark, and no mark leaves the
+// picture.
 #include "app/output/eye_marks.h"
 
 #include <gmock/gmock.h>
@@ -81,7 +81,7 @@ TEST(EyeMarks, LieWhereBothEyesSeeThePoint) {
     }
 }
 
-// A point of the surface, that of the depth's own pixel: half of a larger one away at most.
+// The point lies on the surface at the depth's own pixel: at most half of a larger one away.
 TEST(EyeMarks, ThePointUnderAPlaceIsOnTheSurface) {
     const StereoViews views = viewsOf(request());
     const Plane<float> fine = everywhere(40);
@@ -139,7 +139,7 @@ TEST(EyeMarks, BehindTheEyeAndBehindTheGroundThereIsNone) {
     EXPECT_FALSE(markOf(views, everywhere(80), at(100))) << "something is in front";
     EXPECT_TRUE(markOf(views, everywhere(99.5f), at(100))) << "it stands on the ground";
     EXPECT_TRUE(markOf(views, everywhere(0), at(100))) << "nothing is known there";
-    // At the border: seen by both eyes, or there is none.
+    // Marks at the border are seen by both eyes, or there is none.
     for (const double x : {0.5, kMarkedAcross - 0.5}) {
         const glm::dvec3 far = views.left.pointAt(x, 100, 1e6), screen = views.left.pointAt(x, 100, 60);
         EXPECT_TRUE(markOf(views, sky, screen)) << x;
@@ -170,7 +170,7 @@ protected:
         };
         return labelsInView(viewsOf(mRequest), mDepth, mPlaces, sizeOf, 3);
     }
-    // In each eye's picture.
+    // Expects it inside each eye's picture.
     static void expectInside(const PlaceLabel& label) {
         for (const glm::dvec2& mark : {label.mark.left, label.mark.right}) {
             const glm::dvec2 low = mark + label.textAt;

@@ -6,7 +6,7 @@
 namespace stereonav {
 namespace {
 
-// The eye that is seen of a mode of one eye: 0 left, 1 right.
+// Returns the eye that is seen in a mode of one eye: 0 left, 1 right.
 int seenEye(const ComposeSetting& setting) {
     EXPECT_EQ(infoOf(setting.mode).layout, OutputLayout::OneEye);
     return infoOf(setting.mode).rightFirst != setting.swapEyes;

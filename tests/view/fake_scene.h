@@ -1,4 +1,4 @@
-// Scenes for the window's logic: what they offer is what a test sets.
+// Scenes for the window's logic, which offer what a test sets.
 #pragma once
 
 #include <functional>
@@ -15,9 +15,9 @@
 
 namespace stereonav {
 
-// What is not set is not offered.
+// Parts that are not set are not offered.
 struct FakeParts {
-    std::shared_ptr<const void> owner;  // of what the rest refers to
+    std::shared_ptr<const void> owner;  // owner of what the other members refer to
     FrameMaker* frames = nullptr;
     const EyeRenderer* rays = nullptr;
     std::function<std::unique_ptr<Flight>()> makeFlight;
@@ -45,7 +45,7 @@ struct FakeParts {
     std::function<std::uint64_t()> lightChanges;
     std::function<PlaceOnLine(const glm::dvec3&)> placeOnLine;
     std::function<std::shared_ptr<const SliceStudy>(Progress&)> readSlices;
-    const MaskVolume* lumen = nullptr;  // found in them
+    const MaskVolume* lumen = nullptr;  // lumen that is found in them
     std::vector<std::shared_ptr<const EyePainter>> painters;
 };
 

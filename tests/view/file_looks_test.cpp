@@ -1,4 +1,4 @@
-// What files are is looked at beside the window: the last wish goes first, and what is known stays known.
+// Descriptions of files are read beside the window: the last wish goes first, and what is known stays known.
 #include "app/view/file_looks.h"
 
 #include <gmock/gmock.h>
@@ -68,7 +68,7 @@ TEST_F(FileLooksTest, AnotherWishEndsTheOneBefore) {
                     [&](const std::string& file, Progress& progress) {
                         ++mLooked;
                         try {
-                            if (file.ends_with("a"))  // for ever
+                            if (file.ends_with("a"))  // takes for ever
                                 test::waitFor([&] { return progress.report(0, ""), false; });
                         } catch (const Cancelled&) {
                             ended = true;
@@ -84,7 +84,7 @@ TEST_F(FileLooksTest, AnotherWishEndsTheOneBefore) {
     EXPECT_TRUE(looks.look(mFolder / "a").busy) << "it is not known";
 }  // and it ends while a is looked at
 
-// A file that is changed while it is looked at: what comes of that look is of the file as it was.
+// A file that is changed while it is read: that description is of the file before.
 TEST_F(FileLooksTest, AFileThatChangesMeanwhileIsLookedAtAgain) {
     test::Gate gate;
     std::atomic<int> number = 0;
@@ -104,7 +104,7 @@ TEST_F(FileLooksTest, AFileThatChangesMeanwhileIsLookedAtAgain) {
     EXPECT_EQ(now.rows[0].second, "2");
 }
 
-// a, b, a: what is told of a is of a, and what was known stays known.
+// a, b, a: the description of a belongs to a, and what was known stays known.
 TEST_F(FileLooksTest, ThereAndBackTellsTheSame) {
     test::Gate gate;
     FileLooks looks([] {},

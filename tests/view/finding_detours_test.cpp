@@ -1,5 +1,5 @@
-// Findings there and back: what was removed comes back where it was, last first, and what is measured, looked
-// for or written late is of nothing that was changed meanwhile.
+// Changes of findings and back: what was removed comes back in its place, last first, and late measurements,
+// searches and pages do not apply to anything that was changed meanwhile.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,8 +20,8 @@
 namespace stereonav {
 namespace {
 
-// Findings are told by x; those of a negative one can not be measured. Each measuring, looking and page waits
-// at the gate while it is closed, and hears of no end.
+// Findings are identified by x; those with a negative one can not be measured. Each measurement, search and
+// page waits at the gate while it is closed, and is not told of its end.
 class GatedFindings final : public Scene, public SurfaceFindings {
 public:
     explicit GatedFindings(std::string named = "first") {
@@ -85,7 +85,7 @@ protected:
     void settle(const std::shared_ptr<const SliceStudy>& study = nullptr) {
         EXPECT_TRUE(test::waitFor([&] { return !mList.poll(study) && !mList.busy(); }));
     }
-    // Begins what is due, and waits until it is at the closed gate.
+    // Begins the next work, and waits until it is at the closed gate.
     void beginAtGate(const std::shared_ptr<const SliceStudy>& study = nullptr) {
         mScene->gate.close();
         const int before = mScene->gate.came();
@@ -118,8 +118,8 @@ protected:
     FindingList mList{[] {}};
 };
 
-// What was removed comes back last first, at its place, however the list was changed meanwhile; the file is
-// always that of the list.
+// Removed findings come back last first, at their places, however the list was changed meanwhile; the file
+// always has the list's content.
 TEST_F(FindingDetours, WhatWasRemovedComesBackLastFirst) {
     mList.open(mScene, mFile);
     std::mt19937 random(3);
@@ -157,7 +157,7 @@ TEST_F(FindingDetours, WhatWasRemovedComesBackLastFirst) {
     EXPECT_TRUE(allMeasured());
 }
 
-// All removed and all put back: as it was, with what was measured, commented and numbered.
+// All removed and all restored: the same as before, with measurements, comments and numbers.
 TEST_F(FindingDetours, AllRemovedAndPutBackIsAsItWas) {
     mList.open(mScene, mFile);
     for (const double x : {1, 2, 3, 4}) add(x);
@@ -181,7 +181,7 @@ TEST_F(FindingDetours, AllRemovedAndPutBackIsAsItWas) {
     EXPECT_EQ(mScene->gate.came(), measurings) << "nothing is measured again";
 }
 
-// Nothing of one scene is put back into another.
+// Nothing of one scene is restored into another.
 TEST_F(FindingDetours, NothingIsPutBackIntoAnotherScene) {
     mList.open(mScene, mFile);
     mList.remove(add(1));
@@ -209,7 +209,7 @@ TEST_F(FindingDetours, RemovedWhileItIsMeasuredItIsMeasuredOncePutBack) {
     EXPECT_TRUE(allMeasured());
 }
 
-// Put back before the measuring is done it is that very finding, and another one at its place is not.
+// A finding that is restored before its measurement is done gets it; another one in its place does not.
 TEST_F(FindingDetours, AMeasuringIsOfTheFindingItWasBegunFor) {
     mList.open(mScene, mFile);
     const int id = add(1);
@@ -225,8 +225,8 @@ TEST_F(FindingDetours, AMeasuringIsOfTheFindingItWasBegunFor) {
     EXPECT_EQ(mList.rows()[0].finding.comment, "kept");
 }
 
-// The values of a study that came while it was measured without them are told too, and those of one that is
-// gone are not asked for.
+// The values of a study that came during a measurement without it are added, and those of one that is gone
+// are not asked for.
 TEST_F(FindingDetours, AStudyThatComesMeanwhileIsToldOf) {
     const auto study = std::make_shared<const SliceStudy>();
     mList.open(mScene, mFile);
@@ -237,7 +237,7 @@ TEST_F(FindingDetours, AStudyThatComesMeanwhileIsToldOf) {
     EXPECT_THAT(mList.rows()[0].finding.lines, testing::ElementsAre("first", "values"));
 }
 
-// Nothing is taken of the scene before: measured, candidates, their failure, or what was written.
+// Nothing of the scene before is taken: measurements, candidates, failures, or files.
 TEST_F(FindingDetours, NothingOfTheSceneBeforeIsTaken) {
     const std::vector<std::pair<const char*, std::function<void()>>> works = {
         {"measured", [this] { add(1); }},
@@ -268,7 +268,7 @@ TEST_F(FindingDetours, NothingOfTheSceneBeforeIsTaken) {
         }
 }
 
-// The same file, shown by another scene: what was measured of it stays, and goes on.
+// Another scene of the same file: measurements of it stay, and work goes on.
 TEST_F(FindingDetours, AnotherSceneOfTheSameFileGoesOn) {
     mList.open(mScene, mFile);
     add(1);
@@ -283,7 +283,7 @@ TEST_F(FindingDetours, AnotherSceneOfTheSameFileGoesOn) {
     EXPECT_EQ(mList.rows()[1].finding.lines.front(), "other");
 }
 
-// Cancelled: neither what was measured all the same, nor candidates, nor the page that was to come after it.
+// After a cancel neither a late measurement nor candidates nor the page after it are taken.
 TEST_F(FindingDetours, WhatWasCancelledIsDropped) {
     mList.open(mScene, mFile);
     add(1);
@@ -312,7 +312,7 @@ TEST_F(FindingDetours, WhatWasCancelledIsDropped) {
     EXPECT_TRUE(allMeasured());
 }
 
-// Cancelled, and another finding before that was heard of: it goes on with both.
+// A finding that is added before the cancel has taken effect: work goes on with both.
 TEST_F(FindingDetours, TheNextFindingGoesOnThoughACancelIsStillToCome) {
     mList.open(mScene, mFile);
     add(1);
@@ -324,7 +324,7 @@ TEST_F(FindingDetours, TheNextFindingGoesOnThoughACancelIsStillToCome) {
     EXPECT_FALSE(mList.stopped());
     EXPECT_TRUE(allMeasured());
     EXPECT_EQ(mList.rows().size(), 2u);
-    // Cancelled after that it is cancelled.
+    // A later cancel takes effect.
     add(3);
     beginAtGate();
     mList.goOn();
@@ -335,7 +335,7 @@ TEST_F(FindingDetours, TheNextFindingGoesOnThoughACancelIsStillToCome) {
     EXPECT_FALSE(mList.rows()[2].finding.measured);
 }
 
-// A page that was begun has the list of then.
+// A page that was begun has the list of that time.
 TEST_F(FindingDetours, APageIsOfTheListThatItWasBegunFor) {
     mList.open(mScene, mFile);
     add(1);
@@ -349,8 +349,7 @@ TEST_F(FindingDetours, APageIsOfTheListThatItWasBegunFor) {
     EXPECT_TRUE(allMeasured());
 }
 
-// A page that is being written is written to its end though another scene is opened: it is work that was
-// asked for.
+// A page is completed though another scene is opened: it is work that was asked for.
 TEST_F(FindingDetours, APageOfTheSceneBeforeIsWrittenToItsEnd) {
     mList.open(mScene, mFile);
     add(1);
@@ -367,7 +366,7 @@ TEST_F(FindingDetours, APageOfTheSceneBeforeIsWrittenToItsEnd) {
     EXPECT_EQ(mList.problem(), "");
 }
 
-// Candidates that are kept and removed again are findings that were removed, and not candidates.
+// Candidates that are kept and removed again are removed findings, and not candidates.
 TEST_F(FindingDetours, AKeptCandidateThatIsRemovedComesBackAsAFinding) {
     mList.open(mScene, mFile);
     mList.findCandidates();

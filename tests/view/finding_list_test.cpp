@@ -1,5 +1,4 @@
-// The window's list of findings: what is kept of it and when, what is measured beside it, candidates and
-// pages.
+// The window's list of findings: what of it is kept and when, measurements beside it, candidates and pages.
 #include "app/view/finding_list.h"
 
 #include <gmock/gmock.h>
@@ -21,8 +20,8 @@
 namespace stereonav {
 namespace {
 
-// Of a kind of its own: places with x above 0 are something, one at x = 9 can not be measured, and what is
-// within 1 of another is the same.
+// A scene with its own kind of findings: places with x above 0 are something, one at x = 9 can not be
+// measured, and one within 1 of another is the same.
 class FindingScene final : public Scene, public SurfaceFindings {
 public:
     FindingScene() { offer<SurfaceFindings>(*this); }
@@ -66,7 +65,7 @@ public:
     }
     std::string summaryOf(const FindingRefs& list) const override { return std::to_string(list.size()); }
     std::string notice() const override { return "a test"; }
-    // A line each.
+    // Returns a line for each.
     std::string documentOf(const FindingRefs& list) const override {
         std::string text = "list\n";
         for (const SurfaceFinding* one : list)
@@ -118,7 +117,7 @@ TEST_F(FindingListTest, CostsNothingBeforeItIsUsed) {
     mList.add({3, 0, 0});
     settle(mList);
     EXPECT_EQ(mScene->measurings, 1);
-    // What was kept is not measured either, until the list is looked at.
+    // Kept findings are not measured, either, until the list is in use.
     FindingList again([] {});
     again.open(mScene, mFile);
     settle(again);
@@ -137,7 +136,7 @@ TEST_F(FindingListTest, IsKeptAsItIsMade) {
     mList.add({3, 0, 0});
     EXPECT_EQ(readTextFile(mFile), "list\n3.000000 \n") << "before it is measured: a crash loses nothing";
     mList.poll(nullptr);
-    mList.comment(mList.rows()[0].id, "on a\nfold");  // while it is measured
+    mList.comment(mList.rows()[0].id, "on a\nfold");  // while the finding is measured
     mScene->waits = false;
     settle(mList);
     EXPECT_EQ(readTextFile(mFile), "list\n3.000000 on a fold\n");
@@ -189,7 +188,7 @@ TEST_F(FindingListTest, WhatFailsStopsUntilItIsAskedForAgain) {
     mList.goOn();
     settle(mList);
     EXPECT_TRUE(mList.rows()[0].finding.measured);
-    // One that is still at work ends with its list.
+    // Unfinished work ends with its list.
     mScene->waits = true;
     mList.add({4, 0, 0});
     mList.poll(nullptr);
@@ -235,8 +234,8 @@ TEST_F(FindingListTest, CandidatesAreKeptApart) {
     EXPECT_EQ(mList.candidates()[0].note, "a double") << "it is a finding now";
 }
 
-// Points and a number where both eyes see them, findings in another colour than candidates; nothing that is
-// hidden.
+// Points and a number are drawn where both eyes see them, findings in another colour than candidates; nothing
+// that is hidden.
 TEST_F(FindingListTest, IsMarkedInBothEyes) {
     mList.open(mScene, mFile);
     FrameRequest request;
@@ -328,7 +327,7 @@ TEST_F(FindingListTest, AReportIsWrittenOfWhatIsMeasured) {
     EXPECT_EQ(readTextFile(mFolder / "page.html"), "page of 1") << "one after the other";
     EXPECT_EQ(readTextFile(file), "report of 1");
     EXPECT_THAT(mList.told(), testing::HasSubstr("report.dcm"));
-    // Of a scene that is gone none is written.
+    // No page is written for a scene that is gone.
     std::filesystem::remove(file);
     mList.writeReport(file);
     mList.open(mScene, mFolder / "findings/other.json");

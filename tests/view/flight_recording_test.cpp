@@ -25,7 +25,7 @@ Pose poseAt(double seconds) {
 
 class FlightRecordingTest : public testing::Test {
 protected:
-    // So many seconds more, at 10 m/s along x.
+    // Flies for so many more seconds, at 10 m/s along x.
     void fly(FlightRecording& recording, double seconds) {
         for (double flown = 0; flown < seconds; flown += kTurn) {
             mNow += kTurn;
@@ -37,7 +37,7 @@ protected:
         recording.start(poseAt(0));
     }
     fs::path file(int number) const { return mFolder / ("flight_000" + std::to_string(number) + ".gltf"); }
-    // What is in it, and that it is of that flight.
+    // Returns the duration in the file, and checks that it is that flight.
     static double flownIn(const fs::path& file) {
         const RecordedPath path = readPath(file);
         EXPECT_NEAR(path.at(path.startTime() + path.duration()).position.x, 10 * path.duration(), 1e-4);
@@ -56,7 +56,7 @@ TEST_F(FlightRecordingTest, IsInItsFileWhileItGoesOn) {
     fly(recording, 0.5);
     ASSERT_TRUE(test::waitFor([&] { return fs::exists(file(1)); }));
     EXPECT_NEAR(flownIn(file(1)), 1, kTurn);
-    // And then what came since, not later than a second of flight after it.
+    // The file then has the later part, too, after at most a second of flight.
     for (int more = 0; more < 3; ++more) {
         const double before = flownIn(file(1));
         ASSERT_TRUE(test::waitFor([&] {
@@ -95,7 +95,7 @@ TEST_F(FlightRecordingTest, NeverTakesThePlaceOfAFile) {
         EXPECT_EQ(recording.keepRecorded(recording.finish()), file(number));
     }
     EXPECT_EQ(recording.keep(readPath(file(2))), file(5)) << "saved once more";
-    // Two windows in one folder.
+    // Two windows record in one folder.
     FlightRecording other(mFolder / "");
     begin(recording);
     fly(recording, 1.5);
@@ -108,7 +108,7 @@ TEST_F(FlightRecordingTest, NeverTakesThePlaceOfAFile) {
     EXPECT_EQ(readTextFile(file(3)), "of yesterday, too");
 }
 
-// Opened while it is recorded, its file is an input, which nothing is written over.
+// A recording's file that is opened meanwhile is an input, which is not overwritten.
 TEST_F(FlightRecordingTest, GoesIntoAnotherFileWhereItsOwnCanNotBeWritten) {
     FlightRecording recording(mFolder / "");
     begin(recording);

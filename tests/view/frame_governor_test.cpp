@@ -1,4 +1,4 @@
-// What frames cost is recorded or made up here, and time passes as they say: no window and no clock.
+// Size of frames by their cost, which is recorded or made up here, like the time: no window and no clock.
 #include "app/view/frame_governor.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kGovernedTarget = 33;
 
-// Milliseconds of a frame in full size, by its number; fixed: the share that no size changes.
+// Milliseconds of a frame in full size, by its number; fixed: the share that does not depend on the size.
 struct GovernedFlight {
     std::function<double(int)> full_ms;
     double fixed = 0;
@@ -63,7 +63,7 @@ TEST(FrameGovernor, SettlesWithinFiveFramesOfAStep) {
         }
 }
 
-// As where a flight comes near to the ground.
+// The cost rises as where a flight comes near to the ground.
 TEST(FrameGovernor, FollowsARamp) {
     FrameGovernor governor(kGovernedTarget);
     GovernedFlight flight{[](int n) { return n < 100 ? 20 + 1.0 * n : 220 - 1.0 * n; }, 0.15, {}, {}};
@@ -71,7 +71,7 @@ TEST(FrameGovernor, FollowsARamp) {
     int late = 0, turns = 0;
     for (std::size_t n = 1; n < 200; ++n) {
         late += flight.ms[n] > 1.3 * kGovernedTarget;
-        // Smaller on the way up, larger on the way back, and nothing else.
+        // The size falls on the way up, rises on the way back, and does nothing else.
         turns += n < 100 ? flight.scales[n] > flight.scales[n - 1] : flight.scales[n] < flight.scales[n - 1];
     }
     EXPECT_EQ(late, 0);
@@ -79,7 +79,7 @@ TEST(FrameGovernor, FollowsARamp) {
     EXPECT_EQ(flight.scales.back(), 1);
 }
 
-// Frames of which some are half as long again, as beside another program.
+// Some frames take half as long again, as beside another program.
 TEST(FrameGovernor, DoesNotPumpWithNoise) {
     for (const double full : {25.0, 38.0, 50.0, 70.0, 100.0})
         for (unsigned seed = 1; seed <= 5; ++seed) {
@@ -94,8 +94,8 @@ TEST(FrameGovernor, DoesNotPumpWithNoise) {
         }
 }
 
-// What frames cost beside a program that takes the processor now and then: as recorded, between half and
-// twice the mean. The size stands still all the same, and what it costs in the mean is what is aimed at.
+// Costs beside a program that uses the processor now and then, as recorded, between half and twice the mean.
+// The size stays the same all the same, and the mean cost is the target.
 TEST(FrameGovernor, StandsStillInStrongNoise) {
     for (const double full : {20.0, 40.0, 70.0, 120.0})
         for (unsigned seed = 1; seed <= 5; ++seed) {
@@ -115,7 +115,7 @@ TEST(FrameGovernor, StandsStillInStrongNoise) {
         }
 }
 
-// A second process comes every now and then and doubles what frames cost.
+// A second process comes now and then and doubles the cost of frames.
 TEST(FrameGovernor, WaitsLongerWhereItDidNotLast) {
     FrameGovernor governor(kGovernedTarget);
     GovernedFlight flight{[](int n) { return n / 12 % 2 ? 56.0 : 28.0; }, 0, {}, {}};
@@ -124,9 +124,9 @@ TEST(FrameGovernor, WaitsLongerWhereItDidNotLast) {
     EXPECT_LE(flight.changes(300, 600), 8) << "25 times another load";
 }
 
-// A medium's frame in full size takes seconds: it begins small, and goes up to what its target has room for.
+// A medium's frame in full size takes seconds: it begins small, and grows up to what its target has room for.
 TEST(FrameGovernor, BeginsAMediumWithTheLeastWork) {
-    constexpr double kTarget = 130, kLight = 0.1;  // share of the work that the size does not change
+    constexpr double kTarget = 130, kLight = 0.1;  // kLight: the share that no size changes
     for (const bool efforts : {true, false})
         for (const double full : {60.0, 400.0, 1200.0, 6000.0}) {
             SCOPED_TRACE(testing::Message() << efforts << " " << full);
@@ -148,7 +148,7 @@ TEST(FrameGovernor, BeginsAMediumWithTheLeastWork) {
             if (full < 2000) {
                 EXPECT_GT(ms[39], std::min(0.5 * kTarget, 0.99 * full));
             }
-            // A picture that rests has more time.
+            // A resting picture has more time.
             const FrameGovernor::Size rests = governor.sizeWithin(4 * kTarget);
             EXPECT_GE(rests.scale * rests.scale * rests.effort,
                       governor.scale() * governor.scale() * governor.effort());
@@ -157,7 +157,7 @@ TEST(FrameGovernor, BeginsAMediumWithTheLeastWork) {
         }
 }
 
-// Efforts go down only where the size is the smallest one, and one frame that takes far too long is enough.
+// Efforts go down only at the smallest size, and one frame that takes far too long is enough.
 TEST(FrameGovernor, LeavesOutAMediumsSlicesLast) {
     FrameGovernor governor(1e6);
     governor.setMedium(true, true);
@@ -175,7 +175,7 @@ TEST(FrameGovernor, LeavesOutAMediumsSlicesLast) {
 }
 
 // Frames that are cast wider than shown (LateGuard) are made smaller before one of them comes late, and the
-// size comes back with the guard gone. Some frames of the area before come after the change.
+// size comes back when the guard is gone. Some frames of the area before come after the change.
 TEST(FrameGovernor, TheSizePaysForAWiderFrame) {
     for (const double fixed : {0.0, 0.2})
         for (const double full : {15.0, 30.0, 80.0})
@@ -188,7 +188,7 @@ TEST(FrameGovernor, TheSizePaysForAWiderFrame) {
                 for (int n = 0; n < 120; ++n) {
                     const double wanted = n >= 40 && n < 80 ? area : 1;
                     governor.setArea(wanted);
-                    // The frame that is made now was asked for one before.
+                    // The present frame was asked for one before.
                     const double ms = full * (fixed + (1 - fixed) * size.scale * size.scale * cast);
                     governor.took(size, ms, cast);
                     if (n >= 40) {

@@ -1,4 +1,4 @@
-// Frames come back to be used again, as many as are enough, and no more.
+// Frames come back for reuse, as many as are enough, and no more.
 #include "app/view/frame_pool.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Frames are used again, and so are the makers of truths and of late pictures: whatever kind of picture was
-// asked for before, the next one has nothing of it, and is that of a worker that made no other.
+// Frames are reused, and so are the makers of truths and of late pictures: whatever kind of picture was asked
+// for before, the next one has nothing of it, and equals that of a worker that made no other.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -58,7 +58,7 @@ std::vector<Kind> kindsOfPictures() {
 class Looked {
 public:
     explicit Looked(const FakeParts& parts) : mWorker([parts](Progress&) { return openOf(parts); }, [] {}) {
-        mWorker.measureTruth(false);  // of pictures that rest
+        mWorker.measureTruth(false);  // for pictures that rest
     }
     std::shared_ptr<const ViewFrame> frame(FrameRequest request) {
         request.version = ++mVersion;
@@ -67,7 +67,7 @@ public:
         EXPECT_TRUE(test::waitFor([&] { return (frame = mWorker.takeFrame()) != nullptr; }));
         return frame;
     }
-    // Until each frame of the pool has been one of those.
+    // Runs until each frame of the pool has been one of those.
     void use(const FrameRequest& request) {
         std::vector<std::shared_ptr<const ViewFrame>> held;
         for (int n = 0; n < 2; ++n) held.push_back(frame(request));
@@ -128,7 +128,7 @@ TEST(FrameReuse, APictureHasNothingOfTheOneBefore) {
         }
 }
 
-// What is shown from elsewhere is warped by the depths of that very frame.
+// The late warp uses the depths of the frame that it warps.
 TEST(FrameReuse, ALateWarpIsOfTheFrameThatIsShown) {
     const StripedScene scene;
     Looked looked(scene.parts());
@@ -149,11 +149,11 @@ TEST(FrameReuse, ALateWarpIsOfTheFrameThatIsShown) {
     const auto warped = fresh.warp(*again, now);
     expectSamePlane((*warped)[0], left);
     expectSamePlane((*warped)[1], right);
-    // What a picture on the screen still shows is not written over.
+    // A picture that is still shown is not overwritten.
     const auto held = fresh.warp(*again, now);
     fresh.warp(*elsewhere, now);
     expectSamePlane((*held)[0], left);
-    // None fits where its eyes, or its truth, are not those that are asked for.
+    // No frame fits where its eyes, or its truth, are not those that are asked for.
     now.twoEyes = false;
     EXPECT_FALSE(LateView::fits(*again, now));
     now.twoEyes = true;
@@ -162,7 +162,7 @@ TEST(FrameReuse, ALateWarpIsOfTheFrameThatIsShown) {
     EXPECT_FALSE(LateView::fits(*looked.frame(plainRequest()), late)) << "nobody asked for that";
 }
 
-// A measuring is of the frame whose number it has: asked for anew, what was measured before is not told.
+// A measurement belongs to the frame of its number: after a new request an earlier one is not reported.
 TEST(FrameReuse, ATruthIsOfTheNewestFrame) {
     const StripedScene scene;
     Looked looked(scene.parts());

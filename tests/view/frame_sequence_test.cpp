@@ -1,4 +1,4 @@
-// The eye whose turn it is stays right when swaps come late, early or not at all. Times are made up.
+// The eye in turn stays right when swaps come late, early or not at all. Times are made up.
 #include "engine/display/frame_sequence.h"
 
 #include <gmock/gmock.h>
@@ -10,20 +10,20 @@
 namespace stereonav {
 namespace {
 
-// A display with a true period, that shows what was swapped last.
+// A display with a true period that shows what was swapped last.
 struct Display {
     double period, start = 100;
     double at(long long refresh) const { return start + static_cast<double>(refresh) * period; }
 };
 
-// Swaps at these refreshes of the display, each late by jitter; how many pictures after the first `settled`
-// were drawn for the wrong eye.
+// Swaps at these refreshes of the display, each late by jitter. Returns how many pictures after the first
+// `settled` were drawn for the wrong eye.
 int wrongEyes(FrameSequence& sequence, const Display& display, const std::vector<long long>& refreshes,
               double jitter, int settled = 0) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> late(0, jitter * display.period);
     int wrong = 0, n = 0;
-    std::optional<long long> offset;  // of the eyes; known after the first swap
+    std::optional<long long> offset;  // offset of the eyes; known after the first swap
     for (const long long refresh : refreshes) {
         const int eye = sequence.eye();
         if (!offset) offset = (refresh + eye) & 1;
@@ -50,7 +50,7 @@ TEST(FrameSequence, AlternatesAtEachRefresh) {
     }
 }
 
-// 59.94 and 119.88 are told as whole numbers; an hour of them would be 216 refreshes off.
+// Rates of 59.94 and 119.88 are reported as whole numbers; an hour of them would be 216 refreshes off.
 TEST(FrameSequence, FollowsTheTrueRate) {
     for (const double told : {60.0, 120.0}) {
         FrameSequence sequence(told);

@@ -11,7 +11,7 @@
 namespace stereonav {
 namespace {
 
-// A wall at one view depth; its colours tell the direction that each pixel looks in.
+// A wall at one view depth; its colours encode the direction of each pixel.
 class GuardedWall final : public FrameMaker {
 public:
     std::span<const std::string_view> methods() const override { return kMethods; }
@@ -49,7 +49,7 @@ int largestChannelApart(PackedColor a, PackedColor b) {
     return most;
 }
 
-// A frame for the late warp may be cast wider than it is shown; what is told of it is of what is shown.
+// A frame for the late warp may be cast wider than it is shown; its figures are those of the visible part.
 TEST(GuardedFrames, AreCastWiderAndShownAsAsked) {
     ViewWorker worker(
         [](Progress&) {
@@ -85,7 +85,7 @@ TEST(GuardedFrames, AreCastWiderAndShownAsAsked) {
     EXPECT_DOUBLE_EQ(wide->farParallax, plain->farParallax);
     ASSERT_TRUE(wide->late[0].ready() && wide->late[1].ready());
     EXPECT_EQ(wide->late[1].view().width, 50);
-    // It is no picture to be shown as it is, and has all that is to be seen from there.
+    // The frame can not be shown as it is, and has everything that is seen from there.
     FrameRequest now = request;
     now.guard = {0, 0};
     EXPECT_FALSE(sameView(wide->request, now));

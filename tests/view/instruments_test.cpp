@@ -1,4 +1,4 @@
-// Which instrument a click means, what is told where there is nothing to measure, and whose study is asked
+// Which instrument a click is for, the notice where there is nothing to measure, and whose study is asked
 // for.
 #include "app/view/instruments.h"
 

@@ -1,4 +1,4 @@
-// Commands that run beside the window: their progress, their end, what is left of one that was stopped.
+// Commands that run beside the window: their progress, their end, and what a stopped one leaves.
 #include "app/view/job.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ void awaitEnd(Job& job) {
     }));
 }
 
-// Words of its progress are there: it is at work.
+// Waits until there is text on its progress: it is working.
 void awaitProgress(Job& job) {
     ASSERT_TRUE(test::waitFor([&] {
         job.look();
@@ -77,7 +77,7 @@ TEST(Job, MakesAMovie) {
     EXPECT_TRUE(std::filesystem::exists(file));
 }
 
-// A movie of hours.
+// A movie that would take hours.
 TEST(Job, ACancelLeavesNoHalfFile) {
     const TemporaryFolder folder;
     Job job("a movie",
@@ -100,7 +100,7 @@ TEST(Job, AFailureIsTold) {
     EXPECT_THROW(Job("nothing", {}, "/nowhere/at/all"), Error);
 }
 
-// A job of hours.
+// A job that would take hours.
 TEST(Job, EndsWithItsOwner) {
     std::optional<Job> job(std::in_place, "a movie",
                            std::vector<std::string>{"play", "terrain", "--frames=1000000", "--hash"},

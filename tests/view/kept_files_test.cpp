@@ -1,4 +1,4 @@
-// What the window keeps between runs: places, recent files, what was set; whole, damaged, and where nothing
+// Files that the window keeps between runs: places, recent files, settings; whole, damaged, and where nothing
 // can be kept.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -134,7 +134,7 @@ TEST(Bookmarks, ThumbnailsAreSmallAndGoWithTheirPlace) {
     EXPECT_TRUE(fs::exists(marks.find("b")->thumbnail));
 }
 
-// A file deeper than any that the window wrote: it is copied and compared while it is looked at.
+// A file deeper than any that the window wrote: it is copied and compared on reading.
 TEST(Bookmarks, ADeepFileIsSetAside) {
     const TemporaryFolder folder;
     const fs::path file = Bookmarks("terrain", folder / "places").file();
@@ -175,7 +175,7 @@ TEST(Bookmarks, ADamagedFileIsSetAside) {
         marks.add(markNamed("anew"));
         EXPECT_THAT(namesOf(Bookmarks("terrain", folder / "places")), ElementsAre("anew"));
     }
-    // One of before stays.
+    // An earlier one stays.
     for (const char* const damaged : {"first", "second", "third"}) {
         putText(file, damaged);
         EXPECT_THAT(Bookmarks("terrain", folder / "places").takeProblem(), HasSubstr(".damaged"));
@@ -380,7 +380,7 @@ TEST(KeptFolders, FollowTheXdgSpecification) {
 }
 
 TEST(Thumbnails, AreTheMiddleAveragedInLinearLight) {
-    Plane<PackedColor> stripes(640, 720);  // the middle 640 x 360 is taken
+    Plane<PackedColor> stripes(640, 720);  // the middle 640 x 360 is used
     for (int y = 0; y < 720; ++y)
         for (int x = 0; x < 640; ++x)
             stripes.at(x, y) =
@@ -400,7 +400,7 @@ TEST(Thumbnails, AreTheMiddleAveragedInLinearLight) {
     }
 }
 
-// Names of files tell of patients: whatever was there before, and whatever the umask.
+// Names of files may identify patients: files are private, whatever was there before, and whatever the umask.
 TEST(KeptFiles, AreTheUsersAlone) {
     const TemporaryFolder folder;
     const fs::path state = folder / "state";

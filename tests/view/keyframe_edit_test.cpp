@@ -1,5 +1,5 @@
-// Keyframes on a map, without one: what is dragged keeps its height over the ground and its pace, steps go
-// back and forth, and the flight through them is never below where the viewer is let.
+// Editing keyframes of a map, without one: a dragged one keeps its height over the ground and its pace, undo
+// and redo work, and the flight through them is never below the lowest permitted height.
 #include "app/view/keyframe_edit.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,8 @@
 namespace stereonav {
 namespace {
 
-// A ridge across the way, 300 m high, from x = 900 to 1100, and no ground west of x = 0.
+// Returns the height of a ridge across the way, 300 m high, from x = 900 to 1100, without ground west of x =
+// 0.
 double ridge(const glm::dvec2& at) {
     if (at.x < 0) return std::nan("");
     return 300 * std::max(0.0, 1 - std::abs(at.x - 1000) / 100);
@@ -56,7 +57,7 @@ TEST_F(KeyframeEditTest, AddsTheEyeAfterTheChosenOne) {
     EXPECT_EQ(mEdit.chosen(), 1u);
     EXPECT_NEAR(times()[1], 5, 1e-9);
     EXPECT_NEAR(times()[2], 5 + std::hypot(1000, 500) / 100, 1e-9);
-    mEdit.add(mEdit.keys()[1].pose, 100);  // the same place once more
+    mEdit.add(mEdit.keys()[1].pose, 100);  // the same place again
     EXPECT_EQ(mEdit.keys().size(), 4u);
     EXPECT_GT(times()[2], times()[1]);
     Pose nowhere = eyeAt(0, 0, 0);
@@ -113,7 +114,7 @@ TEST_F(KeyframeEditTest, ADragIsOneStepAndKeepsThePace) {
     EXPECT_FALSE(mEdit.canUndo());
     mEdit.redo();
     EXPECT_EQ(mEdit.keys()[1].pose.position.y, 800);
-    // Onto its neighbour: times stay in order.
+    // Dragged onto its neighbour: times stay in order.
     mEdit.beginDrag(1);
     mEdit.dragTo(mEdit.keys()[0].pose.position);
     mEdit.endDrag();
@@ -160,7 +161,7 @@ TEST_F(KeyframeEditTest, TheFlightPassesOverTheGround) {
     EXPECT_EQ(samples.back().pose.position, three().back().pose.position);
 }
 
-// Walls: everything beyond x = 1000.
+// A flight with a wall: everything beyond x = 1000.
 class Walled final : public Flight {
 public:
     void step(const FlightInput&, double) override {}
@@ -188,7 +189,7 @@ TEST_F(KeyframeEditTest, WhatGoesThroughAWallIsSaid) {
 
 TEST_F(KeyframeEditTest, AFlightHasAsManyAsThereAreHandlesFor) {
     std::vector<PathSample> samples;
-    for (int n = 0; n < 2000; ++n)  // it shakes all the time
+    for (int n = 0; n < 2000; ++n)  // the flight shakes all the time
         samples.push_back({n / 60.0, eyeAt(n, 300 * std::sin(n * 0.7), 100)});
     const RecordedPath path(samples, "test");
     const Keyframes keys = keyframesToEdit(path);
@@ -196,7 +197,7 @@ TEST_F(KeyframeEditTest, AFlightHasAsManyAsThereAreHandlesFor) {
     EXPECT_LE(keys.size(), 60u);
     EXPECT_EQ(keyframesToEdit(RecordedPath({{0, eyeAt(0, 0, 0)}, {1, eyeAt(0, 0, 0)}}, "still")).size(), 2u);
     EXPECT_THROW(keyframesToEdit(RecordedPath()), Error);
-    // One that is smooth keeps to itself.
+    // A smooth flight needs few keyframes.
     const RecordedPath smooth = pathThrough(three(), true);
     const RecordedPath again = pathThrough(keyframesToEdit(smooth), true);
     for (const double share : {0.25, 0.5, 0.75})

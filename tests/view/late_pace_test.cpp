@@ -1,4 +1,4 @@
-// How far ahead of the present moment frames are cast, and how often one is shown: times are made up here.
+// How far ahead frames are cast, and how often one is shown: times are made up here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 namespace stereonav {
 namespace {
 
-// Frames one after the other, each asked for when the one before is there; cost: seconds, by the time.
+// Frames in sequence, each asked for when the one before is there; cost: seconds, by the time.
 struct LeadFlight {
     LateLead lead;
     double now = 0;
-    // How far the moment that a picture is of lies from the middle of the time that it is looked at.
+    // Distances of a picture's moment from the middle of the time in which it is seen.
     std::vector<double> off;
 
     void fly(double until, const std::function<double(double)>& cost) {
@@ -80,8 +80,8 @@ TEST(LatePace, ShowsAsOftenAsThereIsTimeFor) {
     EXPECT_DOUBLE_EQ(pace.period(1 / 20.0, 0), 1 / 20.0);
 }
 
-// Another process takes half of the processor every now and then: the size follows, and the moment that
-// frames are cast for stays within half a frame of the one that they are seen in.
+// Another process takes half of the processor now and then: the size follows, and the moment that frames are
+// cast for stays within half a frame of the one in which they are seen.
 TEST(LateLead, HoldsWithTheGovernorBesideAnotherProcess) {
     constexpr double kFull_s = 0.08, kTarget_s = 0.033;
     FrameGovernor governor(1000 * kTarget_s);

@@ -6,7 +6,7 @@
 namespace stereonav {
 namespace {
 
-// Letters of one width.
+// Breaks text whose letters have one width.
 std::string within(std::string_view text, float letters) {
     return withLineBreaks(text, letters,
                           [](std::string_view part) { return static_cast<float>(part.size()); });

@@ -1,5 +1,5 @@
-// Coverage that is followed while one flies: what it costs while it is off, that it says what the command
-// says, what is kept of it, and what the window's frames make of it.
+// Coverage in flight: what it costs while it is off, that it agrees with the command, what of it is kept, and
+// what the window's frames add to it.
 #include "app/view/live_coverage.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A tube along z, 16 mm wide and 60 mm long with two rings in it: a mask of 1 mm.
+// Returns a tube along z, 16 mm wide and 60 mm long with two rings in it: a mask of 1 mm.
 std::shared_ptr<const Scene> ringedTube() {
     static const std::shared_ptr<const Scene> scene = [] {
         const TemporaryFolder folder;
@@ -51,7 +51,7 @@ EyeView eyeAt(const Pose& pose) {
     return makeEyeView(pose, lens);
 }
 
-// As `coverage` counts, over a square picture.
+// Returns the percentage of `coverage`, for a square picture.
 double percentByCommand(bool bothWays, const WallLooking& looking = {}) {
     const auto& colon = *ringedTube()->offered<const ColonScene>();
     const auto& inside = *ringedTube()->offered<const ColonInterior>();
@@ -135,14 +135,14 @@ TEST(LiveCoverage, LooksFromWhatIsShown) {
     double seconds = 10;
     for (const Pose& pose : flight) coverage.show(eyeAt(pose), seconds += 0.1, false);
     settle(coverage);
-    // Where the flight is slow its steps are shorter than those that are looked from.
+    // Where the flight is slow its steps are shorter than those of the views that are used.
     EXPECT_NEAR(coverage.soFar().percent, percentByCommand(false), 0.5);
     double metres = 0;
     for (std::size_t n = 1; n < flight.size(); ++n)
         metres += glm::length(flight[n].position - flight[n - 1].position);
     EXPECT_NEAR(coverage.metres(), metres, 1e-9);
     EXPECT_NEAR(coverage.seconds(), 0.1 * static_cast<double>(flight.size() - 1), 1e-6);
-    // The same place again is no other eye, and a leap is no flight.
+    // The same place again is no new view, and a leap is no flight.
     const std::size_t looked = coverage.soFar().looked;
     coverage.show(eyeAt(flight.back()), seconds += 0.1, true);
     Pose far = flight.back();
@@ -170,7 +170,7 @@ TEST(LiveCoverage, StepsThroughUnseenPartsFromTheLargest) {
     for (const double area : areas) EXPECT_EQ(coverage.step(1)->area, area);
     EXPECT_EQ(coverage.step(1)->area, areas.front()) << "round";
     EXPECT_EQ(coverage.step(-1)->area, areas.back());
-    // From there it is seen.
+    // The part is seen from there.
     const UnseenPart largest = *coverage.step(1);
     coverage.show(eyeAt(*largest.view), 0, true);
     settle(coverage);
@@ -205,7 +205,7 @@ TEST(LiveCoverage, IsKeptAndLookedAtAgain) {
     EXPECT_EQ(problem, "");
 }
 
-// A file is there though nobody ends the program properly, and it is whole.
+// The file is there and whole though the program is not ended properly.
 TEST(LiveCoverage, IsWrittenWhileOneFlies) {
     const TemporaryFolder folder;
     const fs::path file = folder / "coverage" / "tube.json";

@@ -1,5 +1,5 @@
-// Settings that a session takes at once: what is seen through is said as it is, and goes back without
-// reading.
+// Settings that a session takes at once: the function in use is reported, and goes back without reading the
+// scene.
 #include "app/view/live_settings.h"
 
 #include <gtest/gtest.h>
@@ -109,7 +109,7 @@ TEST_F(LiveSettings, AnIsovalueIsSaidWhereItIsAnotherOne) {
     EXPECT_EQ(texts(s), (SettingTexts{{"isovalue", {"120"}}}));
     setLive(s, "isovalue", std::nullopt);
     EXPECT_EQ(texts(s), SettingTexts());
-    // Another function makes another scene, of the same isovalue.
+    // Another function makes another scene, with the same isovalue.
     mScene.changed = true;
     s.replaceScene(opened(mScene));
     EXPECT_EQ(texts(s), SettingTexts());

@@ -1,4 +1,4 @@
-// The line that is measured in the window: its places, what is kept of it, and figures that come from beside
+// The line that is measured in the window: its places, what of it is kept, and figures from the work beside
 // it.
 #include "app/view/measured_line.h"
 
@@ -25,7 +25,7 @@
 namespace stereonav {
 namespace {
 
-// Says how many places it was asked for; of four it can say nothing.
+// Reports how many places it was asked for; for four it fails.
 class CountingScene final : public Scene, public LineMeasurer {
 public:
     CountingScene() { offer<LineMeasurer>(*this); }
@@ -92,7 +92,7 @@ TEST(MeasuredLine, IsMeasuredBesideTheWindowEachTimeItChanges) {
     settle(line);
     EXPECT_EQ(placesSaid(line), 3);
     EXPECT_TRUE(std::get<bool>(line.measured()->facts.at(1).value));
-    // What fails says why, and the next change goes on.
+    // A failure has a reason, and the next change goes on.
     line.add({9, 9, 9});
     settle(line);
     EXPECT_FALSE(line.measured());
@@ -101,7 +101,7 @@ TEST(MeasuredLine, IsMeasuredBesideTheWindowEachTimeItChanges) {
     settle(line);
     EXPECT_EQ(placesSaid(line), 3);
     EXPECT_EQ(line.problem(), "");
-    // Changes that come while it is measured: the last one counts.
+    // With changes during a measurement the last one counts.
     for (int n = 0; n < 20; ++n) line.add({n, 0, 0}), line.poll();
     settle(line);
     EXPECT_EQ(placesSaid(line), 23);
@@ -126,7 +126,7 @@ TEST(MeasuredLine, LongMeasuringTellsItsShareAndEndsWithAnyChange) {
     EXPECT_EQ(line->problem(), "");
     line->setClosed(true);
     line->poll();
-    line.reset();  // ends it as well
+    line.reset();  // ends it, too
 }
 
 TEST(MeasuredLine, IsKeptAsItIsMade) {
@@ -163,7 +163,7 @@ TEST(MeasuredLine, IsKeptAsItIsMade) {
         EXPECT_NE(line.problem(), "") << damaged;
         EXPECT_FALSE(std::filesystem::exists(file)) << "set aside";
     }
-    // Where nothing can be written the line goes on.
+    // The line goes on where nothing can be written.
     MeasuredLine line([] {});
     std::ofstream(folder / "plain").put('x');
     line.open(scene, folder / "plain" / "one.json");
@@ -203,7 +203,7 @@ TEST(MeasuredLine, WithoutAMeasurerIsMeasuredFromPlaceToPlace) {
     EXPECT_EQ(line.measured()->places.size(), 4U);
 }
 
-// Waits at the gate, hears of no end, and says of which places and how high an eye it was asked.
+// Waits at the gate, is not told of its end, and reports the places and eye height that it was asked for.
 class LateScene final : public Scene, public LineMeasurer {
 public:
     explicit LateScene(double number) : mNumber(number) { offer<LineMeasurer>(*this); }
@@ -236,13 +236,13 @@ double said(const MeasuredLine& line, const std::string& key) {
     return -2;
 }
 
-// Whatever is changed while it is measured, what comes of it is not taken: neither figures nor a failure.
+// After any change during a measurement its result is not taken: neither figures nor a failure.
 TEST(MeasuredLine, WhatWasMeasuredBeforeAChangeIsNotTaken) {
     const auto late = std::make_shared<LateScene>(1), other = std::make_shared<LateScene>(2);
     struct Change {
         const char* name;
         std::function<void(MeasuredLine&)> make;
-        double scene, last, eye;  // that it says in the end; -1: nothing
+        double scene, last, eye;  // values that it reports in the end; -1: none
     };
     const std::vector<Change> changes = {
         {"a place more",
@@ -283,7 +283,7 @@ TEST(MeasuredLine, WhatWasMeasuredBeforeAChangeIsNotTaken) {
         }
 }
 
-// A, B, A: the same places again are measured again, and say what they said.
+// A, B, A: the same places are measured again, with the same result.
 TEST(MeasuredLine, ThereAndBackSaysTheSame) {
     const auto scene = std::make_shared<LateScene>(1), other = std::make_shared<LateScene>(2);
     MeasuredLine line([] {});

@@ -1,4 +1,4 @@
-// Stepping through the modes, and what pictures of modes are saved as that fit in none.
+// Stepping through the modes, and modes for saved pictures in place of those that fit in none.
 #include "app/view/mode_steps.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Which monitor is meant, and from where an interleaved display counts its rows. No display needed.
+// Which monitor is chosen, and from where an interleaved display counts its rows. No display needed.
 #include "engine/display/monitors.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ Monitor monitorAt(const std::string& name, const ScreenRect& area) {
     return monitor;
 }
 
-// A desk monitor, and glasses right of it and an odd number of rows lower.
+// Returns a desk monitor, and glasses right of it and an odd number of rows lower.
 std::vector<Monitor> deskAndGlasses() {
     return {monitorAt("DP-1", {0, 0, 1921, 1080}), monitorAt("HDMI-1", {1921, 33, 3840, 1080})};
 }
@@ -30,7 +30,7 @@ TEST(Monitors, TheWindowIsOnTheOneThatHasMostOfIt) {
     EXPECT_EQ(monitorUnder(list, {1921 - 200, 100, 640, 480}), 1u);
     EXPECT_EQ(monitorUnder(list, {1921 - 320, 100, 640, 480}), 0u) << "the first of equals";
     EXPECT_EQ(monitorUnder(list, {0, 0, 1921 + 3840, 1113}), 1u) << "over both";
-    // On none of them, or without a size: the nearest.
+    // On none of the monitors, or without a size: the nearest is chosen.
     EXPECT_EQ(monitorUnder(list, {-5000, 40, 100, 100}), 0u);
     EXPECT_EQ(monitorUnder(list, {9000, 40, 100, 100}), 1u);
     EXPECT_EQ(monitorUnder(list, {3000, 40, 0, 0}), 1u);

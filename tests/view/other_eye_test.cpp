@@ -1,6 +1,5 @@
-// What is done for one eye is done for the other: labels that meet in either, pictures that rest, and
-// pictures that are shown from elsewhere. Each is tried where it shows in the right eye alone, and in the
-// left one alone.
+// Both eyes are treated alike: labels that meet in either, pictures that rest, and pictures that are shown
+// from elsewhere. Each is tried where it shows only in the right eye, and only in the left one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +43,7 @@ protected:
     std::vector<PlaceLabel> labelsOf(const std::vector<LabelledPlace>& places) const {
         return labelsInView(mViews, mSky, places, textSize, kTextMargin);
     }
-    // The text and the margin around it: left, top, right, bottom.
+    // Returns the text and the margin around it: left, top, right, bottom.
     static std::array<double, 4> boxOf(const PlaceLabel& label, bool right) {
         const glm::dvec2 at = (right ? label.mark.right : label.mark.left) + label.textAt;
         const glm::dvec2 size = textSize(label.text);
@@ -56,7 +55,7 @@ protected:
         return std::max(one[0], other[0]) < std::min(one[2], other[2]) &&
                std::max(one[1], other[1]) < std::min(one[3], other[3]);
     }
-    // Each by itself, and how they would lie to each other.
+    // Returns how two labels would overlap in each eye if they were alone.
     std::array<bool, 2> wouldMeet(const LabelledPlace& a, const LabelledPlace& b) const {
         const auto one = labelsOf({a}), other = labelsOf({b});
         EXPECT_EQ(one.size(), 1u);
@@ -73,12 +72,12 @@ protected:
     }();
 };
 
-// The near one moves to the left from the left eye to the right one, the far one to the right.
+// The near label moves to the left from the left eye to the right one, the far one to the right.
 TEST_F(LabelsOfBothEyes, NoneLiesOverAnotherInEitherEye) {
     const LabelledPlace far = placeAt("far", 160, 100, 5000);
     struct Case {
         const char* name;
-        double x;  // of the near one
+        double x;  // x of the near label
         std::array<bool, 2> meets;
     };
     for (const Case& one : {Case{"in the right eye alone", 194, {false, true}},
@@ -145,7 +144,7 @@ TEST_F(LabelsOfBothEyes, AreAsTheRuleSays) {
     EXPECT_GT(inOneAlone[1], 50) << "right";
 }
 
-// A place that one eye alone has in its picture has no label, on either side.
+// A place that only one eye has in its picture has no label, on either side.
 TEST_F(LabelsOfBothEyes, AreOfPlacesThatBothEyesSee) {
     const auto far = [&](double x) { return placeAt("x", x, 100, 1e6); };  // 7.9 pixels to the right
     const auto near = [&](double x) { return placeAt("x", x, 100, 35); };  // 5.6 to the left
@@ -170,7 +169,7 @@ EyeImage wallAt(int width, int height, float depth, PackedColor color) {
     return image;
 }
 
-// Walls at two depths, one for each eye, as a frame that was prepared for the late warp.
+// Returns walls at two depths, one for each eye, as a frame that was prepared for the late warp.
 std::unique_ptr<ViewFrame> twoWalls(float left, float right) {
     auto frame = std::make_unique<ViewFrame>();
     frame->request = bothEyes();
@@ -183,7 +182,7 @@ std::unique_ptr<ViewFrame> twoWalls(float left, float right) {
     return frame;
 }
 
-// The eye whose wall is near sees beyond it, whichever of the two that is.
+// The eye whose wall is near sees beyond it, whichever of the two it is.
 TEST(LateOfBothEyes, WhatIsSeenBeyondIsThatOfEitherEye) {
     FrameRequest now = bothEyes();
     now.pose.position += 1.5 * now.pose.right();
@@ -202,7 +201,7 @@ TEST(LateOfBothEyes, WhatIsSeenBeyondIsThatOfEitherEye) {
         EXPECT_LT(LateView::seenBeyond(*frame, bothEyes()).x, 1e-4) << "from where it was cast";
 }
 
-// Each eye's picture moves as its own wall is near: columns tell where they come from.
+// Each eye's picture moves by the depth of its own wall: columns encode where they come from.
 TEST(LateOfBothEyes, EachIsWarpedByItsOwnDepths) {
     FrameRequest now = bothEyes();
     now.pose.position += 0.5 * now.pose.right();

@@ -1,5 +1,5 @@
-// What surfaces are painted with is put over each eye once, in the window's frames, at rest, over the truth
-// that a frame is held against, and in pictures for files.
+// Paint is put over each eye once, in the window's frames, at rest, over the truth that a frame is compared
+// with, and in pictures for files.
 #include <gtest/gtest.h>
 
 #include "app/output/stereo_frame.h"
@@ -16,7 +16,7 @@ namespace stereonav {
 namespace {
 
 PackedColor halved(PackedColor color) {
-    return packColor(unpackColor(color) * 0.25f);  // half of what is packed
+    return packColor(unpackColor(color) * 0.25f);  // half of the packed value
 }
 
 // Surfaces left of x = 0 get darker with each coat.
@@ -56,7 +56,7 @@ protected:
         return request;
     }
     StereoViews views() const { return makeStereoViews(request().pose, request().lens, request().stereo); }
-    // `plain` with one coat in each eye.
+    // Expects `plain` with one coat in each eye.
     void expectOneCoat(const EyePair& plain, const EyePair& painted) const {
         EyePair coated = plain;
         const DarkerOnTheLeft coat;

@@ -1,4 +1,5 @@
-// Heights that are exaggerated otherwise: eyes, flights and places stay as high over the ground as they were.
+// Heights that are exaggerated by another factor: eyes, flights and places stay at their height over the
+// ground.
 #include "app/view/raised_ground.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +69,7 @@ TEST_F(RaisedGroundTest, KeptPlacesSayByWhatScaleTheyWereKept) {
     EXPECT_EQ(placeNow(place, *plain->scene).pose.position, place.pose.position);
     const glm::dvec3 moved = placeNow(place, *raised->scene).pose.position;
     EXPECT_NEAR(over(*raised->scene, moved), over(*plain->scene, place.pose.position), 1e-4);
-    // Beside the ground and by settings that are not of it nothing is lost.
+    // Outside the ground, and by settings that are not of it, nothing is lost.
     place.settings = "vertical-scale=many";
     EXPECT_EQ(placeNow(place, *raised->scene).pose.position, place.pose.position);
 }
@@ -90,7 +91,7 @@ TEST_F(RaisedGroundTest, WhatIsPaintedIsSaidAndGoesOnInTheNextScene) {
     EXPECT_EQ(withLive(session, {}), (SettingTexts{{"contours", {"12"}}}));
     EXPECT_EQ(withLive(session, {{"contours", {"5"}}}), (SettingTexts{{"contours", {"12"}}}));
     EXPECT_EQ(valueNow(session, "contours"), "12");
-    // One that is to be loaded stays said.
+    // A setting that needs loading is kept.
     EXPECT_FALSE(isLive(session, "image", "ground.png"));
     EXPECT_EQ(withLive(session, {{"image", {"ground.png"}}}),
               (SettingTexts{{"contours", {"12"}}, {"image", {"ground.png"}}}));

@@ -1,4 +1,4 @@
-// A medium that rests: more slices until that changes nothing, then the mean of frames with slices elsewhere.
+// A resting medium: more slices until that changes nothing, then the mean of frames with slices elsewhere.
 #include "app/view/rest_refiner.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ TEST(RestRefiner, GivesAMediumMoreSlicesAndThenMoreRays) {
     EXPECT_GE(shown.rays, 8);
     EXPECT_GT(shown.expected_db, 40);
 
-    // What it came to is nearer to the truth than what was drawn.
+    // The result is nearer to the truth than the picture that was drawn.
     EyePair fine;
     scene.swept().setEffort(64);
     const FrameRequest& request = drawn->request;
@@ -84,7 +84,7 @@ TEST(RestRefiner, GivesAMediumMoreSlicesAndThenMoreRays) {
     EXPECT_GE(errorOf(fine.right.color, shown.right.color).psnr_db,
               errorOf(fine.right.color, drawn->right.color).psnr_db);
     EXPECT_GT(errorOf(fine.right.color, shown.right.color).psnr_db, 40);
-    EyePair again;  // and frames to come are made as before
+    EyePair again;  // later frames are made as before
     scene.frames().make(makeStereoViews(request.pose, request.lens, request.stereo), 0, {}, again);
     EXPECT_EQ(errorOf(again.left.color, drawn->left.color).psnr_db, kIdenticalPsnr_db);
 }

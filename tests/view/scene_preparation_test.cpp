@@ -1,4 +1,5 @@
-// What a coarser scene is shown for is prepared once, beside the window, and ended with the scene.
+// The data for a coarser scene's successor are prepared once, beside the window, and the work ends with the
+// scene.
 #include "app/view/scene_preparation.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +49,7 @@ void untilCancelled(Progress& progress) {
 
 class Preparation : public testing::Test {
 protected:
-    // Takes as the window does, turn by turn, until something has come.
+    // Takes the result like the window, turn by turn, until there is one.
     bool wait(const std::shared_ptr<const OpenScene>& shown) {
         return test::waitFor([&] {
             mPreparation.follow(shown);
@@ -82,13 +83,13 @@ TEST_F(Preparation, IsDoneOnceForAScene) {
     go = true;
     EXPECT_TRUE(wait(shown));
     EXPECT_EQ(mWoken, 1);
-    mPreparation.follow(shown);  // it is shown until the whole has been loaded
+    mPreparation.follow(shown);  // the scene is shown until the whole has been loaded
     EXPECT_FALSE(mPreparation.work());
     EXPECT_FALSE(mPreparation.take());
     EXPECT_EQ(times, 1);
 }
 
-// The same ground under other settings is another scene that lacks the same.
+// The same ground under other settings is another scene that lacks the same data.
 TEST_F(Preparation, GoesOnForASceneOfTheSameName) {
     std::atomic<int> times = 0;
     std::atomic<bool> go = false;
@@ -112,8 +113,8 @@ TEST_F(Preparation, IsDroppedWithItsScene) {
     EXPECT_EQ(times, 1);
 }
 
-// a, b, a: what is done for a while b was shown is not taken for b, and a is loaded again once it is shown
-// again, though the work had come to its end before it heard that it was to end.
+// a, b, a: work that is finished for a while b was shown is not taken for b, and a is loaded again once it is
+// shown again, though the work had finished before it was cancelled.
 TEST_F(Preparation, IsTakenForTheSceneThatCameBack) {
     for (const bool heard : {true, false}) {
         SCOPED_TRACE(heard);

@@ -1,4 +1,4 @@
-// What a scene was made of, and what comes back when another one is not to be had.
+// Settings that a scene was made of, and those that come back when another one can not be loaded.
 #include "app/view/scene_settings.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// How large a screen is: who says so goes first, and what is set is kept for its monitor.
+// Size of a screen: which source goes first, and what is set is kept for its monitor.
 #include "app/view/screen_sizes.h"
 
 #include <gmock/gmock.h>

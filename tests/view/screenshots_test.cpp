@@ -1,5 +1,5 @@
-// Pictures that are saved beside the window: of what was asked for when they were wished, one for each wish,
-// and in one line where they can not be saved.
+// Pictures that are saved beside the window: of the request at that time, one for each wish, and with one
+// line where they can not be saved.
 #include "app/view/screenshots.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One grey for each number.
+// Returns a frame of one grey for each number.
 std::shared_ptr<const ViewFrame> frameOf(long long version, float grey, bool twoEyes = true) {
     auto frame = std::make_shared<ViewFrame>();
     frame->request.version = version;
@@ -53,7 +53,7 @@ protected:
         }));
         return text;
     }
-    // Grey of a picture's pixel, 0 to 1.
+    // Returns the grey of a picture's pixel, 0 to 1.
     static float greyAt(const fs::path& file, int x) {
         const LinearImage picture = readLinearImage(file);
         return picture.pixels.at(static_cast<std::size_t>(2 * picture.width + x)).x;
@@ -102,7 +102,7 @@ TEST_F(ScreenshotsTest, APictureThatIsThereIsTakenAtOnce) {
     for (int y = 0; y < 6; ++y)
         for (int x = 0; x < 8; ++x) slice.at(x, y) = packColor(glm::vec3(0.75f));
     mShots.take(slice, mSideBySide);
-    slice = Plane<PackedColor>(8, 6);  // it is drawn anew meanwhile
+    slice = Plane<PackedColor>(8, 6);  // drawn again meanwhile
     mShots.take(frameOf(9, 0.1f), mSideBySide);
     reported();
     ASSERT_EQ(files().size(), 1u);

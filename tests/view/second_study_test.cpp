@@ -1,5 +1,5 @@
-// Another study beside the flown one: nothing of it runs before it is asked for, its place is the matching
-// one, swapped it is there and back, and what is no study is refused while the first goes on.
+// Another study beside the flown one: nothing runs before it is asked for, its place is the matching one,
+// swapping works both ways, and a file that is no study is refused while the first goes on.
 #include "app/view/second_study.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@
 namespace stereonav {
 namespace {
 
-// Shows one colour, whatever a ray does; `drawn` is told where it is seen from.
+// Shows one colour for every ray; `drawn` gets the eye's place.
 class OneColor final : public EyeRenderer {
 public:
     explicit OneColor(PackedColor color) : mColor(color) {}
@@ -40,7 +40,7 @@ private:
     PackedColor mColor;
 };
 
-// The line is the x axis from 0 to `length`; places match by their share of it.
+// A line along the x axis from 0 to `length`; places match by their share of it.
 class StraightLine final : public Scene, LineThrough, MatchingLine {
 public:
     StraightLine(double length, PackedColor color, bool line = true) : mLength(length), mRenderer(color) {
@@ -88,7 +88,7 @@ std::shared_ptr<const OpenScene> straightLine(double length, PackedColor color, 
         OpenScene{std::make_shared<StraightLine>(length, color, line), {}, {}, 0, false});
 }
 
-// True when it is there; throws what poll() throws.
+// Returns true when it is there; throws the exceptions of poll().
 bool waitForSecond(SecondStudy& second) {
     bool there = false;
     EXPECT_TRUE(test::waitFor([&] { return (there = second.poll()) || !second.loading(); }));
@@ -148,7 +148,7 @@ TEST(SecondStudy, RefusesWhatHasNoLineAndForgetsWhatIsNotWanted) {
     second.open(first, endless);
     second.cancel();
     EXPECT_THROW(waitForSecond(second), Cancelled);
-    // Another file: the end of the first is silent, and the second begins after it.
+    // Another file: the first ends without a notice, and the second begins after it.
     second.open(first, endless);
     second.close();
     EXPECT_NO_THROW(waitForSecond(second));
@@ -157,8 +157,8 @@ TEST(SecondStudy, RefusesWhatHasNoLineAndForgetsWhatIsNotWanted) {
     EXPECT_TRUE(waitForSecond(second));
 }
 
-// The one that was asked for last is there in the end, whatever the others do that come late: come to their
-// end though they were given up, or fail.
+// The last one asked for is there in the end, whatever the late others do: finish though they were cancelled,
+// or fail.
 TEST(SecondStudy, TheOneAskedForLastIsThere) {
     for (const bool fails : {false, true}) {
         SCOPED_TRACE(fails);
@@ -223,7 +223,7 @@ TEST(SecondStudy, WhatWasCancelledAtItsEndIsNotThere) {
     EXPECT_FALSE(second.other());
 }
 
-// Places asked for while one is drawn: the last one is drawn after it, the ones between are not, and no
+// Of places asked for while one is drawn the last one is drawn after it, the ones between are not, and no
 // picture of the study before is shown after a swap or once it is closed.
 TEST(SecondStudy, PicturesAreOfTheNewestPlaceOfTheStudyThatIsThere) {
     const PackedColor red = packColor({1, 0, 0}), blue = packColor({0, 0, 1});
@@ -246,7 +246,7 @@ TEST(SecondStudy, PicturesAreOfTheNewestPlaceOfTheStudyThatIsThere) {
     EXPECT_FALSE(second.matching(*flown->scene, Pose{}));
 }
 
-// There and back while a picture is drawn: what lies between is not drawn any more.
+// There and back while a picture is drawn: the place between is not drawn any more.
 TEST(SecondStudy, APlaceThatWasLeftAgainIsNotDrawn) {
     const auto first = straightLine(1, 0), other = straightLine(2, 0);
     test::Gate gate;
@@ -277,7 +277,7 @@ TEST(SecondStudy, APlaceThatWasLeftAgainIsNotDrawn) {
     EXPECT_EQ(drawn.back(), 0.9);
 }
 
-// Swapped twice it is as it was: the match, too.
+// Swapped twice everything is as before: the match, too.
 TEST(SecondStudy, SwappedTwiceIsAsBefore) {
     const auto first = straightLine(1, 0), other = straightLine(2, 0);
     SecondStudy second([] {});
@@ -290,7 +290,7 @@ TEST(SecondStudy, SwappedTwiceIsAsBefore) {
     const auto after = second.matching(*first->scene, eye);
     ASSERT_TRUE(before && after);
     EXPECT_EQ(*before, *after);
-    // And another one that is opened after a swap is matched from the flown one's line.
+    // Another study that is opened after a swap is matched from the flown one's line.
     second.swap(first);
     const auto third = straightLine(4, 0);
     second.open(other, [&](Progress&) { return *third; });

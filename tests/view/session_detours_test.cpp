@@ -1,5 +1,5 @@
-// There and back: what a person sets and sets back leaves the session as if nothing had been touched, paths
-// come back one by one, and what was asked for before a change is not taken after it.
+// Settings there and back: the session is then as if nothing had been touched, paths come back one by one,
+// and requests from before a change are not taken after it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -27,7 +27,7 @@ RecordedPath lasting(double seconds) {
                         "test");
 }
 
-// A scene of all that can be set at once.
+// Returns a scene with all settings that can be set at once.
 FakeParts richScene() {
     FakeParts scene;
     scene.makeFlight = []() -> std::unique_ptr<Flight> {
@@ -69,7 +69,7 @@ protected:
     static ViewSession sessionOf(const FakeParts& parts) {
         return ViewSession(opened(parts), {OutputMode::SideBySide, std::nullopt, "."});
     }
-    // All that is asked of a frame, and all that is said of the settings.
+    // Returns a text with the whole request for a frame and all settings.
     static std::string told(ViewSession& s) {
         const FrameRequest r = s.requestFor(640, 360);
         const ComposeSetting c = s.compose();
@@ -81,7 +81,7 @@ protected:
             s.followsClearance());
         const SurfaceChange surface = s.surface().now();
         const bool translucent = surface.translucent.value_or(false);
-        // A function that is not seen is remembered for when it is.
+        // A function that is not in use is remembered for when it is.
         text += fmt::format(" {} {} {}", surface.isovalue.value_or(-1), translucent,
                             translucent ? *surface.transfer : "");
         if (surface.ambient)
@@ -181,7 +181,7 @@ TEST_F(SessionDetours, ThereAndBackIsAsIfNeverLeft) {
     }
 }
 
-// One detour within another, each undone in its turn.
+// Detours within another one are undone in turn.
 TEST_F(SessionDetours, OneWithinAnotherToo) {
     for (std::size_t n = 0; n < detours().size(); ++n) {
         const Detour &outer = detours()[n], &inner = detours()[(n + 7) % detours().size()];
@@ -225,7 +225,7 @@ TEST_F(SessionDetours, WhatIsAskedForAfterADetourHasANumberOfItsOwn) {
     }
 }
 
-// What was measured of A does not stand beside B, nor beside A once it is asked for anew.
+// A measurement of A is neither shown beside B, nor beside A once it is asked for again.
 TEST_F(SessionDetours, AMeasuringIsOfItsOwnPictureAlone) {
     ViewSession s = sessionOf(mParts);
     ViewFrame frame;
@@ -271,7 +271,7 @@ TEST_F(SessionDetours, AsManyPathsAsAreKept) {
     EXPECT_EQ(s.paths().path().duration(), 120) << "fifty steps back";
 }
 
-// Steps of long recordings: as many as a million places are in, and one always.
+// Undo of long recordings: as many steps as a million places allow, and always one.
 TEST_F(SessionDetours, StepsOfLongPathsAreFewer) {
     const auto ofPlaces = [](std::size_t count) {
         std::vector<PathSample> samples(count);
@@ -292,7 +292,7 @@ TEST_F(SessionDetours, StepsOfLongPathsAreFewer) {
     }
 }
 
-// The scene's own path, changed and taken back, is the scene's own again: it goes with the scene.
+// The scene's own path, changed and restored, is the scene's own again: it changes with the scene.
 TEST_F(SessionDetours, AnOwnPathThatIsTakenBackIsTheScenesAgain) {
     for (const bool goes : {true, false}) {
         SCOPED_TRACE(goes);
@@ -309,7 +309,7 @@ TEST_F(SessionDetours, AnOwnPathThatIsTakenBackIsTheScenesAgain) {
         s.paths().undo();
         EXPECT_EQ(s.paths().path().duration(), 3) << "that of the scene that is shown now";
     }
-    // One that was given stays.
+    // A path that was given stays.
     ViewSession given(opened(mParts), {OutputMode::SideBySide, lasting(5), "."});
     given.paths().edit([](const RecordedPath&) { return lasting(7); });
     given.paths().undo();
@@ -319,7 +319,7 @@ TEST_F(SessionDetours, AnOwnPathThatIsTakenBackIsTheScenesAgain) {
     EXPECT_EQ(given.paths().path().duration(), 5);
 }
 
-// What fails is no step: neither is there one more to be taken back, nor is the present path lost.
+// An edit that fails is no step: there is nothing more to undo, and the present path is not lost.
 TEST_F(SessionDetours, AnEditThatFailsIsNoStep) {
     ViewSession s = sessionOf(mParts);
     s.paths().edit([](const RecordedPath&) { return lasting(7); });
@@ -352,8 +352,8 @@ TEST_F(SessionDetours, PlayingEndsWithEachChangeOfThePath) {
 
 // --- changes that are made beside the frames
 
-// Asked for: A, B, A. Made: none, failed, or dropped. What is shown counts, and nothing of what was asked
-// for.
+// Asked for: A, B, A. Made: none, failed, or dropped. The scene that is shown counts, and none of the
+// requests.
 TEST_F(SessionDetours, AChangeThatDidNotComeAboutIsForgotten) {
     ViewSession s = sessionOf(mParts);
     const std::string before = told(s);
@@ -366,7 +366,7 @@ TEST_F(SessionDetours, AChangeThatDidNotComeAboutIsForgotten) {
         s.surface().forgetChange();
         EXPECT_EQ(told(s), before) << static_cast<int>(command);
     }
-    // One that is asked for since stays.
+    // A later request stays.
     act(s, ViewCommand::HigherIsovalue);
     s.surface().takeChange();
     act(s, ViewCommand::HigherIsovalue);
@@ -376,7 +376,8 @@ TEST_F(SessionDetours, AChangeThatDidNotComeAboutIsForgotten) {
     EXPECT_EQ(later->surface.isovalue, 120);
 }
 
-// A scene that is loaded anew (not made from the one before) says what it shows: wishes of before are gone.
+// A scene that is loaded again (not made from the one before) says what it shows: earlier requests are
+// dropped.
 TEST_F(SessionDetours, AnotherSceneBeginsWithItsOwnSurface) {
     ViewSession s = sessionOf(mParts);
     act(s, ViewCommand::HigherIsovalue);
@@ -386,7 +387,7 @@ TEST_F(SessionDetours, AnotherSceneBeginsWithItsOwnSurface) {
     s.replaceScene(opened(other));
     EXPECT_EQ(s.surface().now().isovalue, 333);
     EXPECT_FALSE(s.surface().takeChange());
-    // A study that was being read for slices is asked for once, and a wish that is dropped is gone.
+    // A study for slices is asked for once, and a wish that is dropped is gone.
     other.readSlices = [](Progress&) { return std::make_shared<const SliceStudy>(); };
     s.replaceScene(opened(other));
     s.slices().wishStudy();
@@ -429,7 +430,7 @@ TEST_F(SessionDetours, AGoalIsLeftByWhateverComesAfterIt) {
         end(s);
         EXPECT_FALSE(s.moves().toGoal());
     }
-    // Another goal takes its place: the flight ends there, not at the first one.
+    // Another goal replaces the first: the flight ends there, not at the first one.
     ViewSession s = sessionOf(mParts);
     s.flyTo(goal);
     for (int n = 0; n < 10; ++n) s.step({}, 1.0 / 60);

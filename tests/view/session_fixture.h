@@ -45,7 +45,7 @@ protected:
         return ViewSession(opened(*mScene), {OutputMode::SideBySide, std::nullopt, mFolder});
     }
 
-    // A frame with this range of parallax.
+    // Returns a frame with this range of parallax.
     static ViewFrame frameWith(double nearest, double farthest) {
         ViewFrame frame;
         frame.left.resize(10, 10);

@@ -1,5 +1,5 @@
-// Settings as texts: what a command line gives comes back from them, scene files keep what a person wrote,
-// and steps are undone.
+// Settings as texts: the command line comes back from them, scene files keep the user's own text, and steps
+// are undone.
 #include "app/view/setting_texts.h"
 
 #include <gmock/gmock.h>
@@ -73,7 +73,7 @@ TEST(SettingsHistory, GoesBackAndForth) {
     EXPECT_FALSE(history.canUndo());
     EXPECT_FALSE(history.undo());
     history.observe(b, true, 0.1);
-    history.observe(c, true, 5);  // a drag passes by
+    history.observe(c, true, 5);  // during a drag
     history.observe(c, false, 5);
     EXPECT_TRUE(history.canUndo());
     EXPECT_EQ(history.undo(), a) << "one step";
@@ -99,7 +99,7 @@ TEST(SettingsHistory, WhatComesBackByItselfIsNoStep) {
     EXPECT_FALSE(history.canUndo());
 }
 
-// A load that was cancelled, or failed: opened, gone back to, gone forth to.
+// A load that was cancelled, or failed: opened, undone, redone.
 TEST(SettingsHistory, WhatDidNotComeAboutIsNoStep) {
     SettingsHistory history;
     const SettingTexts a{{"fov", {"40"}}}, b{{"fov", {"50"}}}, c{{"fov", {"60"}}};

@@ -1,4 +1,5 @@
-// Slices of a study as pictures: the right way round, with square millimetres, clicks where they are seen.
+// Slices of a study as pictures: the right way round, with square millimetres, and clicks at the visible
+// place.
 #include "app/view/slice_picture.h"
 
 #include <gmock/gmock.h>
@@ -10,7 +11,7 @@
 namespace stereonav {
 namespace {
 
-// 20 x 30 x 10 voxels of 1 x 1 x 4 mm, patient's axes; the value tells the voxel.
+// Returns 20 x 30 x 10 voxels of 1 x 1 x 4 mm, patient's axes; the value encodes the voxel.
 GreyVolume numbered(const VolumeFrame& frame) {
     GreyVolume grey(frame);
     for (int k = 0; k < frame.size.z; ++k)
@@ -58,7 +59,7 @@ TEST(SliceLayout, MillimetresAreSquareAndTheSliceFits) {
         }
 }
 
-// What radiology expects: axial seen from the feet, the patient's left on the right and the back at the
+// Orientation in radiology: axial seen from the feet, the patient's left on the right and the back at the
 // bottom; coronal and sagittal with the head up.
 TEST(SliceLayout, ThePatientLiesAsRadiologyShowsHim) {
     VolumeFrame mirrored =
@@ -138,7 +139,7 @@ TEST(SlicePicture, VoxelsLieWhereTheLayoutSays) {
     for (const SliceAxis axis : kAxes) {
         const SliceLayout layout(grey.frame, axis, 500, 500);
         for (const glm::ivec3 v : {glm::ivec3(3, 4, 5), glm::ivec3(12, 25, 8)}) {
-            // The values are linear in the voxel, so they are known at the pixel's own centre as well.
+            // Values are linear in the voxel, so that they are known at the pixel's own centre as well.
             const glm::dvec2 p = glm::floor(layout.pixelOf(glm::dvec3(v))) + 0.5;
             const glm::dvec3 at = layout.voxelAt(p.x, p.y, v[layout.normal()]);
             EXPECT_LT(glm::length(at - glm::dvec3(v)), 0.2);
@@ -172,7 +173,7 @@ TEST(SlicePicture, TheLumenIsOutlinedWhereverItsFrameLies) {
             const double dy = std::min(std::abs(v.y - 9.75), std::abs(v.y - 17.75));
             EXPECT_LT(std::min(dx, dy), 0.25) << x << ' ' << y;
         }
-    // Twice 6 and 8 mm at 10 pixels a millimetre.
+    // The outline has twice 6 and 8 mm at 10 pixels a millimetre.
     EXPECT_NEAR(marked, 2 * (60 + 80), 8);
 }
 
@@ -198,7 +199,7 @@ TEST(SlicePicture, MarksFadeAndEndWithTheDistanceOfTheirSlice) {
     EXPECT_EQ(drawSlice({&grey, 1500, 5000, nullptr, {astray, beside}}, layout, 5, 30, 30).at(15, 15), 0u);
 }
 
-// The picture by the layout's own places, pixel by pixel.
+// Computes the picture from the layout's own places, pixel by pixel.
 PackedColor plainPixel(const SliceContent& content, const SliceLayout& layout, int slice, int x, int y) {
     const GreyVolume& grey = *content.grey;
     if (!layout.worldAt(x + 0.5, y + 0.5, slice)) return 0;
@@ -225,7 +226,7 @@ PackedColor plainPixel(const SliceContent& content, const SliceLayout& layout, i
 TEST(DrawSlice, IsThePlainOneInEveryDirectionAndSize) {
     VolumeFrame frame = upright();
     for (int turned = 0; turned < 2; ++turned) {
-        if (turned) {  // axes exchanged and one of them turned over, as scanners give them
+        if (turned) {  // axes exchanged and one of them reversed, as scanners store them
             frame.axes[0] = {0, 0, -1};
             frame.axes[1] = {1, 0, 0};
             frame.axes[2] = {0, 1, 0};
@@ -244,7 +245,7 @@ TEST(DrawSlice, IsThePlainOneInEveryDirectionAndSize) {
                                                    .zoomed(zoom, frame.worldFromVoxel({3, 20, 7}));
                     for (const int slice : {0, layout.sliceCount() - 1, layout.sliceCount() / 2}) {
                         const auto picture = drawSlice(content, layout, slice, size.x, size.y);
-                        int other = 0;  // where rounding falls on the other side
+                        int other = 0;  // pixels where rounding falls to the other side
                         for (int y = 0; y < size.y; ++y)
                             for (int x = 0; x < size.x; ++x)
                                 other += picture.at(x, y) != plainPixel(content, layout, slice, x, y);

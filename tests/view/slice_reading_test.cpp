@@ -1,5 +1,5 @@
-// Slices that are read beside the window: cancelled, they can be read again; of another study, they are not
-// shown.
+// Slices that are read beside the window: after a cancel they can be read again; those of another study are
+// not shown.
 #include <gtest/gtest.h>
 
 #include "app/view/loading.h"
@@ -11,7 +11,7 @@
 namespace stereonav {
 namespace {
 
-// Reads until it is cancelled, or at once.
+// Returns a study that is read until it is cancelled, or at once.
 std::shared_ptr<const OpenScene> studyThatReads(bool forEver) {
     FakeParts parts;
     parts.readSlices = [forEver](Progress& progress) {
@@ -21,7 +21,7 @@ std::shared_ptr<const OpenScene> studyThatReads(bool forEver) {
     return opened(parts);
 }
 
-// What take() gives in the end; throws what it throws.
+// Returns the final result of take(); throws its exceptions.
 std::shared_ptr<const SliceStudy> outcomeOf(SliceReading& reading) {
     std::shared_ptr<const SliceStudy> study;
     EXPECT_TRUE(test::waitFor([&] { return (study = reading.take()) || !reading.busy(); }));
@@ -53,8 +53,8 @@ TEST(SliceReading, OfTheStudyBeforeIsForgotten) {
     }
 }
 
-// Cancelled or given up when nothing asks for it any more: the study that was read all the same is not taken,
-// and neither is it for the study that is read next.
+// Cancelled or abandoned when nothing checks for it any more: the study that was read is not taken, not even
+// for the study that is read next.
 TEST(SliceReading, WhatComesAfterItWasGivenUpIsNotTaken) {
     for (const bool abandoned : {true, false}) {
         SCOPED_TRACE(abandoned);
@@ -68,7 +68,7 @@ TEST(SliceReading, WhatComesAfterItWasGivenUpIsNotTaken) {
         reading.start(opened(parts), [] {});
         gate.await();
         abandoned ? reading.abandon() : reading.cancel();
-        reading.start(studyThatReads(false), [] {});  // nothing while it is busy
+        reading.start(studyThatReads(false), [] {});  // does nothing while it is busy
         gate.open();
         if (abandoned)
             EXPECT_EQ(outcomeOf(reading), nullptr);
@@ -82,7 +82,7 @@ TEST(SliceReading, WhatComesAfterItWasGivenUpIsNotTaken) {
     }
 }
 
-// No failure of a scene that is gone is told either.
+// A failure of a scene that is gone is not reported, either.
 TEST(SliceReading, AFailureOfTheStudyBeforeIsNotTold) {
     for (const bool abandoned : {true, false}) {
         SCOPED_TRACE(abandoned);

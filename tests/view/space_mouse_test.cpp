@@ -1,4 +1,4 @@
-// The six-axis mouse against a daemon that is played here: a socket that says what spacenavd would.
+// The six-axis mouse with a daemon that is simulated here: a socket with the messages of spacenavd.
 #include "engine/display/space_mouse.h"
 
 #include <gmock/gmock.h>
@@ -87,7 +87,7 @@ TEST_F(SpaceMouseTest, SaysWhatTheDaemonTells) {
     daemon.say({1, 0, 0, 0, 0, 0, 0, 0});
     daemon.say({2, 0, 0, 0, 0, 0, 0, 0});
     daemon.say({1, 1, 0, 0, 0, 0, 0, 0});
-    daemon.say({77, 1, 2, 3, 4, 5, 6, 7});  // of a newer daemon
+    daemon.say({77, 1, 2, 3, 4, 5, 6, 7});  // from a newer daemon
     mouse.look();
     EXPECT_THAT(mouse.takePresses(), testing::ElementsAre(0, 1));
     EXPECT_TRUE(mouse.takePresses().empty());
@@ -137,8 +137,8 @@ TEST(SpaceMouseFlight, GoesWhereItIsPushed) {
     input.forward = 0.7;  // with a key held, too
     EXPECT_EQ(withSpaceMouse(input, state).forward, 1);
     EXPECT_EQ(withSpaceMouse(input, state).right, 1);
-    // The left-hand rule about right, up and forward: its front up is less than 0, to the right is more, its
-    // right side down is less.
+    // Left-hand rule about right, up and forward: front up is less than 0, to the right is more, right side
+    // down is less.
     state = {};
     state.twist = {-1, 0.5, -0.25};
     input = withSpaceMouse({}, state);

@@ -1,6 +1,5 @@
-// Every stack of steps back and forth, held action by action against a plain list of states: another change
-// does away with what was ahead, the bottom is the beginning, and the top is the end. What is kept of them is
-// bounded.
+// Every stack for undo and redo, compared action by action with a plain list of states: another change drops
+// the states ahead, the bottom is the beginning, and the top is the end. The number of kept steps is limited.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +29,7 @@ protected:
     SettingSteps() { mHistory.start(mPlain.now()); }
 
     void rest() { mHistory.observe(mPlain.now(), false, 1); }
-    // Not at rest yet.
+    // Sets without coming to rest.
     void set(const SettingTexts& settings) {
         mHistory.observe(settings, false, 0.1);
         if (settings != mPlain.now()) mPlain.change(settings);
@@ -74,7 +73,7 @@ TEST_F(SettingSteps, AreThoseOfAPlainList) {
         switch (random() % 6) {
             case 0:
                 set(settingsNumbered(++number));
-                random() % 2 ? rest() : undo();  // what is passed over is no step, but back goes from it
+                random() % 2 ? rest() : undo();  // a state that is passed is no step, but undo starts from it
                 break;
             case 1:
                 drag(number + 1, number + 4);
@@ -105,7 +104,7 @@ TEST_F(SettingSteps, ADetourLeavesNothingAhead) {
     EXPECT_EQ(mPlain.now(), settingsNumbered(9));
 }
 
-// Set by hand to what the step ahead had: another way all the same.
+// Set by hand to the next step: it is another way all the same.
 TEST_F(SettingSteps, TheSameSettingsAgainAreAnotherWay) {
     for (const int n : {1, 2, 3}) set(settingsNumbered(n)), rest();
     undo(), undo();
@@ -158,7 +157,7 @@ TEST_F(SettingSteps, AnotherSceneBeginsAnew) {
     EXPECT_FALSE(mHistory.redo());
 }
 
-// Keyframes with nothing in common but their number would do: compared are places and times.
+// Keyframes are compared by places and times: their number alone would be no test.
 using KeysSeen = std::vector<std::pair<double, glm::dvec3>>;
 
 KeysSeen seenOf(const Keyframes& keys) {
@@ -282,7 +281,7 @@ TEST_F(KeyframeSteps, TheOldestAreDroppedBeyondTwoHundred) {
     EXPECT_EQ(back, 200);
 }
 
-// A step back while the hand still drags: the drag never was, and what comes after it is as after any step.
+// An undo during a drag: the drag is dropped, and what comes after it is as after any step.
 TEST_F(KeyframeSteps, AStepWithinADragDropsIt) {
     drag(1);
     mEdit.beginDrag(2);
@@ -304,7 +303,7 @@ TEST_F(KeyframeSteps, AStepWithinADragDropsIt) {
     expectSame();
 }
 
-// Delete, a key for another one, or another handle while one is dragged: the drag ends first, as a step.
+// Delete, a key for another one, or another handle during a drag: the drag ends first, as a step.
 TEST_F(KeyframeSteps, AChangeWithinADragComesAfterIt) {
     const std::vector<std::function<void()>> changes = {
         [this] { add(); }, [this] { mEdit.removeChosen(), took(); },
@@ -316,7 +315,7 @@ TEST_F(KeyframeSteps, AChangeWithinADragComesAfterIt) {
         const KeysSeen bottom = seenOf(mEdit.keys());
         mEdit.beginDrag(1);
         mEdit.dragTo({700, 800 + 10.0 * static_cast<double>(n), 50});
-        took();  // where the hand is
+        took();  // place of the pointer
         changes[n]();
         EXPECT_FALSE(mEdit.dragging());
         expectSame();
@@ -341,7 +340,7 @@ TEST_F(KeyframeSteps, OtherKeyframesBeginAnew) {
     EXPECT_EQ(seenOf(mEdit.keys()), seenOf(keysInARow(2)));
 }
 
-// What can not be added is no step, and what was ahead stays.
+// A keyframe that can not be added is no step, and the steps ahead stay.
 TEST_F(KeyframeSteps, WhatFailsIsNoStep) {
     drag(1);
     undo();

@@ -1,4 +1,4 @@
-// Parallax on real screens, against figures worked out by hand, and for sizes that no screen has.
+// Parallax on real screens, compared with figures computed by hand, and for sizes that no screen has.
 #include "engine/display/stereo_screen.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(StereoScreen, MillimetresAndDegrees) {
-    // 2 % of half a metre: 10 mm. From 0.6 m: 2 atan(5 / 600) = 0.9549 degrees.
+    // Expected: 2 % of half a metre is 10 mm; from 0.6 m 2 atan(5 / 600) = 0.9549 degrees.
     const ScreenParallax far = onScreen(0.02, 0.5, 0.6);
     EXPECT_NEAR(far.millimetres, 10, 1e-12);
     EXPECT_NEAR(far.degrees, 0.95490, 1e-5);
@@ -39,7 +39,7 @@ TEST(StereoScreen, NoSizeIsNoParallax) {
     }
     EXPECT_EQ(screenParallaxText({}, {}), "");
     EXPECT_EQ(divergenceText({}), "");
-    // As near as can be, eyes look sideways at most.
+    // At the smallest distance eyes look sideways at most.
     EXPECT_NEAR(onScreen(1, 1, 1e-300).degrees, 180, 1e-9);
     EXPECT_EQ(onScreen(0, 0.5, 0.6).degrees, 0);
 }

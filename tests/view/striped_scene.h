@@ -14,8 +14,8 @@
 
 namespace stereonav {
 
-// Two walls with stripes in their world places, the nearer one over a third of the picture: the right eye has
-// holes, and a warp that is a little off.
+// Two walls with stripes at places of the world, the nearer one over a third of the picture: the right eye
+// has holes, and a warp that is a little off.
 class Stripes : public EyeRenderer {
 public:
     static constexpr int kTiles = 40;
@@ -36,8 +36,8 @@ public:
         return rect.x1 >= column || scale / (column - rect.x1) > 8;
     }
 
-    mutable std::atomic<int> tiles = 0, ofRightEye = 0;  // that were begun
-    std::atomic<bool> hold = false;                      // tiles that are begun
+    mutable std::atomic<int> tiles = 0, ofRightEye = 0;  // tiles that were begun
+    std::atomic<bool> hold = false;                      // holds tiles that are begun
 
 private:
     static void paint(const EyeView& view, int x, int y, EyeImage& image) {

@@ -1,4 +1,4 @@
-// The sun by date, time and place: as the engine has it, with the days and clocks that people have.
+// The sun by date, time and place: equal to the engine's, with usual days and clocks.
 #include "app/view/sun_clock.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A transfer function while it is edited: in order whatever a hand does, and told by its text.
+// A transfer function that is being edited: ordered after every change, and defined by its text.
 #include "app/view/transfer_curve.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TransferCurve curveOf(const std::string& text) {
 TransferCurve ramp() {
     return curveOf("curve:0:0:0:0:0,100:1:1:1:1");
 }
-// Its text is one that --transfer takes, and the same when it comes back.
+// Expects a text that --transfer takes, and that is the same after reading.
 void expectWhole(const TransferCurve& curve) {
     EXPECT_EQ(curveOf(curve.text()).text(), curve.text());
 }
@@ -73,7 +73,7 @@ TEST(TransferCurve, PointsDoNotPassEachOther) {
     curve.move(2, kEndless, 0);
     EXPECT_TRUE(std::isfinite(curve.points()[2].value));
     expectWhole(curve);
-    // Where there is no room between neighbours a point stays.
+    // A point stays where there is no room between its neighbours.
     TransferCurve tight = curveOf("curve:1:1:1:1:0,1.0000000000000002:1:1:1:0.5,1.0000000000000004:1:1:1:1");
     tight.move(1, 5, 0.7);
     EXPECT_EQ(tight.points()[1].value, 1.0000000000000002);

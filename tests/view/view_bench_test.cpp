@@ -1,4 +1,4 @@
-// What `view --bench` notes of a flight: when pictures were shown is made up here.
+// Results of `view --bench`: the times of pictures are made up here.
 #include "app/view/view_bench.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ double benchNumber(const Facts& facts, const std::string& key) {
     return std::nan("");
 }
 
-// Both eyes of one grey, which is the place along x.
+// Both eyes have one grey, which is the place along x.
 class GreyFrames final : public test::OneMethodFrames {
 public:
     void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) override {
@@ -92,8 +92,9 @@ TEST(ViewBench, FliesAFlightThatWasGivenToItsEnd) {
     EXPECT_EQ(bench.step(1003.1, true, true, 1000), ViewBench::Wish::Stop);
 }
 
-// Pictures 20 ms apart, but every tenth, which is 50 ms late; each asked for 100 ms before it is shown, for a
-// moment 70 ms ahead; off by a grey level in motion, half a one a second later, and right after ten.
+// Pictures are 20 ms apart, except every tenth, which is 50 ms late; each is asked for 100 ms before it is
+// shown, for a moment 70 ms ahead; errors are a grey level in motion, half a one a second later, and none
+// after ten.
 TEST(ViewBench, TellsWhatWasShown) {
     ViewBench bench;
     bench.step(0, true, false, 10);

@@ -1,4 +1,4 @@
-// Keys and gamepad buttons mean what the help says.
+// Keys and gamepad buttons have the meaning that help gives them.
 #include <gmock/gmock.h>
 
 #include "app/view/input.h"

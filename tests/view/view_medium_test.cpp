@@ -1,5 +1,5 @@
 // Media in the viewer without a window: both eyes come from one place, models and light change between
-// frames, and what moves by itself moves with the clock.
+// frames, and moving parts follow the clock.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace stereonav {
 namespace {
 
-// Both eyes in the colour of the method and the model, with the time as depth.
+// Both eyes have the colour of the method and the model, with the time as depth.
 class Fog : public FrameMaker {
 public:
     std::span<const std::string_view> methods() const override { return kSweepMethods; }
@@ -129,13 +129,13 @@ TEST(ViewMedium, OnlyWhatMovesByItselfHasAClock) {
         EXPECT_NEAR(s.requestFor(80, 40).time, 0.1 * n, 1e-12);
         EXPECT_TRUE(s.moving());
     }
-    // A flight is played on its own clock, so that it looks the same each time.
+    // A flight has a clock of its own, so that it looks the same each time.
     s.act({ViewCommand::Play});
     s.step({}, 0.25);
     EXPECT_NEAR(s.requestFor(80, 40).time, 0.25, 1e-12);
 }
 
-// So that its picture can become the truth.
+// The parts stop so that the picture can become the truth.
 TEST(ViewMedium, WhatMovesByItselfMayStandStillAtRest) {
     FakeParts scene = fogScene();
     scene.animated = true;

@@ -12,7 +12,7 @@
 namespace stereonav {
 namespace {
 
-// Two pieces of gas and a pool, of which the lumen holds the first piece alone.
+// Two pieces of gas and a pool; the lumen holds only the first piece.
 class ViewPieces : public testing::Test {
 protected:
     ViewPieces() : mStudy(studyOf()), mLumen(mStudy->grey.frame) {
@@ -53,7 +53,7 @@ protected:
     ViewSession session() {
         return ViewSession(opened(*mScene), {OutputMode::SideBySide, std::nullopt, testing::TempDir()});
     }
-    // Its slice view is open.
+    // Opens the slice view.
     void openSlices(ViewSession& s) {
         s.act({ViewCommand::Slices});
         s.slices().show(mStudy);

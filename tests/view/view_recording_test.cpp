@@ -1,4 +1,4 @@
-// Flights that are recorded in the viewer: saved, played again, and kept whatever ends them.
+// Flights that are recorded in the viewer: saved, played again, and kept however they end.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ TEST_F(ViewRecording, RecordsAFlightSavesItAndPlaysItAgain) {
     EXPECT_NEAR(glm::length(s.pose().position - end.position), 0, 1e-3);
 }
 
-// Before another scene's session takes its place, or the window closes.
+// The end comes when another scene's session begins, or the window closes.
 TEST_F(ViewRecording, WhatWasRecordedOrChangedIsKeptAtItsEnd) {
     const fs::path file = mFolder / "flight_0001.gltf";
     FlightInput forward;
@@ -81,7 +81,7 @@ TEST_F(ViewRecording, WhatWasRecordedOrChangedIsKeptAtItsEnd) {
         s.paths().save();
         EXPECT_EQ(s.paths().keepWork(), "") << "it was saved";
         s.paths().set(lasting(9));
-        s.act({ViewCommand::Record});  // whose path takes the place of one that is in no file
+        s.act({ViewCommand::Record});  // replaces a path that is in no file
         for (int i = 0; i < 120; ++i) s.step(forward, kRecordedFrame);
         s.act({ViewCommand::Record});
         EXPECT_NEAR(s.paths().path().duration(), 2, 1e-3);
@@ -99,7 +99,7 @@ TEST_F(ViewRecording, WhatWasRecordedOrChangedIsKeptAtItsEnd) {
     EXPECT_NEAR(readPath(file).duration(), 1, 1e-3) << "none was written over";
 }
 
-// However the session ends: the program is told to stop, or fails.
+// The session may end in any way: the program is told to stop, or fails.
 TEST_F(ViewRecording, ARecordingOutlivesItsSession) {
     {
         ViewSession s = session();

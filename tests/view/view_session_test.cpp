@@ -1,5 +1,5 @@
-// The viewer's logic without a window: settings move slowly, modes are all reachable, flights are
-// recorded and played, parallax is watched.
+// The viewer's logic without a window: settings move slowly, all modes can be reached, flights are recorded
+// and played, parallax is checked.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ TEST_F(ViewSessionTest, EyesThatFitAPictureOfAnotherShapeAreNotTaken) {
     wide.request = s.requestFor(2560, 720);
     ASSERT_TRUE(wide.request.fitEyes);
     wide.request.stereo = {11, 390};
-    // Panels were opened before that one came.
+    // Panels were opened before that frame came.
     EXPECT_TRUE(s.requestFor(1600, 720).fitEyes);
     s.observe(wide);
     EXPECT_EQ(s.stereo().separation, 20);
@@ -175,7 +175,7 @@ TEST_F(ViewSessionTest, ParallaxBeyondTheBudgetIsSaid) {
     oneEye.request.twoEyes = false;
     EXPECT_EQ(warningLine(oneEye), "");
     EXPECT_EQ(comfortReading(oneEye).state, ComfortState::Comfortable);
-    // A meter tells of short excursions, too.
+    // A meter shows short excursions, too.
     const ComfortReading reading = comfortReading(frameWith(-0.015, 0.014));
     EXPECT_EQ(reading.state, ComfortState::Excursion);
     EXPECT_EQ(reading.near, -0.015);
@@ -208,7 +208,7 @@ TEST_F(ViewSessionTest, TheLineTellsTheErrorOfWhatIsShown) {
     EXPECT_THAT(s.statusLine(frame, 0), testing::HasSubstr("error 52.3 dB, 41 of 255 at most, in 6.1 %"));
     s.observe(FrameTruth{4, {}, 0, "one eye is shown"});
     EXPECT_THAT(s.statusLine(frame, 0), testing::Not(testing::HasSubstr("one eye is shown")));
-    // What is to be seen of the right eye is part of what is asked for.
+    // The choice of what the right eye shows is part of the request.
     const long long before = s.requestFor(640, 360).version;
     s.setTruth(TruthView::Difference);
     EXPECT_EQ(s.requestFor(640, 360).truth, TruthView::Difference);
@@ -260,7 +260,7 @@ TEST_F(ViewSessionTest, APathThatIsWorkedOnTakesOneStepBack) {
     EXPECT_EQ(s.paths().path().duration(), own.duration());
 }
 
-// Flies north at full input for so many seconds, towards a wall there; what lies ahead is told with every
+// Flies north at full input for so many seconds, towards a wall there; the distance ahead is given with every
 // step.
 std::vector<double> timesOfHalving(ViewSession& s, double wall, double first, int count) {
     FlightInput forward;
@@ -293,7 +293,7 @@ TEST_F(ViewSessionTest, TowardsAWallEveryHalvingTakesAsLong) {
     EXPECT_LT(halving, 4);
     for (std::size_t n = 2; n < times.size(); ++n)
         EXPECT_NEAR(times[n] - times[n - 1], halving, 0.05 * halving) << n;
-    // At the same speed everywhere it is not so.
+    // At a constant speed this is not the case.
     ViewSession even = session();
     even.goTo(poseFromAngles({0, 0, 500}, 0, 0, 0));
     const std::vector<double> others = timesOfHalving(even, 5000, 1600, 4);
@@ -395,7 +395,7 @@ TEST_F(ViewSessionTest, TheSkyTurnsAndTilts) {
     EXPECT_NEAR(s.requestFor(640, 360).sun.elevation, -std::numbers::pi / 2, 1e-9);
     for (int k = 0; k < 300; ++k) s.act({ViewCommand::HigherSun});
     EXPECT_NEAR(s.requestFor(640, 360).sun.elevation, std::numbers::pi / 2, 1e-9);
-    // Another surface of the same study stays under it; one with another light does not.
+    // Another surface of the same study keeps it; one with another light does not.
     const SunPlace turned = s.requestFor(640, 360).sun;
     s.replaceScene(opened(*mScene));
     EXPECT_EQ(s.requestFor(640, 360).sun, turned);

@@ -1,4 +1,4 @@
-// The window's eyes: what begins comfortable, what is set by hand, and what is brought together slowly.
+// The window's eyes: the comfortable beginning, settings by hand, and the clamp that moves them slowly.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ FakeParts sceneWith(const StereoSetting& stereo) {
     return scene;
 }
 
-// What a request comes back as, where eyes were fitted to it.
+// Returns the frame of a request for which eyes were fitted.
 ViewFrame firstFrame(const StereoSetting& fitting) {
     ViewFrame frame;
     frame.request.fitEyes = true;
@@ -32,7 +32,7 @@ ViewFrame firstFrame(const StereoSetting& fitting) {
     return frame;
 }
 
-// Of eyes so far apart, in a place where a metre between them gives so much.
+// Returns a frame of eyes with this separation, in a place where a metre of it gives so much parallax.
 ViewFrame frameOf(const StereoSetting& eyes, double nearPerMetre, double farPerMetre) {
     ViewFrame frame;
     frame.request.stereo = eyes;
@@ -56,7 +56,7 @@ TEST(ViewStereo, BeginsAsTheFirstPictureFits) {
     EXPECT_FALSE(eyes.moving());
     eyes.observe(firstFrame({5, 5}));
     EXPECT_EQ(eyes.now().separation, 11) << "the first alone";
-    // By hand from there, and back to it.
+    // Changed by hand from there, and back.
     eyes.scaleSeparation(2);
     EXPECT_STREQ(eyes.word(), "");
     for (int n = 0; n < 300; ++n) eyes.step(1e9, 500, kStep);
@@ -118,7 +118,7 @@ TEST(ViewStereo, AFollowerArrivesWithTheFirstPictureAndIsSlowAfterIt) {
     FakeParts parts = sceneWith({0.002, 0.06});
     parts.makeFollower = [](const StereoSetting& from) -> StereoFollower {
         return [now = from](double free, double depth, double dt) mutable {
-            const double share = std::exp(-std::min(dt, 1.0) / 2);  // a second at most
+            const double share = std::exp(-std::min(dt, 1.0) / 2);  // at most a second
             now = {share * now.separation + (1 - share) * free / 10,
                    share * now.zeroParallax + (1 - share) * depth};
             return now;
@@ -223,7 +223,7 @@ TEST(ViewStereo, AHandTakesTheClampedEyesFromWhereTheyAre) {
         eyes.step(1, 1, kStep);
     }
     EXPECT_NEAR(eyes.now().separation, 0.5 * clamped, 1e-3 * clamped);
-    // Switched off while it holds: as slowly back.
+    // Switched off while it is active: the eyes go back as slowly.
     eyes.setSeparation(20);
     for (int n = 0; n < 900; ++n) {
         eyes.observe(frameOf(eyes.now(), -0.005, 0.001));

@@ -1,5 +1,5 @@
-// The right eye held against its truth: shown in its place, and measured at rest, from which a request takes
-// the frame maker away at once.
+// The right eye compared with its truth: shown in its place, and measured at rest, from which a request
+// interrupts the frame maker at once.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -46,8 +46,8 @@ public:
     std::optional<FrameTruth> truth() {
         return test::waitFor([&] { return mWorker.takeTruth(); });
     }
-    // Until the thread that makes frames has also done whatever it was about to do by itself: it was asked
-    // for something else again and again.
+    // Waits until the thread that makes frames has also done its own work: it was asked for something else
+    // repeatedly.
     void letItTurn() {
         for (int n = 0; n < 20; ++n) {
             const auto ran = std::make_shared<std::atomic<bool>>(false);
@@ -75,7 +75,7 @@ TEST(ViewTruth, IsShownInThePlaceOfTheRightEye) {
     ASSERT_NE(made, nullptr);
     EXPECT_EQ(made->truthNote, "");
     EXPECT_FALSE(made->truthError);
-    // By another renderer, eye by eye.
+    // The reference is another renderer, eye by eye.
     const Stripes stripes;
     const FrameRequest& request = made->request;
     const StereoViews views = makeStereoViews(request.pose, request.lens, request.stereo);
@@ -175,12 +175,12 @@ TEST(ViewTruth, IsMeasuredOnceAtRest) {
     looker.letItTurn();
     EXPECT_EQ(scene.stripes->tiles, tiles) << "once";
     EXPECT_FALSE(looker.worker().takeTruth());
-    // Painted holes are not what was made.
+    // Painted holes are not part of the frame as made.
     looker.frame(requestOf(TruthView::Holes));
     const auto painted = looker.truth();
     ASSERT_TRUE(painted);
     EXPECT_EQ(painted->error.psnr_db, truth->error.psnr_db);
-    // A difference is measured while it is made.
+    // Differences are measured while they are made.
     looker.frame(requestOf(TruthView::Difference));
     const auto difference = looker.worker().takeTruth();
     ASSERT_TRUE(difference);
@@ -194,14 +194,14 @@ TEST(ViewTruth, IsMeasuredOnceAtRest) {
 }
 
 TEST(ViewTruth, ARequestEndsTheMeasureWithinATile) {
-    constexpr int kThreads = 2;  // fewer than tiles, whatever the machine has
+    constexpr int kThreads = 2;  // fewer than tiles, on every machine
     const int threads = threadCount();
     setThreadCount(kThreads);
     StripedScene scene;
     Looker looker(scene.parts());
     looker.worker().measureTruth(false);
     ASSERT_NE(looker.frame(requestOf(TruthView::None)), nullptr);
-    const int before = scene.stripes->ofRightEye;  // which is warped but where it is measured
+    const int before = scene.stripes->ofRightEye;  // warped, except where it is measured
     scene.stripes->hold = true;
     looker.worker().measureTruth(true);
     ASSERT_TRUE(test::waitFor([&] { return scene.stripes->ofRightEye > before; }));
@@ -220,7 +220,7 @@ TEST(ViewTruth, ARequestEndsTheMeasureWithinATile) {
     setThreadCount(threads);
 }
 
-// Nor in the time after which it would be: what rests is cast again by then.
+// It is not measured later, either: a resting picture is cast again by then.
 TEST(ViewTruth, IsNotMeasuredWhereItIsNotWanted) {
     StripedScene scene;
     Looker looker(scene.parts());
@@ -236,7 +236,7 @@ TEST(ViewTruth, IsNotMeasuredWhereItIsNotWanted) {
     EXPECT_TRUE(looker.truth()) << "of the picture that rests";
 }
 
-// Frames whose eyes are made together: there is no warp, but there is each eye by itself.
+// Frames whose eyes are made together: there is no warp, but each eye can be made separately.
 class Together : public FrameMaker {
 public:
     std::span<const std::string_view> methods() const override { return kMethods; }
@@ -288,7 +288,7 @@ TEST(ViewTruth, EyesThatAreSweptAreHeldAgainstTheirOwnSweep) {
     ASSERT_TRUE(failed);
     EXPECT_THAT(failed->note, testing::HasSubstr("no more memory")) << "and the window stays";
     EXPECT_NE(looker.frame(requestOf(TruthView::None, "sweep")), nullptr);
-    // What could not be stopped would keep the next request waiting.
+    // Work that can not be stopped would delay the next request.
     looker.worker().takeTruth();
     frames.took_ms = 300;
     looker.frame(requestOf(TruthView::None, "sweep"));
@@ -297,7 +297,7 @@ TEST(ViewTruth, EyesThatAreSweptAreHeldAgainstTheirOwnSweep) {
     EXPECT_THAT(slow->note, testing::HasSubstr("too long"));
 }
 
-// Eyes that are to fit are made so before anybody sees them.
+// Eyes that have to fit are fitted before anybody sees them.
 TEST(ViewTruth, TheFirstPictureComesWithEyesThatFit) {
     StripedScene scene;
     Looker looker(scene.parts());

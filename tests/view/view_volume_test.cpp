@@ -1,5 +1,5 @@
-// What the viewer does for volumes, without a window: eyes that follow the room, surfaces that move, slices
-// and seeds, scenes that take another's place.
+// The viewer with volumes, without a window: eyes that follow the room, surfaces that move, slices and seeds,
+// scenes that replace another.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -18,7 +18,7 @@
 namespace stereonav {
 namespace {
 
-// Hovers where it is put; its clearance is what the test says.
+// Hovers at its place; its clearance is set by the test.
 class Hover final : public Flight {
 public:
     explicit Hover(const double& clearance) : mClearance(clearance) {}
@@ -54,7 +54,7 @@ protected:
         mScene->stereo = {0.001, 0.03};
         mScene->largestSeparation = 0.004;
         mScene->surface.emplace();
-        // Eyes a tenth of the free distance apart, at once.
+        // The follower sets the eyes to a tenth of the free distance at once.
         mScene->makeFollower = [](const StereoSetting&) -> StereoFollower {
             return [](double free, double depth, double) { return StereoSetting{free / 10, depth}; };
         };
@@ -68,7 +68,7 @@ protected:
     ViewSession session() {
         return ViewSession(opened(*mScene), {OutputMode::SideBySide, std::nullopt, mFolder});
     }
-    // Its slice view is open.
+    // Opens the slice view.
     void openSlices(ViewSession& s) {
         Pose at;
         at.position = {0.02, 0.03, 0.04};
@@ -84,7 +84,7 @@ protected:
         return frame;
     }
 
-    std::filesystem::path mFolder =  // of flights that are recorded
+    std::filesystem::path mFolder =  // folder for recorded flights
         std::filesystem::path(testing::TempDir()) / ("stereonav_volume_" + std::to_string(getpid()));
     double mClearance = 0.01;
     FakeFrames mFrames;
@@ -138,7 +138,7 @@ TEST_F(ViewVolume, FollowingKeepsTheParallaxComfortable) {
         EXPECT_TRUE(i < 599 || warningLine(frame).empty());
     }
     EXPECT_NEAR(s.stereo().separation, 0.95 * 0.025 / 60, 1e-6);
-    // A wide room again: all that the room suits.
+    // In a wide room the eyes get the whole separation again.
     for (int i = 0; i < 900; ++i) {
         ViewFrame frame = frameOf(0.05);
         frame.request.stereo = s.stereo();
@@ -210,14 +210,14 @@ TEST_F(ViewVolume, TheSurfaceMovesWhereThereIsOne) {
     EXPECT_EQ(change->surface.translucent, false);
     EXPECT_FALSE(change->pieces.has_value());
     EXPECT_FALSE(s.surface().takeChange().has_value()) << "asked for once";
-    // The keys that move the surface do not roll as well.
+    // Keys that move the surface do not roll.
     FlightInput roll;
     roll.rollRate = 1;
     s.step(roll, kFrameSeconds);
     EXPECT_EQ(dynamic_cast<const Hover&>(s.flight()).rolled(), 0);
     without.step(roll, kFrameSeconds);
     EXPECT_GT(dynamic_cast<const Hover&>(without.flight()).rolled(), 0);
-    // What could not be done is forgotten.
+    // A change that failed is forgotten.
     s.surface().forgetChange();
     s.act({ViewCommand::HigherIsovalue});
     EXPECT_EQ(s.surface().takeChange()->surface.isovalue, 310);
@@ -246,7 +246,7 @@ TEST_F(ViewVolume, TransferFunctionsTakeTurns) {
     s.act({ViewCommand::NextTransfer});
     EXPECT_EQ(s.surface().takeChange()->surface.transfer, "bone");
     EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::HasSubstr("bone"));
-    // One that can not be shown is not tried again at once.
+    // A function that can not be shown is not tried again at once.
     s.surface().forgetChange();
     EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::Not(testing::HasSubstr("bone")));
     open->scene->offered<SurfaceChoices>()->translucent = true;
@@ -291,7 +291,7 @@ TEST_F(ViewVolume, AmbientLightIsChosenByKeys) {
     EXPECT_THAT(s.statusLine(frameOf(1), 0), testing::Not(testing::HasSubstr("ambient")));
     s.act({ViewCommand::PreviousAmbient});
     EXPECT_EQ(s.surface().takeChange()->surface.ambient->method, "chebyshev") << "round the other way";
-    // Where light is baked there is none.
+    // There is no ambient light where light is baked.
     mScene->surface->ambientMethods.clear();
     ViewSession baked = session();
     baked.act({ViewCommand::NextAmbient});
@@ -336,7 +336,7 @@ TEST_F(ViewVolume, OpacityIsModulatedByKeys) {
     EXPECT_EQ(s.surface().takeChange()->surface.ambient->modulate, "");
 }
 
-// Keys that come while an earlier change is being made count from what was asked for, not from what is shown.
+// Keys during an earlier change start from what was asked for, not from what is shown.
 TEST_F(ViewVolume, NoStepIsLostWhileScenesAreMade) {
     mScene->surface->isovalue = 300;
     mScene->surface->isovalueStep = 10;
@@ -351,14 +351,14 @@ TEST_F(ViewVolume, NoStepIsLostWhileScenesAreMade) {
     s.replaceScene(opened(*first));
     s.act({ViewCommand::HigherIsovalue});
     EXPECT_EQ(s.surface().takeChange()->surface.isovalue, 330);
-    // One that fails is forgotten: what is shown counts again.
+    // A change that fails is forgotten: the shown state counts again.
     s.surface().forgetChange();
     s.act({ViewCommand::HigherIsovalue});
     EXPECT_EQ(s.surface().takeChange()->surface.isovalue, 320);
 }
 
-// A scene that was made from the one before it: playing goes on, and the way of the right eye that was
-// chosen.
+// A scene that was made from the one before it: playing goes on, and the chosen method of the right eye
+// stays.
 TEST_F(ViewVolume, WhatWasChangedInPlaceGoesOn) {
     ViewSession s = session();
     s.act({ViewCommand::Record});

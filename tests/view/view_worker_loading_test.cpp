@@ -1,5 +1,5 @@
-// The thread beside the window loads scenes and makes changes of them: the newest wish wins, what is shown
-// goes on meanwhile, and what goes wrong is handed over.
+// The thread beside the window loads scenes and changes them: the newest wish wins, the shown scene goes on
+// meanwhile, and failures are handed over.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -116,7 +116,7 @@ TEST(ViewWorkerLoading, TheNewestReloadReplacesOneThatIsNotDone) {
     EXPECT_EQ(worker.takeReloadProblem(), "");
 }
 
-// The last of the wishes that come while one is at work is done after it, from the scene that it made.
+// The last of the wishes that come during a change is done after it, from the scene that it made.
 TEST(ViewWorkerLoading, ChangesAreMadeFromTheNewestSceneOneAfterAnother) {
     std::atomic<int> begun = 0, go = 0;
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>(), "first"); }, [] {});
@@ -140,7 +140,7 @@ TEST(ViewWorkerLoading, ChangesAreMadeFromTheNewestSceneOneAfterAnother) {
     ASSERT_TRUE(test::waitFor([&] { return worker.scene()->scene->name == "first a c"; }));
     EXPECT_TRUE(test::waitFor([&] { return !worker.loading().busy; }));
     EXPECT_EQ(begun, 2) << "one that was not begun is passed over";
-    // Loading again does away with what was asked for before it.
+    // Loading again drops earlier wishes.
     go = 0;
     wish("d", 3);
     ASSERT_TRUE(test::waitFor([&] { return begun == 3; }));

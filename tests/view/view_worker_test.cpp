@@ -1,5 +1,5 @@
-// The thread beside the window: it never makes the window wait, takes the newest request, reports
-// progress, and hands over what went wrong.
+// The thread beside the window: it never makes the window wait, takes the newest request, reports progress,
+// and hands over failures.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Pictures of so many rows and more take for ever, until they are dropped.
+// Pictures with so many rows or more take for ever, until they are dropped.
 class SlowMedium final : public test::OneMethodFrames {
 public:
     explicit SlowMedium(int endless) : mEndless(endless) {}
@@ -44,7 +44,7 @@ public:
             }
     }
 
-    std::atomic<int> begun = 0, steps = 0;  // pictures; of those that take for ever
+    std::atomic<int> begun = 0, steps = 0;  // pictures; steps of those that take for ever
 
 private:
     int mEndless;
@@ -69,7 +69,7 @@ FrameRequest mediumRequest(long long version, double scale, bool flying) {
     return request;
 }
 
-// A medium that rests is shown small first, where that is asked for, and then in full.
+// A resting medium is shown small first, where that is asked for, and then in full.
 TEST(ViewWorker, MakesAMediumInFullOnceItRests) {
     ViewWorker worker([](Progress&) { return mediumOf(std::make_shared<SlowMedium>(1000)); }, [] {});
     worker.request(mediumRequest(1, 0.5, true));
@@ -89,8 +89,8 @@ TEST(ViewWorker, MakesAMediumInFullOnceItRests) {
     EXPECT_EQ(worker.takeFrame(), nullptr) << "once";
 }
 
-// In flight, where the next large one was begun before anybody knew how long they take; and at rest, when
-// something moves again.
+// Pictures are dropped in flight, where the next large one was begun before the time of the last was known;
+// and at rest, when something moves again.
 TEST(ViewWorker, DropsWhatTakesTooLongOfAMedium) {
     for (const bool flying : {true, false}) {
         SCOPED_TRACE(flying);
@@ -110,7 +110,7 @@ TEST(ViewWorker, DropsWhatTakesTooLongOfAMedium) {
         EXPECT_EQ(frame->request.version, 3);
         EXPECT_EQ(frame->left.width(), 20);
     }
-    // The full one that follows a small one at rest.
+    // The full picture that follows a small one at rest.
     const auto medium = std::make_shared<SlowMedium>(20);
     ViewWorker worker([&](Progress&) { return mediumOf(medium); }, [] {});
     worker.request(mediumRequest(1, 0.5, false));
@@ -126,13 +126,13 @@ TEST(ViewWorker, DropsWhatTakesTooLongOfAMedium) {
     EXPECT_EQ(frame->request.version, 2);
 }
 
-// What was freed in pieces between others stays with the C library, until the window rests.
+// Memory that was freed in pieces between others stays with the C library, until the window rests.
 TEST(ViewWorker, GivesBackWhatIsFreeAtRest) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "the sanitizer's own memory stays";
 #endif
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
-    // Every second one of many goes: none of them lies at the end, where memory is given back at once.
+    // Every second one of many is freed: none of them lies at the end, where memory is returned at once.
     constexpr std::size_t kBytes = 64 << 10, kPieces = 4800;
     std::vector<std::unique_ptr<char[]>> pieces(kPieces);
     for (auto& piece : pieces) {
@@ -147,7 +147,7 @@ TEST(ViewWorker, GivesBackWhatIsFreeAtRest) {
         << free << " to " << test::bytesHeld();
 }
 
-// A picture that rests is cast again until that changes nothing more, and only where that was asked for.
+// A resting picture is cast again until that changes nothing more, and only where that was asked for.
 TEST(ViewWorker, RefinesWhatRests) {
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
     FrameRequest request = requestAt(1, 7);
@@ -175,7 +175,7 @@ TEST(ViewWorker, RefinesWhatRests) {
         }
         expectNoMoreAtRest(worker, request.version);  // that was enough
     }
-    // One eye counts too; not a picture that is made smaller, and not a truth.
+    // One eye is refined, too; a picture that is made smaller, and a truth, are not.
     request.refines = true;
     for (int kind = 0; kind < 3; ++kind) {
         SCOPED_TRACE(kind);
@@ -206,8 +206,8 @@ TEST(ViewWorker, LoadsAndRendersBothEyes) {
             ASSERT_EQ(frame->left.color.at(x, y), 7u);
             ASSERT_EQ(frame->right.color.at(x, y), 7u);
         }
-    // A wall at twice the zero-parallax distance: half of the parallax at infinity, by the formula
-    // separation / zero parallax / window width, the window being 2 tan(0.4) * 2 wide.
+    // A wall at twice the zero-parallax distance: half of the parallax at infinity, by the formula separation
+    // / zero parallax / window width, the window being 2 tan(0.4) * 2 wide.
     const double expected = 2.0 / 50.0 / (4 * std::tan(0.4)) / 2;
     EXPECT_NEAR(frame->nearParallax, expected, 1e-6);
     EXPECT_NEAR(frame->farParallax, expected, 1e-6);
@@ -226,7 +226,7 @@ TEST(ViewWorker, OneEyeNeedsNoRightOne) {
     EXPECT_EQ(frame->left.width(), 40);
 }
 
-// While a frame is held the caller does all that it does.
+// While a frame is held the caller does everything that it can.
 TEST(ViewWorker, TheCallerNeverWaitsAndTheNewestRequestWins) {
     const auto wall = std::make_shared<Wall>();
     ViewWorker worker([&](Progress&) { return sceneOf(wall); }, [] {});
@@ -262,8 +262,7 @@ TEST(ViewWorker, TheCallerNeverWaitsAndTheNewestRequestWins) {
     EXPECT_EQ(wall->begun, 4) << "two eyes of two frames: requests in between are left out";
 }
 
-// Light that is worked out meanwhile: the frame is drawn again without being asked for, until nothing
-// changes.
+// Light that changes meanwhile: the frame is drawn again without a request, until nothing changes.
 TEST(ViewWorker, DrawsAgainWhenTheLightHasChanged) {
     std::atomic<std::uint64_t> changes{0};
     std::atomic<int> seen{0}, looks{0};

@@ -1,4 +1,5 @@
-// Scenes of one wall for tests of the thread beside the window, and how its frames are asked for and awaited.
+// Scenes of one wall for tests of the thread beside the window, with functions to ask and wait for its
+// frames.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -81,8 +82,7 @@ inline std::shared_ptr<const ViewFrame> nextFrame(ViewWorker& worker) {
     return test::waitFor([&] { return worker.takeFrame(); });
 }
 
-// One thread makes frames and does what it is asked: having been asked so often it has also done whatever it
-// was about to do by itself.
+// Lets the only thread that makes frames turn: after so many requests it has also done its own work.
 inline void letItTurn(ViewWorker& worker) {
     for (int n = 0; n < 20; ++n) {
         const auto ran = std::make_shared<std::atomic<bool>>(false);
@@ -91,7 +91,7 @@ inline void letItTurn(ViewWorker& worker) {
     }
 }
 
-// No frame comes after the picture has been measured, which is done first of all that is done at rest.
+// Expects no frame after the picture has been measured, which is the first thing done at rest.
 inline void expectNoMoreAtRest(ViewWorker& worker, long long version) {
     ASSERT_TRUE(test::waitFor([&] {
         const auto truth = worker.takeTruth();

@@ -1,5 +1,5 @@
 // The threads beside the window when wishes change: what was loaded, failed, drawn or measured for an earlier
-// one is not taken for the later one, and what was cancelled leaves the scene as it is.
+// one is not taken for the later one, and a cancel leaves the scene as it is.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -18,7 +18,7 @@ namespace {
 
 using test::Gate;
 
-// One colour for each scene, as far away as it is asked to be.
+// One colour for each scene, at the distance that is asked for.
 class NumberedFrames final : public test::OneMethodFrames {
 public:
     explicit NumberedFrames(PackedColor number) : mNumber(number) {}
@@ -68,7 +68,7 @@ protected:
     void settle() {
         ASSERT_TRUE(test::waitFor([this] { return !mWorker->loading().busy; }));
     }
-    // A load, or change, that waits at the gate and hears of no end.
+    // Returns a load, or change, that waits at the gate and is not told of its end.
     ViewWorker::Load late(PackedColor number, bool fails = false) {
         return [this, number, fails](Progress&) {
             mGate.pass();
@@ -102,7 +102,7 @@ TEST_F(WorkerDetours, ALoadThatWasReplacedIsNotTakenThoughItCameToItsEnd) {
     }
 }
 
-// a, b, a: the second a is loaded, and neither b nor the first a takes its place.
+// a, b, a: the second a is loaded, and neither b nor the first a replaces it.
 TEST_F(WorkerDetours, ThereAndBackLoadsWhatWasAskedForLast) {
     begin();
     std::atomic<int> loads = 0;
@@ -147,7 +147,7 @@ TEST_F(WorkerDetours, WhatIsCancelledLeavesTheSceneAsItIs) {
     ASSERT_TRUE(test::waitFor([this] { return mWorker->takeFrame() != nullptr; })) << "it goes on";
 }
 
-// A failure is told once, and not where another wish has come since: it would be taken for that one's.
+// A failure is reported once, and not after another wish: it would be taken for that one's.
 TEST_F(WorkerDetours, AFailureIsOfTheNewestWishAlone) {
     begin();
     const auto failing = [](Progress&) -> OpenScene { throw Error("bad.tif", "", "is none", "no"); };
@@ -167,7 +167,7 @@ TEST_F(WorkerDetours, AFailureIsOfTheNewestWishAlone) {
     EXPECT_EQ(mWorker->takeReloadProblem(), "bad.tif: is none; no");
     EXPECT_EQ(mWorker->takeReloadProblem(), "");
     EXPECT_EQ(shown(), "400");
-    // A change that fails while a further one waits.
+    // A change fails while another one waits.
     mGate.close();
     const int before = mGate.came();
     mWorker->change(lateChange(500, true));
@@ -181,7 +181,7 @@ TEST_F(WorkerDetours, AFailureIsOfTheNewestWishAlone) {
     EXPECT_EQ(mWorker->takeReloadProblem(), "");
 }
 
-// A change that waits for a load is part of what is replaced by the next load.
+// A change that waits for a load is dropped with it by the next load.
 TEST_F(WorkerDetours, AChangeThatWasAskedForBeforeALoadIsNotMadeAfterIt) {
     begin();
     std::atomic<bool> changed = false;
@@ -200,7 +200,7 @@ TEST_F(WorkerDetours, AChangeThatWasAskedForBeforeALoadIsNotMadeAfterIt) {
 
 // --- frames
 
-// The one that was asked for last is there in the end, and it is of the scene of then.
+// The last frame asked for is there in the end, and it shows the scene of that time.
 TEST_F(WorkerDetours, FramesEndWithTheNewestRequestOfTheNewestScene) {
     Gate frame;
     begin([&](double x) {
@@ -222,7 +222,7 @@ TEST_F(WorkerDetours, FramesEndWithTheNewestRequestOfTheNewestScene) {
     EXPECT_EQ(newest->request.pose.position.x, 2);
 }
 
-// Versions of what is handed out only grow: a frame that was asked for earlier never comes after a later one.
+// Versions of frames only grow: a frame that was asked for earlier never comes after a later one.
 TEST_F(WorkerDetours, NoEarlierFrameComesAfterALaterOne) {
     begin();
     long long last = 0;
@@ -241,7 +241,7 @@ TEST_F(WorkerDetours, NoEarlierFrameComesAfterALaterOne) {
     }));
 }
 
-// What is asked of the thread that makes frames gets the scene of then, in its order.
+// Tasks for the thread that makes frames get the scene of that time, in their order.
 TEST_F(WorkerDetours, TasksGetTheNewestScene) {
     Gate frame;
     begin([&](double) { frame.pass(); });
