@@ -30,7 +30,7 @@ protected:
                      "reference_mm 1\n200 0.9 0.2 0.1 0\n400 0.9 0.6 0.1 0.02\n"
                      "700 0.1 0.9 0.3 0.1\n1000 1 1 1 0.2\n");
     }
-    // Of the left eye alone.
+    // Returns the left eye's picture.
     Plane<PackedColor> picture(const std::string& scene, std::vector<std::string> options) const {
         const std::string file = (mFolder / "picture.png").string();
         const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight);

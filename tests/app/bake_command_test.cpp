@@ -66,7 +66,7 @@ TEST_F(BakeCommand, SameBytesInOneRunOrSeveralOnAnyThreadCount) {
             };
             ASSERT_EQ(bake(scene, with(threads == "1" ? "128" : "200")).status, 0);
             ASSERT_EQ(bake(scene, with("200")).status, 0);
-            // Of transfer the estimate depends on the parts: of it the sums alone are compared.
+            // The estimate for transfer depends on the parts: only its sums are compared.
             contents.push_back(contentOf(file));
         }
         ASSERT_EQ(contents[0].size(), contents[1].size());

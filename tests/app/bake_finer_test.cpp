@@ -99,7 +99,7 @@ TEST_F(BakeFiner, WhatCanNotBeReadNowIsNotMadeAnew) {
         EXPECT_EQ(fileBytes(place()), there);
         EXPECT_FALSE(fs::exists(part()));
     }
-    // Nor what an earlier run has begun.
+    // The unfinished file of an earlier run is left unchanged, too, where reading it fails.
     fs::rename(place(), part());
     for (const std::uint64_t byte : {std::uint64_t{48}, std::uint64_t{there.size() - 1}}) {
         SCOPED_TRACE(byte);

@@ -336,7 +336,7 @@ TEST_F(ColonExports, AnUnfoldedTubeIsAsLongAndAsWideAsTheTube) {
     EXPECT_EQ(json.at("pixel_mm"), 0.5);
     const auto size = json.at("size").get<std::vector<double>>();
     EXPECT_NEAR(0.5 * size.at(0), 2 * (kTubeHalf + kTubeRadius), 14);
-    // Its way around, and a scale below it.
+    // The picture has the tube's circumference, and a scale below it.
     EXPECT_GT(0.5 * size.at(1), 2 * std::numbers::pi * kTubeRadius);
     EXPECT_LT(0.5 * size.at(1), 2 * std::numbers::pi * (kTubeRadius + 2) + 15);
     const Json& places = json.at("places");

@@ -22,8 +22,8 @@ protected:
     std::string sea() const {
         return grid("sea.asc", 41, 41, 10000, [](int, int) { return 0; });
     }
-    // Of a picture of 8x120 pixels and 5 degrees that looks level to the north from 1000 m: how many rows
-    // show the sea.
+    // Returns how many rows show the sea in a picture of 8x120 pixels and 5 degrees that looks level to the
+    // north from 1000 m.
     int rowsOfSea(std::vector<std::string> options) const {
         const std::string file = (mFolder / "sea.bmp").string();
         options.insert(options.begin(), {"render", sea(), "--out", file, "--size", "8x120", "--mode", "ml",

@@ -20,7 +20,7 @@ protected:
             return tube && std::hypot(x - 2, y - 11, z) >= 5 ? 1 : 0;
         });
     }
-    // That ball's middle: the frame begins at -24 mm.
+    // The middle of that ball: the frame begins at -24 mm.
     static constexpr const char* kPolyp = "1.5,10.5,-0.5";
 
     Json documentOf(std::vector<std::string> arguments) const {

@@ -77,7 +77,7 @@ std::map<std::string, std::string> labelled(const std::string& text) {
     return values;
 }
 
-// That a text begins with a value in that unit: six digits of it at least.
+// Expects a text that begins with a value in that unit, with at least six digits.
 void expectSaid(const std::map<std::string, std::string>& said, const std::string& label, double value,
                 const std::string& unit) {
     ASSERT_TRUE(said.contains(label)) << label;

@@ -46,7 +46,7 @@ protected:
         Progress progress;
         return loadTerrainScene(options, SimdTarget::Auto, progress);
     }
-    // As the window makes it.
+    // Returns the picture that the window makes.
     static Plane<PackedColor> pictureOf(const Scene& scene) {
         if (auto* const paint = scene.offered<LivePaint>()) paint->takeUp();
         Lens lens = scene.lens;

@@ -68,7 +68,7 @@ TEST_F(MediumCommands, EachModelIsAKnownPartOfTheOthers) {
     const Shown dark = model("surface", "0"), surface = model("surface", "0.85");
     const Shown direct = model("direct", "0.85"), indirect = model("indirect", "0.85");
     EXPECT_GT(sumOf(emission).x, 1.3f * sumOf(dark).x) << "there is something to compare";
-    // As much as is sent on, times a factor.
+    // The light that is sent on, times a factor.
     const auto times = [&](float factor) {
         return mapped(dark, emission,
                       [=](const glm::vec3& d, const glm::vec3& e) { return d + factor * (e - d); });
@@ -155,7 +155,7 @@ TEST_F(MediumCommands, LightComesFromWhereItIsSaid) {
     };
     const Shown east = from({"--light-from", "90,10"}), above = from({"--light-from", "90,89"});
     expectAlike(mirrored(from({"--light-from", "270,10"})), east, 1.1f, "west is east mirrored");
-    // Of one eye: the half on the light's side is brighter.
+    // Compares the halves of one eye: the one on the light's side is brighter.
     const auto halves = [](const Shown& picture, bool across) {
         glm::vec2 sum(0);
         for (int y = 0; y < picture.height; ++y)
@@ -301,7 +301,7 @@ TEST_F(MediumCommands, InfoCountsTheSweepsBuffers) {
         return medium.at("held");
     };
     const Json small = held("32"), large = held("128");
-    // Of both eyes four floats of light and one of depth.
+    // Both eyes have four floats of light and one of depth.
     EXPECT_EQ(small.at("pictures"), 2 * 64 * 48 * 5 * sizeof(float));
     EXPECT_EQ(large.at("pictures"), small.at("pictures"));
     EXPECT_GT(small.at("field").get<std::size_t>(), 1000u);

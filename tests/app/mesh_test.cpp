@@ -59,7 +59,7 @@ TEST_F(MeshCommand, ThePlaceBesideIsWrittenWithTheMeshOrNotAtAll) {
     std::filesystem::create_directory(mFolder / "hills.glb.json");
     expectRefused({"mesh", hills(), "--out", out.string()}, {"beside --out", "hills.glb.json"});
     EXPECT_FALSE(std::filesystem::exists(out));
-    // Of the generated ground nothing is known; a file of an earlier mesh does not stay.
+    // Nothing is known of the generated ground; a file of an earlier mesh does not stay.
     std::ofstream(place() / "a.gltf.json") << "of an earlier mesh";
     ASSERT_EQ(run({"mesh", "terrain", "--error", "500", "--out", "a.gltf"}).status, 0);
     EXPECT_TRUE(nlohmann::json::parse(contentOf(place() / "a.gltf.json")).at("offset").is_null());

@@ -213,7 +213,7 @@ TEST_F(NumbersAtTheDoor, AreRefusedByTheProgramItself) {
                   {"--phase: expected", "\"magic\""});
 }
 
-// As docs/formats.md has it, the ends themselves are taken.
+// The ends themselves are accepted, as docs/formats.md says.
 TEST_F(NumbersAtTheDoor, ThePhaseFunctionsEndsAreTaken) {
     for (const char* g : {"hg 0.999", "hg -0.999"}) {
         const Outcome outcome =

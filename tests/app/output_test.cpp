@@ -89,7 +89,7 @@ TEST_F(Output, LinksAreWrittenThrough) {
     }
 }
 
-// As the superuser, who could put a file in the device's place.
+// Also for the superuser, who could replace the device by a file.
 TEST_F(Output, AFullDeviceIsOneLineAndStays) {
     for (const Way& way : ways()) {
         fs::create_symlink("/dev/full", place() / way.file);

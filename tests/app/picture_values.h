@@ -14,7 +14,7 @@
 
 namespace stereonav::test {
 
-// Of both eyes side by side, row by row.
+// Values of both eyes side by side, row by row.
 using Shown = LinearImage;
 
 inline glm::vec3 sumOf(const Shown& shown) {

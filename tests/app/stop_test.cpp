@@ -217,7 +217,7 @@ TEST_F(Stop, EndsARunThatNobodyListensTo) {
     EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
-// As a shell has it for jobs in the background: their keyboard is another's.
+// Shells start jobs in the background like this: the keyboard belongs to another.
 TEST_F(Stop, WhatWasIgnoredStaysIgnored) {
     const std::string frames = "'" + (mFolder / "frames").string() + "'";
     const std::string command = "trap '' INT; '" STEREONAV_PROGRAM "' play '" + ground() +

@@ -119,8 +119,8 @@ TEST(TerrainSurvey, MeasuresInHeightsOfTheFileWhateverTheyAreExaggeratedBy) {
     }
 }
 
-// Of a transverse Mercator projection's meridians: sin(latitude) of the longitude from its own, clockwise
-// from the west of it (Snyder 1987, equation 8-1's first term).
+// Meridians of a transverse Mercator projection: sin(latitude) of the longitude from its own, clockwise from
+// the west of it (Snyder 1987, equation 8-1's first term).
 TEST(TerrainSurvey, KnowsWhereItLiesAndWhereNorthIs) {
     const TemporaryFolder folder;
     const auto scene = terrainFrom(slope(folder, 600000, 5000000, true));
@@ -197,7 +197,7 @@ TEST(TerrainSurvey, TellsOfAPlaceWhatTheFileSays) {
     EXPECT_NEAR(placeNumber(facts, "height_m"), 10 * 19.5 + 19.5, 1e-3);
 }
 
-// Of level ground nothing falls anywhere, and a hole has no height.
+// Level ground has no direction of fall, and a hole has no height.
 TEST(TerrainSurvey, LevelGroundHasNoAspect) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder / "level.asc";
@@ -288,7 +288,7 @@ TEST(TerrainSurvey, MeasuresGroundInTilesAsGroundInMemory) {
     }
 }
 
-// As much of it as there is room for, and each sample where it lies.
+// The part has as many samples as there is room for, each in its place.
 TEST(SurveyPart, TakesTheFinestSamplesThatFit) {
     const TemporaryFolder folder;
     const CacheIn cache(folder);

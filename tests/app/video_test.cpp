@@ -27,7 +27,7 @@ protected:
         EXPECT_EQ(pclose(pipe), 0) << command;
         return printed;
     }
-    // Of the one stream.
+    // Returns the facts of the only stream.
     Json facts(const std::string& file) const {
         const Json all =
             Json::parse(printedBy("ffprobe -v error -of json -count_packets -show_streams " + file));

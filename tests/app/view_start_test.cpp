@@ -50,7 +50,7 @@ protected:
         return range;
     }
 
-    // Of its first picture: as the scene has it, and as the window shows it.
+    // Expects a comfortable first picture: as the scene has it, and as the window shows it.
     static void expectComfortableStart(const std::string& scene, const SceneOptions& given = {}) {
         const auto opened = open(scene, given);
         ASSERT_FALSE(opened->scene->eyesGiven);
@@ -171,7 +171,7 @@ TEST_F(ViewStart, AHandIsFasterThanThePicture) {
     EXPECT_TRUE(session.requestFor(640, 180).fitEyes) << "the start is to be comfortable yet";
 }
 
-// As a desktop's menu starts it: packaging/entry.desktop.
+// A desktop's menu starts it in this way: packaging/entry.desktop.
 TEST(StartPageAtFirst, IsShownWhereViewIsGivenNothing) {
     const auto shown = [](const char* key, const std::string& text) {
         ParsedOptions parsed(sceneTypeOf);

@@ -76,7 +76,7 @@ TEST_F(VolumeLight, EachModelIsWhatItsFormulaSays) {
     };
     const Shown lambert = model("lambert"), phong = model("phong"), varying = model("varying"),
                 fog = model("fog");
-    // Of the left eye, inside the ball's outline, where nothing is mixed with the background.
+    // Pixels of the left eye inside the ball's outline, where nothing is mixed with the background.
     std::vector<std::size_t> inside;
     for (int y = 1; y + 1 < lambert.height; ++y)
         for (int x = 1; x + 1 < lambert.width / 2; ++x) {

@@ -107,7 +107,7 @@ std::string textOf(const Facts& facts, const std::string& key) {
     return "";
 }
 
-// Of a wall: where in the patient, how far along the line, and once slices are read the value there.
+// Facts of a place on the wall: its place in the patient, along the line, and once slices are read the value.
 TEST_F(VolumeSideOfScenes, APlaceIsToldInThePatientsDirections) {
     SceneOptions options;
     options.scene = maskedTube();

@@ -298,7 +298,7 @@ TEST_F(FileTest, LongNamesAreWritten) {
     EXPECT_EQ(readTextFile(in(name)), "x");
 }
 
-// As the superuser too, who could put a file in its place.
+// Also for the superuser, who could replace it by a file.
 TEST_F(FileTest, AFullDeviceIsAnErrorAndStays) {
     fs::create_symlink("/dev/full", in("link"));
     for (const fs::path& place : {fs::path("/dev/full"), in("link")}) {

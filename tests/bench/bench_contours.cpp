@@ -22,7 +22,7 @@ using namespace stereonav;
 constexpr int kRuns = 15;
 constexpr double kInterval = 50;  // metres
 
-// Of the processor, whatever else runs on it.
+// Returns the processor's time, independent of other programs.
 double processor_ms() {
     return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }

@@ -59,7 +59,7 @@ struct Marks {
     }
 };
 
-// As the paper's Table 1, from rates of `seconds` each.
+// Prints the paper's Table 1, from rates of `seconds` each.
 void printBakes(const Marks& marks) {
     constexpr double kSeconds = 20;
     const OneView view = viewOf900(marks.subject);

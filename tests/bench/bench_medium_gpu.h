@@ -24,7 +24,7 @@ struct GpuSweepTime {
 class GpuSweepTimer {
 public:
     bool available() const { return mContext.current() && epoxy_gl_version() >= 45; }
-    // As the driver calls itself: llvmpipe is the software rasteriser.
+    // Returns the driver's name of the renderer: llvmpipe is the software rasteriser.
     std::string renderer() const {
         return available() ? reinterpret_cast<const char*>(glGetString(GL_RENDERER)) : "none";
     }

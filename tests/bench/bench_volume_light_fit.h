@@ -84,7 +84,7 @@ inline ShareFit fitShare(const MediumTruth& truth, const Plane<glm::vec4>& direc
     return fit;
 }
 
-// Of some cones, the one with the least RMSE by one of the ways to choose the share.
+// The cone with the least RMSE among several, by one of the ways to choose the share.
 struct FittedCone {
     double cone = 0, linear = std::numeric_limits<double>::infinity();
     ShareFit fit;

@@ -49,7 +49,7 @@ inline double rankCorrelation(const Numbers& a, const Numbers& b) {
     return correlation(ranksOf(a), ranksOf(b));
 }
 
-// Of min(k a, 1) from b.
+// Returns the root mean square of min(k a, 1) - b.
 inline double rootMeanSquare(const Numbers& a, double k, const Numbers& b) {
     double sum = 0;
     for (std::size_t n = 0; n < a.size(); ++n) {

@@ -11,7 +11,7 @@
 
 namespace stereonav::bench {
 
-// Of the voxels within a box's radius; share: of those that are not above the middle one.
+// Numbers of the voxels within a box's radius; share: of those that are not above the middle one.
 struct BoxNumbers {
     double value = 0, minimum = 32767, maximum = -32768, mean = 0, variance = 0, share = 0;
 };

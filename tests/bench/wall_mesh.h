@@ -47,7 +47,7 @@ public:
     }
 
 private:
-    // Of a normal of any length, turned against the ray.
+    // Packs a normal of any length, turned against the ray.
     __attribute__((always_inline)) static std::uint32_t packed(float x, float y, float z, float rayX,
                                                                float rayY, float rayZ) {
         const float facing = x * rayX + y * rayY + z * rayZ;

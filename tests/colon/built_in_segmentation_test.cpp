@@ -130,7 +130,7 @@ TEST(BuiltInAnatomy, TheWallIsOfOnePiece) {
     }
 }
 
-// Of the segmented field at a place in mm, minus the wall's value: negative in the lumen.
+// Returns the segmented field at a place in mm, minus the wall's value: negative in the lumen.
 double fieldAt(const LumenField& lumen, const glm::dvec3& mm) {
     return plainValue(lumen.field, lumen.field.frame.voxelFromWorld(mm * 0.001)) - lumen.isovalue;
 }
@@ -147,7 +147,8 @@ glm::dvec3 anyAcross(const glm::dvec3& v) {
     return glm::normalize(glm::cross(v, other));
 }
 
-// Its top is where the wall lies along its axis, and it is as wide as it was made.
+// The top of a polyp is where the wall lies along its axis, and the polyp has the width that it was made
+// with.
 TEST(BuiltInSegmentationNightly, PolypsAreOnTheSegmentedWall) {
     const Segmented& s = fullSize();
     ASSERT_EQ(s.anatomy.polyps().size(), s.colon.polyps.size());

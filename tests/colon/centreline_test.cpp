@@ -112,7 +112,7 @@ TEST(Centreline, OfATorusArcOfManyVoxelsIsItsCircle) {
     expectArc({2.5e-4, 8e-4, 2.5e-4}, 500000);
 }
 
-// As lumens of very many voxels are searched: in blocks of two along the coarser axis too.
+// Lumens of very many voxels are searched like this: in blocks of two along the coarser axis, too.
 TEST(Centreline, InBlocksThatAreLongAlongAnAxisIsItsCircle) {
     CentrelineSetting even;
     even.mostUneven = 1000;

@@ -104,8 +104,8 @@ TEST(LumenFromMask, ASphereKeepsItsVoxelsAndItsPlaceInSpace) {
     EXPECT_NEAR(lumen.segments[0].volume, 4.18879 * 0.012 * 0.012 * 0.012, 1e-7);
 }
 
-// Of a wall whose distance is known: how far it lies off, and its normals (of the field's differences over a
-// voxel either way) on average.
+// Mean errors of a wall whose distance is known: of its place, and of its normals (by differences of the
+// field over a voxel in both directions).
 struct WallErrors {
     double rms_voxels = 0, mean_deg = 0;
 };

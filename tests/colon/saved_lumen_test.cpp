@@ -185,7 +185,7 @@ TEST_F(SavedLumenTest, AnyDamageIsNamedAndMended) {
     }
 }
 
-// As an earlier version left it there, or a user who carries it along with the study.
+// An earlier version, or a user who carries it along with the study, may have left it there.
 TEST_F(SavedLumenTest, OneBesideTheStudyIsReadAndLeftAsItIs) {
     const fs::path file = study();
     const ColonScene first = open(file);

@@ -22,7 +22,7 @@ namespace stereonav::test {
 namespace {
 namespace fs = std::filesystem;
 
-// Of a study of three slices, which is made one of a patient in one frame of reference.
+// Writes a study of three slices, made one of a patient in one frame of reference.
 void writeNamedStudy(const fs::path& folder, const char* lastFrame = "1.2.3.4") {
     writeStudy(folder);
     for (int k = 0; k < kSlices; ++k) {
@@ -86,7 +86,7 @@ public:
         set().findAndGetOFString(tag, value);
         return value.c_str();
     }
-    // Of the measurement groups, from 0 on, the item of that name; false where there is none.
+    // Goes to the item of that name in a measurement group, from 0 on; false where there is none.
     bool go(int group, const DSRCodedEntryValue& name, int which = 0) {
         DSRDocumentTree& tree = document.getTree();
         std::size_t node = tree.gotoNamedNode(CODE_DCM_MeasurementGroup);

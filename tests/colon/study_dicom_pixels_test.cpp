@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using namespace test;
 
-// As GDCM has the stored numbers of one slice, widened.
+// Returns the stored numbers of one slice from GDCM, widened.
 std::vector<double> storedByGdcm(const fs::path& file, int bits, bool isSigned) {
     gdcm::ImageReader reader;
     reader.SetFileName(file.c_str());

@@ -65,7 +65,7 @@ TEST(Panorama, ShowsFromOneEndWhatAFoldHidesFromTheOther) {
     EXPECT_FALSE(plain.panorama.shows(End::Rectum, glm::dvec3(0, 0, 5)));
 }
 
-// Of the tube's side an eye at the line's begin sees what lies a radius ahead, and so on.
+// An eye at the line's beginning sees the part of the tube's side that lies a radius ahead, and so on.
 TEST(Panorama, SharesAreThoseOfATube) {
     Seen plain(false), folded(true);
     const Panorama::Shares tube = plain.panorama.shares(plain.wall.mesh, plain.progress);

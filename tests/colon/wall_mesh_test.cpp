@@ -29,7 +29,7 @@ TEST(WallMesh, HasTheAreaOfABall) {
     const LumenWall fine = ball(radius, 0.0008), coarse = ball(radius, 0.0016);
     const double offFine = 1 - fine.mesh.area() / area, offCoarse = 1 - coarse.mesh.area() / area;
     EXPECT_NEAR(offFine, 0, 0.003);
-    // Of second order: half the spacing has a quarter of the error.
+    // The error is of second order: half the spacing has a quarter of it.
     EXPECT_LT(std::abs(offFine), 0.4 * std::abs(offCoarse));
 }
 

@@ -14,7 +14,7 @@ bool isDrawnOnceOnly(const Row& row) {
 
 namespace {
 
-// Of a picture of one pixel a rounding of a step in each channel is a mean of 1.
+// In a picture of one pixel a rounding of a step in each channel is a mean of 1.
 double mean(const Row& row, double ofMany) {
     return levelOf(row, Factor::Size) == "1x1" ? std::max(ofMany, 1.0) : ofMany;
 }

@@ -15,7 +15,7 @@ Nearness betweenSets(const Row& row);
 Nearness besideOracle(const Row& row);
 // A medium whose surfaces are shaded at places and between them; the oracle shades each sample.
 bool isShadedBetweenPlaces(const Row& row);
-// Of these, beside shading each sample.
+// Returns the bounds for a comparison with shading each sample.
 Nearness besideEachSample(const Row& row);
 // A colon's wall is known, and cast, a few voxels deep; the oracle goes on behind it. What begins behind it
 // is that of 64x1 pixels, 178 degrees across, whose near plane cuts the wall.

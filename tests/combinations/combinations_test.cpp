@@ -119,7 +119,7 @@ public:
     }
 
     const std::string& findings() const { return mFindings; }
-    // As the widest set drew it.
+    // Returns the picture that the widest set drew.
     Plane<PackedColor> composed() const {
         return composeStereo(mDrawn.left.color, mDrawn.right.color, {mOptions.mode, false, false});
     }

@@ -30,13 +30,13 @@ public:
     // Each pixel of the right eye cast, by one ray; of a medium each eye swept with samples of its own, by
     // the slices that the method has: one sweep for both eyes leans between them.
     Eyes inFull();
-    // As inFull(), with the rays at edges.
+    // The same as inFull(), with the rays at edges.
     Eyes inFullAndSmooth();
-    // As inFullAndSmooth(), worked out the plain way, from inFull(): the whole picture cast through each
-    // place of a pixel that has a ray, the mean of which is taken at the edges.
+    // The same as inFullAndSmooth(), computed plainly from inFull(): the whole picture is cast through each
+    // place of a pixel that has a ray, and the mean is taken at the edges.
     Eyes smoothedPlainly(const Eyes& full);
 
-    // Of a medium: whether the method has one sweep for both eyes.
+    // Returns whether the method for a medium has one sweep for both eyes.
     bool sweepsTogether() const;
 
     // What sweeps gave before it was packed: pixels of which a channel is no number, or infinite.

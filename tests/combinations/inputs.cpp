@@ -50,8 +50,8 @@ constexpr const char* kRegionsMedium =
     "surface 0.5\n"
     "region value 100 200 1500 2000 gradient 5 15 inf inf color 0.4 0.6 0.9 opacity 0.8\n";
 
-// As large as the medium's own detail; or a thousandth of that, finer than any pixel and than where floats
-// can tell places at its distance.
+// Returns noise as large as the medium's own detail; or a thousandth of that, finer than any pixel and than
+// the resolution of floats at its distance.
 std::string noiseOf(const Row& row) {
     double size = 0.05;  // metres
     if (isTerrain(row)) size = 80;

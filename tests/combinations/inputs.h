@@ -51,7 +51,7 @@ private:
     std::set<std::string> mMade;
 };
 
-// As a shell takes it.
+// Returns the command line for a shell.
 std::string shellLine(const Arguments& arguments);
 
 }  // namespace stereonav::test

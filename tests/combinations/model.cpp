@@ -154,7 +154,7 @@ void addLight(std::vector<Rule>& all) {
         {"nothing of it gets in",
          "--sky",
          {{is(Factor::Scene, kColons), is(Factor::Light, {"lazy", "traced"}), isGiven(Factor::Sky)}}});
-    // Of terrains there are transfer and openness, in a file or put by.
+    // Terrains have transfer and openness, in a file or in the cache.
     all.push_back(
         {"no such bakes", "", {{is(Factor::Scene, kTerrains), is(Factor::Light, {"irradiance", "full"})}}});
     all.push_back({"of volumes", "lazy", {{is(Factor::Scene, kTerrains), is(Factor::Light, lazy)}}});

@@ -58,7 +58,7 @@ glm::dvec3 volumeLight(const VolumeScene& volume, const EyeView& view, int x, in
         return hit.hit() ? surfaceLight(volume, view, lamp, ray, hit) : background;
     }
     const PlainComposite sum = compositePlain(volume.field, look, ray, lamp, kStepVoxels);
-    // As the kernels: too little to be seen.
+    // The kernels ignore the rest in the same way: it is too little to be seen.
     return sum.color + (sum.left < 1.0 / 1024 ? 0.0 : sum.left) * background;
 }
 

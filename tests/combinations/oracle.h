@@ -24,7 +24,7 @@ std::optional<OraclePicture> castByOracle(const Scene& scene, const EyeView& vie
 // By the plain sweep, a picture for each eye; none where rays are cast. Eyes are swept together.
 std::vector<OraclePicture> sweptByOracle(const Scene& scene, const std::vector<EyeView>& eyes);
 
-// As an eye's picture. Colours that are no numbers are said in `problem`.
+// Returns the picture in the form of an eye's. Colours that are no numbers are named in `problem`.
 EyeImage packed(const OraclePicture& oracle, std::string& problem);
 
 }  // namespace stereonav::test

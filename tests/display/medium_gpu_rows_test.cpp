@@ -19,8 +19,8 @@ namespace {
 
 using namespace test;
 
-// As in medium_gpu_test.cpp: forward sweeps stop where less than 1/1024 is left; the rest is rounding of
-// floats.
+// The bound of medium_gpu_test.cpp: forward sweeps stop where less than 1/1024 is left; the rest is rounding
+// of floats.
 constexpr double kBound = 1.0 / 1024 + 2e-5;
 
 struct GpuCase {

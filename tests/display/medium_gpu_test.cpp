@@ -57,7 +57,7 @@ TEST_F(MediumGpuTest, BakedLightOnSurfaces) {
     look.baked.light = bakedLight();
     look.baked.exposure = 1.3f;
     look.baked.lampShare = 0.4f;
-    // Its texels are half floats here, times their weights.
+    // The texels are half floats here, times their weights.
     expectAsByTheBook(subject, look, {viewFrom(kEye, kMiddle)}, smallSetting());
     look.baked.use = BakedLook::Use::Openness;
     expectAsByTheBook(subject, look, {viewFrom(kEye, kMiddle)}, smallSetting());

@@ -92,7 +92,7 @@ protected:
         glReadPixels(x, mWindow->framebufferSize().y - 1 - y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
         return eyeOfColor(pixel[0], pixel[2]);
     }
-    // Of what the X server shows.
+    // Returns the same for what the X server shows.
     int shownAt(int x, int y) const {
         const unsigned long pixel = ServerPixels().at(mWindow->handle(), x, y);
         return eyeOfColor(pixel >> 16 & 255, pixel & 255);

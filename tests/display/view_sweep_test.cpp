@@ -85,7 +85,7 @@ protected:
     EyePair mFrame;
 };
 
-// As in medium_gpu_test.cpp: rays end where less than this is left of them.
+// The bound of medium_gpu_test.cpp: rays end where less than this is left of them.
 constexpr double kEnd = 1.0 / 1024, kRounding = 2e-5;
 
 double worst(const MediumPicture& a, const MediumPicture& b) {

@@ -28,7 +28,7 @@ int largestDifference(PackedColor a, PackedColor b) {
     return most;
 }
 
-// As edge_row.h has it, one pixel at a time.
+// Finds edges like edge_row.h, one pixel at a time.
 bool plainEdge(const EyeImage& image, const EdgeSetting& setting, int x, int y) {
     const auto depth = [&](int i, int j) {
         const bool inside = i >= 0 && j >= 0 && i < image.width() && j < image.height();

@@ -85,7 +85,7 @@ TEST(LateGuard, ATurnOfItsWidthUncoversNothing) {
             for (const double side : {-1.0, 1.0}) {
                 SCOPED_TRACE(testing::Message() << nameOf(target) << " " << side);
                 const EyeView shown = guardEyes(0, lens).*eye, cast = guardEyes(0, guarded(lens, guard)).*eye;
-                // Of the corner that goes farthest, as the axis of the turn leans by 0.11.
+                // The corner that moves farthest decides, since the axis of the turn leans by 0.11.
                 const double turn = side * 4.5 * kGuardDegree;
                 const EyeView to = guardEyes(turn, lens).*eye;
                 const EyeImage wide = castWall(cast, kMissDepth), narrow = castWall(shown, kMissDepth);
@@ -168,7 +168,7 @@ TEST(GuardBand, KeepsStillAndShrinksSlowly) {
     // One picture of many that lags far behind.
     fly(200, [&](int n) { return n % 30 == 7 ? 0.12 : wavers(n); });
     EXPECT_EQ(changes, 0);
-    // As a flight that turns now and then.
+    // The flight turns now and then.
     fly(400, [](int n) { return n % 80 < 30 ? 0.05 : 0.0; });
     EXPECT_EQ(changes, 0);
     fly(30, [](int) { return 0.0; });

@@ -263,7 +263,7 @@ TEST(LateWarp, LeavesNoGhosts) {
     }
 }
 
-// Of what is seen through nothing tears, and where it ends goes with it.
+// Nothing tears that is seen through, and its end moves with it.
 TEST(LateWarp, SoftDepthsDoNotTear) {
     EyeView from = lateView({0, 0, 0}, 0, 0, 200, 120);
     EyeImage seen;

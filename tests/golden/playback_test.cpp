@@ -34,7 +34,7 @@ constexpr int kFrames = 2;
 constexpr double kMeanLevels = 0.1;
 constexpr int kFarLevels = 8;
 constexpr double kFarShare = 0.005;
-// Of figures, which are those of the whole flight: medians.
+// Bounds of figures, which are those of the whole flight: medians.
 constexpr double kDecibels = 0.5, kHolePercent = 0.25;
 
 bool accepting() {

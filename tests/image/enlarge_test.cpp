@@ -54,7 +54,7 @@ TEST(Enlarged, ARampStaysARamp) {
     }
 }
 
-// Of every channel by itself, whatever lies beside it.
+// Every channel is enlarged by itself, whatever lies beside it.
 TEST(Enlarged, EachChannelIsBilinear) {
     constexpr int kWidth = 13, kHeight = 7;
     EyeImage image;

@@ -35,7 +35,7 @@ double solidAngle(int row, int width, int height) {
     return 2 * kPi / width * (std::cos(kPi * row / height) - std::cos(kPi * (row + 1) / height));
 }
 
-// Of one float: 24 bits, as a caster gives them.
+// Returns a point made of floats of 24 bits, like those of a caster.
 glm::vec2 randomPoint(std::mt19937& random) {
     const auto unit = [&] { return static_cast<float>(random() >> 8) * 0x1p-24f; };
     const float first = unit();

@@ -45,7 +45,7 @@ TEST(OcclusionFormulas, ReconstructedDistributionHasTheMeanItWasMadeFrom) {
 }
 
 TEST(OcclusionFormulas, DrawingEndsInKeepsTheMean) {
-    // As above: 3 sigma cut off the lower end, the upper, both and none.
+    // The same with 3 sigma cut off the lower end, the upper, both and none.
     for (const double mean : {-800.0, 100.0, 1900.0})
         for (const double sigma : {20.0, 150.0, 400.0, 1500.0}) {
             constexpr int kSteps = 200000;

@@ -129,7 +129,7 @@ TEST(OcclusionRays, TheDirectionsAre42EvenlySpread) {
         for (std::size_t b = 0; b < a; ++b) EXPECT_LT(glm::dot(directions[a], directions[b]), 0.86);
     }
     EXPECT_LT(glm::length(sum), 1e-13);
-    // Of the icosahedron's symmetry: the same along every axis.
+    // The icosahedron's symmetry makes it the same along every axis.
     for (int n = 0; n < 3; ++n)
         for (int m = 0; m < 3; ++m) EXPECT_NEAR(squares[n][m], n == m ? 14 : 0, 1e-13);
 }

@@ -30,7 +30,7 @@ VolumeScene sceneOf(GreyVolume field) {
     return scene;
 }
 
-// Of `from` along -z and a little aside, in voxels of a millimetre.
+// Returns the view from `from` along -z and a little aside, in voxels of a millimetre.
 EyeView viewFrom(const glm::dvec3& from, int width, int height, double halfWidth) {
     EyeView view;
     view.eye = view.head = from * 1e-3;
@@ -266,7 +266,7 @@ TEST(PixelPath, ThreadsAndSplitsChangeNothing) {
     EXPECT_GT(differ, pixels / 4);  // another stream, other noise; direct light has none
 }
 
-// As the caster colours what it looks up, to the last bit but one of ten.
+// The colours equal those of the caster's lookups, to the last bit but one of ten.
 TEST(PixelPath, ShowsLightAsTheCasterDoes) {
     VolumeScene scene = sceneOf(ballVolume(25, glm::dvec3(12.2, 12.1, 11.9), 7));
     scene.look.background = glm::vec3(0.1f, 0.2f, 0.3f);

@@ -36,7 +36,7 @@ TEST(SunPosition, AsNrelWorksItOut) {
     EXPECT_NEAR(sphere.declination * kDegreesOf, -9.31434, 0.005);
     const double midnight = secondsFromUtc(2003, 10, 17, 7);
     EXPECT_NEAR(nextSunrise(midnight, latitude, longitude).value() - midnight, 6 * 3600 + 12 * 60 + 43, 20);
-    // Of the day in UTC: in the evening of the 16th there.
+    // The day is in UTC: there it is the evening of the 16th.
     const double day = secondsFromUtc(2003, 10, 17);
     EXPECT_NEAR(nextSunset(day, latitude, longitude).value() - day, (17 + 7 - 24) * 3600 + 20 * 60 + 19, 20);
 }

@@ -72,7 +72,7 @@ TEST(DeltaTrackingChance, NoTwoPathsBeginAlike) {
                 numbers.push_back({random.uniform(), random.uniform()});
             }
     EXPECT_EQ(test::placesAlike(numbers), "");
-    // Nor does one go on as another: the second number of one is the first of none.
+    // No stream goes on as another: the second number of one is the first of none.
     std::vector<std::array<double, 1>> all;
     for (const auto& pair : numbers) {
         all.push_back({pair[0]});

@@ -115,7 +115,7 @@ double shown(float light) {
     return light > 1 ? 1.0 : static_cast<double>(light);
 }
 
-// Of 255, linear, of what is not brighter than white.
+// Differences in 255ths, linear, of values that are not brighter than white.
 struct Apart {
     double mean = 0, most = 0, depths = 0;  // depths: share of pixels in which they are not alike
     double lit = 0;                         // share of pixels with light

@@ -54,7 +54,7 @@ TEST(SurfaceDifference, SkyIsNoHole) {
     EXPECT_EQ(d.psnr_db, kIdenticalPsnr_db);
 }
 
-// Of the ground 10 pixels are off by 6 levels in each channel: a mean square of 18 over it, 9 over the
+// On the ground 10 pixels are off by 6 levels in each channel: a mean square of 18 over it, 9 over the
 // picture.
 TEST(SurfaceDifference, ErrorIsThatOfTheSceneAlone) {
     const EyeImage full = halfSky(greyByte(100));

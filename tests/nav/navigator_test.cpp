@@ -120,7 +120,7 @@ TEST(Navigator, FliesTheSameWayAtAnyFrameRate) {
         const Pose truth = flown(1, mode, hills);
         for (const int ms : {2, 4, 8, 20, 50, 100, 250, 500, 1000}) {
             const Pose pose = flown(ms, mode, hills);
-            // Of some 400 m flown; what is left is that substeps begin elsewhere.
+            // After some 400 m the rest comes from substeps that begin elsewhere.
             EXPECT_LT(glm::length(pose.position - truth.position), 0.05) << ms << " ms";
             EXPECT_GT(std::abs(glm::dot(pose.orientation, truth.orientation)), 1 - 1e-9) << ms << " ms";
         }

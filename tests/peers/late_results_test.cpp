@@ -149,7 +149,8 @@ TEST_F(LateResults, OfAWorkThatFailedAreNotTaken) {
     mDesk.close();
 }
 
-// Its own are, and a later work waits for what the other process has of it, whatever came of earlier ones.
+// Results of the present work are taken, and a later work waits for those that the other process has,
+// whatever happened to earlier ones.
 TEST_F(LateResults, OfTheWorkAtHandAreTaken) {
     mDesk.open();
     request(1);

@@ -63,7 +63,7 @@ TEST_P(OpticalDepthRow, SweptSlabIsTheClosedForm) {
 VolumeScene glassScene(const VolumeFrame& frame, double extinction) {
     VolumeScene scene;
     scene.field = GreyVolume(frame);
-    // Of a layer of the reference length 1 - 1/e is taken.
+    // A layer of the reference length takes 1 - 1/e.
     const TransferPoint point{0, glm::vec3(1.0f), -std::expm1(-1.0)};
     scene.look.transfer = TransferFunction({point, {1, point.color, point.opacity}}, 1 / extinction, "test");
     scene.look.ambient = 1;

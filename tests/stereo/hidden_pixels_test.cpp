@@ -96,8 +96,8 @@ public:
         return gap >= kMinStretch + doubt && gap <= kMaxStretch - doubt && surelySeen(i) && surelySeen(i + 1);
     }
 
-    // Of the line through pixels i and i + 1. Nearness is linear in the column; from its smaller end on, no
-    // digits are lost.
+    // Returns the place on the line through pixels i and i + 1. Nearness is linear in the column; from its
+    // smaller end on, no digits are lost.
     Place placeOn(int i, double c) const {
         const double gap = mColumn[i + 1] - mColumn[i], u = (c - mColumn[i]) / gap;
         const int far = mNearness[i] <= mNearness[i + 1] ? i : i + 1, near = far == i ? i + 1 : i;

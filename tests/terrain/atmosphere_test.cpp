@@ -30,13 +30,13 @@ TerrainLook lookOf(double visibility, double sunElevation_deg, double seenFrom =
     return look;
 }
 
-// Of a way up or down with an angle from the sun's azimuth.
+// Returns a direction up or down with an angle from the sun's azimuth.
 glm::dvec3 directionOf(double sine, double beside) {
     const double across = std::sqrt(1 - sine * sine);
     return {across * std::sin(1 + beside), across * std::cos(1 + beside), sine};
 }
 
-// Of 255 for a root of linear light, behind which a third of white lies.
+// Returns the level of 255 for a root of linear light, behind which a third of white lies.
 double shown(const AirSeen& air, int c) {
     return 255 * std::sqrt(std::clamp(air.light[c] + 0.3 * air.through[c], 0.0, 1.0));
 }

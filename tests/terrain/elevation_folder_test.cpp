@@ -43,7 +43,7 @@ protected:
     std::string refusal() {
         return errorOf([&] { readAll(parts()); });
     }
-    // Of differing sizes; over: samples that they share with the next.
+    // Cuts into files of different sizes; over: samples that they share with the next.
     void cut(int over, bool all = true) {
         for (int j = 0; j < kHeight; j += 50)
             for (int i = 0; i < kWidth; i += 64)
@@ -101,7 +101,7 @@ TEST_F(ElevationFolder, TakesTheLastWhereFilesOverlap) {
     EXPECT_EQ(dem.sourceMissing, 0);
 }
 
-// As each file says it, or its custom, whatever the others say.
+// Missing values are those that each file names, or the usual one, independent of the others.
 TEST_F(ElevationFolder, FindsWhatIsMissingInEachFile) {
     const auto low = [&](GDALDataType type, std::optional<double> a, std::optional<double> b, double holdsA,
                          double holdsB, double step = 30) {

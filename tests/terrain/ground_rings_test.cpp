@@ -256,7 +256,7 @@ TEST(GroundRings, AreMetWhereOneEnds) {
             const EyeView view = makeEyeView(
                 poseFromAngles(eye, std::atan2(way.x, way.y), std::atan2(way.z, std::hypot(way.x, way.y)), 0),
                 lens);
-            // As wide as the rings were chosen for: one look is all.
+            // The picture has the width that the rings were chosen for: one look is enough.
             EyeImage image;
             image.resize(1, 1);
             renderer.renderTile(view, 0, image);

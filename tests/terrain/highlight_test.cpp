@@ -188,8 +188,8 @@ StereoViews viewsOfWall() {
 struct Shown {
     int inShadow = 0, inSun = 0;
 };
-// Of ground pixels well inside the wall's shadow, which must be as without highlights, and well outside it,
-// some of which must not.
+// Returns ground pixels well inside the wall's shadow, which must be as without highlights, and well outside
+// it, some of which must not.
 Shown checkShadow(const TerrainScene& scene, const EyeView& view, const EyeImage& image,
                   const EyeImage& without) {
     const double reach = 150 / std::tan(scene.look.sunElevation), wall = 20.0 * 45.5 - 640;

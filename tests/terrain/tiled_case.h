@@ -55,7 +55,7 @@ inline EyeImage pictureOf(const TerrainRenderer& renderer, const EyeView& view) 
     return image;
 }
 
-// Of a display's range.
+// Returns the error as a share of a display's range.
 inline double rootMeanSquare(const EyeImage& a, const EyeImage& b) {
     double sum = 0;
     for (int y = 0; y < a.height(); ++y)

@@ -94,7 +94,7 @@ TEST_F(TiledColors, APictureThatCanNotBeReadLaterIsOneLine) {
     EXPECT_THAT(errorOf(fly), HasSubstr("picture.tif"));
 }
 
-// As if it was baked where nothing stands in the way of any light.
+// Returns light as if baked where nothing blocks any light.
 TerrainLight openLight(const Heightfield& ground) {
     TerrainLight light;
     light.settings.kind = TerrainLightKind::Openness;
@@ -104,7 +104,7 @@ TerrainLight openLight(const Heightfield& ground) {
     return light;
 }
 
-// Of the whole ground at its own samples and of the level in memory, each with light of its own.
+// The whole ground is baked at its own samples, and at the level in memory, each with light of its own.
 TEST_F(TiledColors, BakedLightKeepsTheFineReliefAndFollowsTheSun) {
     mFile.look.ambient = 0.3;
     const fs::path ofWhole = mFolder / "whole.light", ofTiled = mFolder / "tiled.light";

@@ -223,7 +223,7 @@ TEST(SecondStudy, WhatWasCancelledAtItsEndIsNotThere) {
     EXPECT_FALSE(second.other());
 }
 
-// Of places asked for while one is drawn the last one is drawn after it, the ones between are not, and no
+// The last of the places asked for while one is drawn is drawn after it, the ones between are not, and no
 // picture of the study before is shown after a swap or once it is closed.
 TEST(SecondStudy, PicturesAreOfTheNewestPlaceOfTheStudyThatIsThere) {
     const PackedColor red = packColor({1, 0, 0}), blue = packColor({0, 0, 1});

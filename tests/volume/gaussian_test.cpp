@@ -36,7 +36,7 @@ TEST(GaussianWeights, SpreadByAboutSigma) {
         double variance = 0;
         for (std::size_t n = 1; n < weights.size(); ++n)
             variance += 2.0 * weights[n] * static_cast<double>(n * n);
-        // Of a Gaussian cut at c sigmas: 1 - 2 c phi(c) / erf(c / sqrt 2) of sigma's square.
+        // The variance of a Gaussian cut at c sigmas is 1 - 2 c phi(c) / erf(c / sqrt 2) of sigma's square.
         const double c = (static_cast<double>(weights.size()) - 0.5) / sigma;
         const double phi = std::exp(-0.5 * c * c) / std::sqrt(2 * 3.14159265358979);
         EXPECT_NEAR(variance / (sigma * sigma), 1 - 2 * c * phi / std::erf(c / std::sqrt(2.0)), 0.01)

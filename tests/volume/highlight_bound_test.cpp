@@ -18,7 +18,7 @@ struct Highlight {
     bool leftOut = false;
 };
 
-// As the kernels light a place, without their shortcut.
+// Returns the kernels' light at a place, without their shortcut.
 Highlight highlightAt(const VolumeLook& look, double channel, const glm::dvec3& toLamp,
                       const glm::dvec3& toEye, const glm::dvec3& normal) {
     const double distance = glm::length(toLamp);

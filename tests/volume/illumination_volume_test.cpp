@@ -199,7 +199,7 @@ TEST(IlluminationLookup, NearestIsovalueTakesTheTexelOnTheSurface) {
         const float isovalue = static_cast<float>(100 * p.x);
         const auto found = volume.nearestIsovalue(frame.worldFromVoxel(p), field, isovalue);
         ASSERT_EQ(found.value.x, std::round(p.x));
-        // Of four texels with the same value the nearest.
+        // The nearest of four texels with the same value is found.
         ASSERT_EQ(found.value.y, std::round(p.y));
         ASSERT_EQ(found.value.z, std::round(p.z));
     }

@@ -161,7 +161,7 @@ TEST(ThinSheet, IsLitOnTheEyesSideWhereItIsTranslucent) {
                         scene.field, scene.look,
                         {view.eye, view.rayDirection(x + 0.5, y + 0.5), view.nearDepth}, view.head, 0.5);
                     EXPECT_LT(plain.left, 0.02);
-                    // Its albedo in red is 0.8, under a lamp that is all but above it.
+                    // The albedo in red is 0.8, under a lamp that is almost above it.
                     EXPECT_GT(unpackColor(image.color.at(x, y)).x, 0.35f) << nameOf(target) << side;
                 }
         }
