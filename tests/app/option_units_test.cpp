@@ -4,10 +4,15 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "app/options/bake_options.h"
+#include "app/options/option_table.h"
+#include "app/options/parsed_options.h"
+#include "app/report/report_options.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/colon_of.h"
 #include "app/scene/light_loading.h"
 #include "app/scene/scene_loading.h"
+#include "app/scene/shown_as.h"
 #include "app/scene/volume_flights.h"
 #include "app/scene/volume_inside.h"
 #include "app/view/setting_texts.h"
@@ -150,6 +155,49 @@ TEST_F(OptionUnits, VisibilityIsInKilometres) {
     const ViewOptions options =
         viewOptionsOf({{"SCENE", {"terrain"}}, {"sky", {"physical"}}, {"visibility", {"12.5"}}});
     EXPECT_NEAR(*options.scene.visibility_m, 12500, 1e-9);
+}
+
+// Reads values of a command's own options, as the command line does.
+template <typename Options>
+Options optionsWith(CommandSet which, const std::vector<std::pair<const char*, const char*>>& values) {
+    ParsedOptions parsed(sceneTypeOf);
+    chooseCommand(which, parsed);
+    for (const auto& [key, text] : values) {
+        const Option* const option = findOption(which, key);
+        if (option)
+            takeOption(*option, text, option->name(), parsed);
+        else
+            ADD_FAILURE() << "no option " << key;
+    }
+    return parsed.to.of<Options>();
+}
+
+TEST_F(OptionUnits, NumbersOfBakeArriveUnchanged) {
+    const auto bake = optionsWith<BakeOptions>(command::kBake, {{"reach", "7.5"},
+                                                                {"samples", "12"},
+                                                                {"error", "0.25"},
+                                                                {"minutes", "3.5"},
+                                                                {"resolution", "2"},
+                                                                {"bounces", "4"},
+                                                                {"order", "3"},
+                                                                {"threads", "5"}});
+    EXPECT_EQ(bake.reach_mm, 7.5);
+    EXPECT_EQ(bake.samples, 12);
+    EXPECT_EQ(bake.error, 0.25);
+    EXPECT_EQ(bake.minutes, 3.5);
+    EXPECT_EQ(bake.resolution, 2);
+    EXPECT_EQ(bake.bounces, 4);
+    EXPECT_EQ(bake.order, 3);
+    EXPECT_EQ(bake.scene.threads, 5);
+}
+
+TEST_F(OptionUnits, NumbersOfReportArriveUnchanged) {
+    const auto report = optionsWith<ReportOptions>(
+        command::kReport, {{"seed", "9"}, {"minutes", "2.5"}, {"threads", "3"}, {"refraction", "0.2"}});
+    EXPECT_EQ(report.seed, 9u);
+    EXPECT_EQ(report.minutes, 2.5);
+    EXPECT_EQ(report.threads, 3);
+    EXPECT_EQ(report.refraction, 0.2);
 }
 
 TEST_F(OptionUnits, SeedsAreInMillimetres) {
