@@ -121,7 +121,7 @@ TEST(HelperProgram, WhatAStrangerSaysThroughItIsNoAnswer) {
 }
 
 TEST(HelperProgram, MemoryBeyondItsLimitIsRefused) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "sanitizers take memory as they like";
 #endif
     HelperProgram helper("test_helper", "by this test");

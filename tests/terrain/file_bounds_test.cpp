@@ -1,51 +1,15 @@
 // What a small file may make the program take: blocks are asked for in memory, ground in tiles is told before
 // it takes room, and what lies beside a raster and is no file is not waited for.
-#include <fcntl.h>
-#include <sys/stat.h>
-
-#include <atomic>
-#include <thread>
-
 #include "gdal_reading.h"
 #include "terrain/read/dem_rows.h"
 #include "terrain/read/raster_file.h"
 #include "terrain/scene/tiled_ground.h"
+#include "tests/support/watched_pipe.h"
 #include "tiled_case.h"
 
 namespace stereonav::test {
 namespace {
 namespace fs = std::filesystem;
-
-// A named pipe. Who opens it to read, and would wait for ever, is let go on, and seen.
-class WatchedPipe {
-public:
-    explicit WatchedPipe(const fs::path& place) : mPlace(place) {
-        EXPECT_EQ(mkfifo(place.c_str(), 0600), 0);
-        mThread = std::thread([this] {
-            while (!mEnd) {
-                const int writer = open(mPlace.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
-                if (writer >= 0) {  // else nobody reads
-                    mOpened = true;
-                    close(writer);
-                }
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            }
-        });
-    }
-    ~WatchedPipe() {
-        mEnd = true;
-        mThread.join();
-        fs::remove(mPlace);
-    }
-    WatchedPipe(const WatchedPipe&) = delete;
-    WatchedPipe& operator=(const WatchedPipe&) = delete;
-    bool wasOpened() const { return mOpened; }
-
-private:
-    fs::path mPlace;
-    std::atomic<bool> mEnd = false, mOpened = false;
-    std::thread mThread;
-};
 
 void showAll(const fs::path& file) {
     glanceAtDem(file);
@@ -77,12 +41,12 @@ TEST(FileBounds, PipesBesideARasterAreNotWaitedFor) {
           "ground.IMD",         "ground.RPB",  "ground_rpc.txt",   "METADATA.DIM",   "ground.xml",
           "ground.tif.xml",     "grid.prj",    "grid.asc.aux.xml", "plain.sta",      "plain.img.aux.xml"}) {
         SCOPED_TRACE(name);
-        const WatchedPipe pipe(folder / name);
+        WatchedPipe pipe(folder / name);
         for (const fs::path& file : {tiff, folder / "grid.asc", plain}) EXPECT_NO_THROW(showAll(file));
         EXPECT_FALSE(pipe.wasOpened());
     }
     fs::remove(folder / "plain.hdr");
-    const WatchedPipe header(folder / "plain.hdr");
+    WatchedPipe header(folder / "plain.hdr");
     EXPECT_NE(errorOf([&] { readGround(plain); }), "");
     EXPECT_FALSE(header.wasOpened());
 }
@@ -93,7 +57,7 @@ TEST(FileBounds, PipesBesideADatabaseAreNamed) {
     spec.driver = "GPKG", spec.bands = 3;
     const fs::path file = writeRaster(folder / "map.gpkg", spec);
     for (const char* end : {"-journal", "-wal"}) {
-        const WatchedPipe pipe(folder / (std::string("map.gpkg") + end));
+        WatchedPipe pipe(folder / (std::string("map.gpkg") + end));
         EXPECT_THAT(errorOf([&] { openRasterPicture(file, "a picture", "give one"); }),
                     AllOf(HasSubstr(std::string("map.gpkg") + end), HasSubstr("found a pipe or a device"),
                           Not(HasSubstr("\n"))));

@@ -15,6 +15,7 @@
 #include "terrain/read/gdal/gdal_session.h"
 #include "terrain/read/gdal/hdf5_parts.h"
 #include "terrain/read/gdal/local_files.h"
+#include "terrain/read/gdal/reference_files.h"
 #include "terrain/read/gdal/vrt_check.h"
 
 namespace stereonav {
@@ -62,7 +63,8 @@ void checkBefore(GDALDriver& driver, GDALOpenInfo& info) {
     const std::string name = info.pszFilename;
     checkName(name);
     checkOptions(name, info.papszOpenOptions);
-    if (!driver.pfnIdentify || driver.pfnIdentify(&info) == GDAL_IDENTIFY_FALSE) return;
+    if (driver.pfnIdentify && driver.pfnIdentify(&info) == GDAL_IDENTIFY_FALSE) return;
+    checkReferencesBeside(name);
     const std::string_view of = driver.GetDescription();
     if (of == "VRT" && !name.starts_with(kOwnVirtualRasters)) checkOpenedVirtualRaster(name);
     if (of == "netCDF") checkHdf5Parts(name);
@@ -90,6 +92,8 @@ GDALDataset* openGuarded(GDALDriver* driver, GDALOpenInfo* info) {
         if (!dataset) return nullptr;
         const std::string name = info->pszFilename;
         if (!*dataset->GetDescription()) dataset->SetDescription(name.c_str());  // as GDAL does after this
+        checkReference(dataset->GetSpatialRef(), name);
+        checkReference(dataset->GetGCPSpatialRef(), name);
         checkOverviews(*dataset, name);
         checkBlocks(*dataset, driver->GetDescription(), name);
         return dataset.release();

@@ -125,6 +125,8 @@ void keepGdalToLocalFiles() {
         // Else a view in a GeoPackage calls all functions there are: some read XML by its address.
         {"OGR_SQLITE_PRAGMA", "trusted_schema=OFF"},
         {"ALLOW_OGR_SQL_FUNCTIONS_FROM_TRIGGER_AND_VIEW", "NO"},
+        {"SPATIALITE_LOAD",
+         "NO"},  // else a virtual table in a GeoPackage reads any file: text, sheets, shapes
     };
     for (const auto& [name, value] : kOptions) CPLSetConfigOption(name, value);
 }

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "terrain/read/gdal/gdal_session.h"
+#include "terrain/read/gdal/reference_files.h"
 #include "terrain/read/raster_file.h"
 
 namespace stereonav {
@@ -89,6 +90,7 @@ TrackFile readTrackFile(const std::filesystem::path& file) {
     GdalMessages messages;
     registerTrackDrivers();
     checkFileForGdal(file, "name a track or a drawn line");
+    checkJsonReferences(file);
     GdalDataset dataset(GDALDataset::Open(
         nameForGdal(file).c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kTrackDrivers));
     if (!dataset) messages.throwIfRefused(file);

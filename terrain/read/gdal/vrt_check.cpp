@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "terrain/read/gdal/reference_files.h"
 
 namespace stereonav {
 namespace {
@@ -91,6 +92,7 @@ private:
                  "make it anew, for example with gdalbuildvrt");
         if (EQUAL(node.pszValue, "Metadata")) return;  // GDAL opens nothing of it, or says so as it does
         raw |= EQUAL(CPLGetXMLValue(&node, "subClass", ""), "VRTRawRasterBand");
+        checkReferenceText(node, mFirst.string());
         if (namesFile(node.pszValue)) checkName(node, place, raw);
         for (const CPLXMLNode* child = node.psChild; child; child = child->psNext)
             if (child->eType == CXT_Element || child->eType == CXT_Attribute)

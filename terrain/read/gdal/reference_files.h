@@ -1,0 +1,33 @@
+// Reference systems may name files: grids of datum shifts, tables of definitions. PROJ opens whatever path
+// such a name is.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+class OGRSpatialReference;
+struct CPLXMLNode;
+
+namespace stereonav {
+
+// Returns the first path that a definition (WKT, PROJ string) names as one of its files; "" where it names
+// none, or only grids by their bare names, which PROJ looks up among its own.
+std::string pathInReference(std::string_view definition);
+
+// Throws Error named by `file` where the system names a path. Null: does nothing.
+void checkReference(const OGRSpatialReference* system, const std::string& file);
+
+// The same for one element or attribute of a virtual raster or of metadata beside a raster, whose text is a
+// definition; a path in the place of a definition is refused too.
+void checkReferenceText(const CPLXMLNode& node, const std::string& file);
+
+// The same for what lies beside a raster and is read as it is opened: <raster>.aux.xml, a .prj file, an ENVI
+// header.
+void checkReferencesBeside(const std::string& file);
+
+// The same for each member "crs" of a GeoJSON file, however deep. Does nothing with other files and damaged
+// ones.
+void checkJsonReferences(const std::filesystem::path& file);
+
+}  // namespace stereonav
