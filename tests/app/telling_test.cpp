@@ -44,6 +44,26 @@ TEST_F(CommandTelling, AsJsonIsOneDocument) {
     EXPECT_TRUE(std::filesystem::exists(place() / "a.png")) << "the files are written as without";
 }
 
+// Documents are passed on: they do not say where the scene lies on this machine.
+TEST_F(CommandTelling, DocumentsLeaveOutTheScenesFolder) {
+    std::filesystem::create_directory(mFolder / "patients");
+    const std::string ground = (mFolder / "patients/hills.asc").string();
+    std::filesystem::copy(hills(), ground);
+    for (auto& [command, small] : runs(ground)) {
+        if (command == "cache") continue;  // tells of what it keeps
+        SCOPED_TRACE(command);
+        Words more =
+            command == "compare" ? Words{"--json", "-", "--csv", "table.csv", "--quiet"} : Words{"--json"};
+        if (command == "measure") more.insert(more.end(), {"--geojson", "lines.geojson"});
+        const Outcome outcome = runWith(command, small, more);
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_EQ(outcome.out.find("patients"), std::string::npos) << outcome.out;
+        EXPECT_EQ(outcome.out.find(maskedTube()), std::string::npos) << outcome.out;
+    }
+    for (const char* file : {"table.csv", "line.csv", "lines.geojson"})
+        EXPECT_EQ(contentOf(place() / file).find("patients"), std::string::npos) << file;
+}
+
 TEST_F(CommandTelling, QuietSaysNothing) {
     setenv("STEREONAV_PROGRESS_SECONDS", "0.1", 1);
     for (const auto& [command, small] : runs(hills())) {
