@@ -6,6 +6,7 @@
 
 #if STEREONAV_COMPARE_ITK
 #include <itkImage.h>
+#include <itkMultiThreaderBase.h>
 #include <itkSignedMaurerDistanceMapImageFilter.h>
 #endif
 
@@ -16,6 +17,9 @@ namespace {
 // ITK's distances in metres. Its object is what is not in the mask, and it measures to the object's voxels
 // that have a neighbour outside it, where the nearest always is.
 itk::Image<double, 3>::Pointer maurer(const MaskVolume& mask) {
+    // In this thread alone: ITK is not built for the thread sanitizer.
+    itk::MultiThreaderBase::SetGlobalDefaultThreader(itk::MultiThreaderBaseEnums::Threader::Platform);
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(1);
     using Object = itk::Image<unsigned char, 3>;
     const auto image = Object::New();
     Object::SizeType size;
