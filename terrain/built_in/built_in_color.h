@@ -11,9 +11,9 @@
 
 namespace stereonav {
 
-// kBuiltInTexels * size texels a side over the relief's extent, row 0 northernmost. Reports the last 40 % of
-// the job.
-// look: with the sun; null leaves the light away, and the small-scale relief with it.
+// Returns the ground's colours, kBuiltInTexels * size texels a side over the relief's extent, row 0
+// northernmost. look: has the sun whose light is baked in; null: no light, and no small-scale relief, which
+// shows by it. Throws Cancelled.
 Plane<PackedColor> makeBuiltInColor(const Relief& relief, std::uint64_t seed, const TerrainLook* look,
                                     Progress& progress);
 

@@ -11,16 +11,17 @@ namespace stereonav {
 
 struct Relief {
     int size = 0;                      // samples a side
-    float spacing = 0;                 // metres
+    float spacing = 0;                 // metres between samples
     std::vector<float> heights;        // metres, row 0 southernmost, size * size as all below
     std::vector<float> drainage;       // square metres of ground whose water passes the sample
     std::vector<float> riverDistance;  // to the nearest river, in half widths of its valley floor; 4: far
 };
 
-// Metres a side of every generated terrain, whatever its number of samples.
+// The side of every generated terrain, metres, whatever its number of samples.
 constexpr float kBuiltInExtent = 15360.0f;
 
-// Reports the first 60 % of the job.
+// Makes mountains of a seed, kBuiltInExtent a side, size x size samples, the lowest 0 m high. Throws
+// Cancelled.
 Relief makeRelief(std::uint64_t seed, int size, Progress& progress);
 
 }  // namespace stereonav

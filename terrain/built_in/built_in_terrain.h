@@ -13,7 +13,7 @@
 
 namespace stereonav {
 
-constexpr int kBuiltInTexels = 3;  // a sample, each way
+constexpr int kBuiltInTexels = 3;  // texels a sample, each way
 
 struct BuiltInTerrain {
     int size = 0;                // samples a side
@@ -24,13 +24,13 @@ struct BuiltInTerrain {
     Plane<PackedColor> color;
 };
 
-// size: samples a side, kBuiltInSizeMin to kBuiltInSizeMax (throws Error outside). The same seed and
-// size give the same bits for any number of threads. Read from cacheFolder() where it lies there
-// whole; otherwise made (about a second at 513) and put there; a damaged copy is made anew, and a
-// cache that can not be written is done without. Throws Cancelled.
+// Returns the generated terrain, lit by the default look's sun. size: samples a side, kBuiltInSizeMin to
+// kBuiltInSizeMax (throws Error outside). The same seed and size give the same bits for any number of
+// threads. Read from cacheFolder() where it lies there whole; otherwise made (about a second at 513) and put
+// there; a damaged copy is made anew, and a cache that can not be written is done without. Throws Cancelled.
 BuiltInTerrain builtInTerrain(std::uint64_t seed, int size, Progress& progress);
 
-// The same without the cache, under the sun of a look; without one the light is left out of the colours.
+// Makes the same without the cache, under the sun of a look; without a look the colours hold no light.
 BuiltInTerrain generateBuiltInTerrain(std::uint64_t seed, int size, Progress& progress,
                                       const std::optional<TerrainLook>& look = TerrainLook());
 

@@ -12,7 +12,8 @@ class Noise {
 public:
     explicit Noise(std::uint64_t seed) : mSeed(static_cast<std::uint32_t>(seed ^ seed >> 32)) {}
 
-    // About -1 to 1, 0 at whole numbers, twice differentiable; features of size 1. |x|, |y| < 2^30.
+    // Returns about -1 to 1 (0 at whole numbers), twice differentiable, with features of size 1. |x|, |y| <
+    // 2^30.
     float at(float x, float y) const {
         const float fx = std::floor(x), fy = std::floor(y);
         const auto i = static_cast<std::int32_t>(fx), j = static_cast<std::int32_t>(fy);
@@ -79,6 +80,7 @@ private:
     std::uint32_t mSeed;
 };
 
+// Returns 0 for x up to `low`, 1 from `high` on, and a cubic without kinks between.
 inline float smoothStep(float low, float high, float x) {
     const float t = x <= low ? 0.0f : x >= high ? 1.0f : (x - low) / (high - low);
     return t * t * (3 - 2 * t);

@@ -9,10 +9,11 @@ namespace stereonav {
 
 struct GroundFilter;  // terrain_renderer.h
 
-// Both must outlive it.
+// Returns a ground as kernels read it; both must outlive that.
 GroundData groundData(const Heightfield& ground, const HeightPyramid& pyramid);
 
-// By grid coordinates of a ground of that spacing, metres. color must outlive it.
+// Returns colours as kernels read them, by grid coordinates of a ground of that spacing, metres; `color` must
+// outlive that.
 TextureData textureData(const ColorTexture& color, const glm::dvec2& spacing, const GroundFilter& filter);
 
 }  // namespace stereonav

@@ -10,52 +10,56 @@
 
 namespace stereonav {
 
-// Grid coordinates as in heightfield.h; heights in metres.
+// A heightfield and its pyramid of maxima. Grid coordinates as in heightfield.h; heights in metres.
 struct GroundData {
-    const float* heights = nullptr;
-    int width = 0, height = 0;  // samples
-    const float* maxima = nullptr;
-    std::int32_t maximaOffset[16] = {}, maximaPitch[16] = {};
-    int levels = 0;
+    const float* heights = nullptr;                            // row by row, NaN where missing
+    int width = 0, height = 0;                                 // samples
+    const float* maxima = nullptr;                             // all levels of the pyramid
+    std::int32_t maximaOffset[16] = {}, maximaPitch[16] = {};  // HeightPyramid's, by level
+    int levels = 0;                                            // of the pyramid
     float minHeight = 0, maxHeight = 0;
-    float maxSlope = 0;  // metres a metre; infinite with open holes
-    double spacingX = 1, spacingY = 1;
-    // The plain cell walk in double precision (plain_caster.h), for lanes that float can not decide.
-    // fall: of an EarthBend around the origin; cell: i, j; position: u, v. Returns the parameter, infinite
-    // for a miss.
+    float maxSlope = 0;                 // metres a metre; infinite with open holes
+    double spacingX = 1, spacingY = 1;  // metres between samples
+    // The plain cell walk in double precision (plain_caster.h), for lanes that float can not decide. fall: of
+    // an EarthBend around the origin; cell: i, j; position: u, v. Returns the ray's parameter, infinite for a
+    // miss.
     double (*exactHit)(const void* context, const double* origin, const double* direction, double fall,
                        double tMin, int* cell, double* position) = nullptr;
-    const void* context = nullptr;
+    const void* context = nullptr;  // that exactHit is given
 };
 
+// A SkyMap: an octahedral map of PackedColor.
 struct SkyData {
     const std::uint32_t* texels = nullptr;
-    int size = 0, stride = 0;
+    int size = 0, stride = 0;  // texels a side; from row to row
 };
 
+// A plain fog.
 struct FogData {
-    float perMetre = 0;    // extinction; 0: no fog
-    float linear[3] = {};  // its colour
+    float perMetre = 0;    // extinction, 1/metre; 0: no fog
+    float linear[3] = {};  // the colour, linear, 0 to 1
 };
 
-// Detail of the ground's shading below the sample spacing: terrain/cast/ground_detail.h.
-constexpr int kDetailSide = 64,
-              kDetailPitch = kDetailSide + 1;  // of the lattice's values, the first of a row again
+// Detail of the ground's shading below the sample spacing: terrain/cast/ground_detail.h. The lattice's values
+// a side; those kept of a row, which ends with its first again.
+constexpr int kDetailSide = 64, kDetailPitch = kDetailSide + 1;
 constexpr int kDetailOctaves = 7;
 constexpr float kDetailPixels = 1.5f;  // a cell of an octave that is gone; twice as many: it is all there
-constexpr float kDarkestDetail = -0.65f, kBrightestDetail = 0.8f;  // shares of the light
+constexpr float kDarkestDetail = -0.65f, kBrightestDetail = 0.8f;  // shares of the light: the limits
 
+// One octave: a lattice of values, turned and scaled, over the ground.
 struct DetailOctave {
-    int a = 1, b = 0;              // its lattice: (a + b i) (x + y i)
-    float cell = 1;                // of it, in cells of the ground
-    float lightX = 0, lightY = 0;  // for a gradient of 1 along the lattice
+    int a = 1, b = 0;              // place on the lattice: (a + b i) (x + y i)
+    float cell = 1;                // a side of its cells, in cells of the ground
+    float lightX = 0, lightY = 0;  // share of the light for a gradient of 1 along the lattice's axes
 };
+// What GroundDetail adds to the shading.
 struct DetailData {
-    const float* values = nullptr;  // of the lattice
-    const float* rough = nullptr;   // at the ground's samples
+    const float* values = nullptr;  // of the lattice, -1 to 1, kDetailPitch a row
+    const float* rough = nullptr;   // at the ground's samples: 0 on level ground, towards 1 on steep ground
     int roughPitch = 0;             // samples from row to row
     int octaves = 0;                // 0: no detail
-    float perMetre = 1;             // cells of the ground
+    float perMetre = 1;             // cells of the ground a metre
     DetailOctave octave[kDetailOctaves];
 };
 
@@ -65,25 +69,26 @@ struct CasterScene;
 // (terrain/ground/ground_rings.h).
 struct CoarserGround {
     const CasterScene* scene = nullptr;  // null: there is none
-    double originX = 0, originY = 0;     // of its sample (0, 0), in grid coordinates of the finer one
-    double scale = 1;                    // its grid units for one of the finer: a power of two
+    double originX = 0, originY = 0;     // sample (0, 0), in grid coordinates of the finer one
+    double scale = 1;                    // grid units for one of the finer: a power of two
 };
 
+// What rays can meet, and the air before it.
 struct CasterScene {
     GroundData ground;
     DetailData detail;
     TextureData texture;
     SkyData sky;
     FogData fog;
-    AirData air;  // of a physical sky; then there is no fog
+    AirData air;  // a physical sky's; then there is no fog
     CoarserGround beyond;
 };
 
 // A view turned so that `step` leads from steeper to higher rays (rows from bottom to top in an upright
-// picture) and `lane` runs across. Direction of pixel (lane a, step q), in grid units and metres for a
-// unit of view depth: base + a * perLane + q * perStep.
-// With a fall rays are parabolas over level ground (engine/math/earth_bend.h). That is around the head; what
-// it is more around the eye grows with the distance, and is in originZ and the directions' z already.
+// picture) and `lane` runs across. Direction of pixel (lane a, step q), in grid units and metres for a unit
+// of view depth: base + a * perLane + q * perStep.
+// With a fall rays are parabolas over level ground (engine/math/earth_bend.h). The fall is counted from the
+// head; what differs around the eye, more with the distance, is in originZ and the directions' z already.
 struct CasterView {
     double originX = 0, originY = 0, originZ = 0;           // the eye: grid, grid, metres
     double base[3] = {}, perLane[3] = {}, perStep[3] = {};  // x, y in grid units, z in metres
@@ -94,16 +99,16 @@ struct CasterView {
     double lowA = 0, lowQ = -1, lowW = 0;
     bool verticalColumns = false;  // each lane's rays lie in one vertical plane: the paper's rule is exact
     bool coherent = false;         // a lower ray's free length may be used for a higher one at all
-    double fall = 0;               // of the view's EarthBend, around the eye; 0: rays are straight
-    float nearDepth = 0;
-    float pixelWidth = 0, pixelHeight = 0;  // at unit view depth
-    AirEye air;                             // of a physical sky
+    double fall = 0;               // 1/metre, of the view's EarthBend, around the eye; 0: rays are straight
+    float nearDepth = 0;           // metres along the view: nothing nearer is hit
+    float pixelWidth = 0, pixelHeight = 0;  // metres a metre of view depth
+    AirEye air;                             // the eye's, of a physical sky
 };
 
-// The pixels of a tile: lanes from ceil(left) to ceil(right), each line a + slope * step, and steps
-// firstStep to endStep - 1.
+// The pixels of a tile: at each step the lanes from ceil(left + leftSlope * step) to before ceil(right +
+// rightSlope * step), for steps from firstStep to endStep - 1.
 struct CasterBand {
-    double left = 0, leftSlope = 0, right = 0, rightSlope = 0;
+    double left = 0, leftSlope = 0, right = 0, rightSlope = 0;  // lanes; lanes a step
     int firstStep = 0, endStep = 0;
     // Lanes whose depths the picture may hold already (0: it does not), beside the band; empty where the
     // picture is made anew.
@@ -114,7 +119,7 @@ struct CasterBand {
 // of its nearer neighbour in the left picture, good to about a pixel's worth of ground.
 constexpr float kInFront = 0.98f;
 
-// First lane of a band's edge at a step, kept inside the picture.
+// Returns the first lane of a band's edge at a step, 0 to `lanes`.
 __attribute__((always_inline)) inline int bandEdge(double at, double slope, int step, int lanes) {
     const double a = at + slope * step;
     if (!(a > 0)) return 0;
@@ -125,16 +130,17 @@ __attribute__((always_inline)) inline int bandEdge(double at, double slope, int 
 
 // Where a kernel writes; strides in elements.
 struct CasterTarget {
-    std::uint32_t* color = nullptr;
-    float* depth = nullptr;
+    std::uint32_t* color = nullptr;  // PackedColor
+    float* depth = nullptr;          // metres along the view, infinite: sky
     std::int64_t colorStride = 0, depthStride = 0;
 };
 
+// A pixel of the picture.
 struct CasterPixel {
     std::uint16_t x, y;
 };
 
-// Scattered pixels with the view depth each ray may start at (0: unknown).
+// Scattered pixels, and the view depth, metres, that each ray may start at (0: unknown).
 struct CasterBatch {
     const CasterPixel* pixels = nullptr;
     const float* start = nullptr;
@@ -144,7 +150,7 @@ struct CasterBatch {
 // One instruction set's kernels.
 struct CasterKernels {
     const char* name;
-    int lanes;
+    int lanes;  // rays of a packet
     // scratch: at least 8 * (view.lanes + 128) floats.
     void (*castBand)(const CasterScene&, const CasterView&, const CasterBand&, const CasterTarget&,
                      float* scratch);

@@ -10,9 +10,9 @@
 
 namespace stereonav {
 
-// First parameter tMin + k * step at which origin + t * direction (world) lies on or below the ground,
-// infinite when the ray leaves the ground's extent first. step: in units of t, > 0.
-// bend: of the ground, as the ray sees it.
+// Returns the first parameter tMin + k * step at which origin + t * direction (world, metres) lies on or
+// below the ground, infinite when the ray leaves the ground's extent first. step: in units of t, > 0. bend:
+// the Earth's curvature as the ray sees it.
 double castEquidistant(const Heightfield& ground, const glm::dvec3& origin, const glm::dvec3& direction,
                        double tMin, double step, const EarthBend& bend = {});
 

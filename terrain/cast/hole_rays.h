@@ -27,26 +27,27 @@ private:
     std::vector<int> mBlocks;
 };
 
-// View depth from which the ray of pixel p may start: that of known pixels towards lower rays (Wan et al.
-// 2004, section 3.2), where they prove its way free (caster_kernel.cpp has the rule for any view). 0:
-// nothing is known. Reads viewDepth inside bounds only.
+// Returns the view depth, metres, from which the ray of pixel p may start: that of known pixels towards lower
+// rays (Wan et al. 2004, section 3.2), where they prove its way free (caster_kernel.cpp has the rule for any
+// view). 0: nothing is known. Reads viewDepth inside bounds only.
 float startInFront(const CasterView& view, const GroundData& ground, PixelRect bounds,
                    const Plane<float>& viewDepth, PixelIndex p);
 
-// The same for rays of a view whose window lies less than a pixel beside that of the `known` view, all of
+// Where rays of a view may start whose window lies less than a pixel beside that of the `known` view, all of
 // whose depths are there.
 class StartBeside {
 public:
     // The references must outlive this.
     StartBeside(const CasterView& view, const CasterView& known, const GroundData& ground,
                 const Plane<float>& viewDepth);
+    // Returns the view depth, metres, as startInFront() does.
     float of(PixelIndex p) const;
 
 private:
     const CasterView &mView, &mKnown;
     const GroundData& mGround;
     const Plane<float>& mDepth;
-    double mLane = 0, mStep = 0;  // from a pixel of the known view to that of the other
+    double mLane = 0, mStep = 0;  // pixels from one of the known view to the same of the other
     bool mAny = false;
 };
 

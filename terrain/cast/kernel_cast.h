@@ -9,12 +9,14 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Parameters at which the ray leaves the block of 2^level cells around (i, j), and the block's border.
+// Parameters, metres of view depth, at which the ray leaves the block of 2^level cells around (i, j), and the
+// block's border.
 struct BlockExit {
     I borderI, borderJ;
     F tx, ty, t;
 };
 
+// Returns where the walks leave their blocks (blockI, blockJ) of the level.
 template <bool kBent>
 STEREONAV_INLINE BlockExit blockExit(const Eye<kBent>& eye, const Walk<kBent>& w, I blockI, I blockJ,
                                      I level) {
@@ -50,7 +52,7 @@ STEREONAV_INLINE void leaveBlock(const Eye<kBent>& eye, Walk<kBent>& w, const Bl
 // Pyramid level to begin with for a ray about which nothing is known.
 constexpr int kColdLevel = 3;
 
-// The same for single cells: nothing to round, the other index stays.
+// Returns where the walks leave their cells.
 template <bool kBent>
 STEREONAV_INLINE BlockExit cellExit(const Eye<kBent>& eye, const Walk<kBent>& w) {
     BlockExit e;
@@ -62,6 +64,7 @@ STEREONAV_INLINE BlockExit cellExit(const Eye<kBent>& eye, const Walk<kBent>& w)
     return e;
 }
 
+// Moves the lanes `move` to the next cell: nothing to round, the other index stays.
 template <bool kBent>
 STEREONAV_INLINE void leaveCell(const Eye<kBent>& eye, Walk<kBent>& w, const BlockExit& e, M move) {
     const M crossX = e.tx < e.ty;
@@ -72,6 +75,8 @@ STEREONAV_INLINE void leaveCell(const Eye<kBent>& eye, Walk<kBent>& w, const Blo
     w.active = andNot(w.active, outside < I(0));
 }
 
+// What was met in cells: lanes, view depths in metres, Hits::approach, curvatureOf(), and heights of the
+// corners.
 struct CellHit {
     M hit, unsure;
     F t, approach, curvature;
@@ -152,8 +157,8 @@ STEREONAV_INLINE M refine(const Eye<kBent>& eye, const Walk<kBent>& w, const Cel
     return andNot(m, good);
 }
 
-// Rate of height over ground along a ray at a point of a cell, metres for a unit of t. rise: of the ray
-// there.
+// Returns the rate of height over ground along a ray at a point of a cell, metres for a unit of t. rise: the
+// ray's own rate there.
 STEREONAV_INLINE float cellApproach(const GroundData& g, const int* cell, const double* position,
                                     const double* direction, double rise) {
     const float* south = g.heights + static_cast<std::int64_t>(cell[1]) * g.width + cell[0];
@@ -164,7 +169,8 @@ STEREONAV_INLINE float cellApproach(const GroundData& g, const int* cell, const 
                               direction[1] * (dv + position[0] * twist));
 }
 
-// Whether a ray is below ground at t, and where in the ground; not in a hole. slope: of the way there.
+// Returns whether a ray is below ground at t, and where in the ground; not in a hole. slope: metres for a
+// unit of t, from the origin to there.
 inline bool belowGround(const GroundData& g, const double* origin, const double* direction, double slope,
                         double t, int* cell, double* position) {
     const double x = origin[0] + t * direction[0], y = origin[1] + t * direction[1];
@@ -229,13 +235,13 @@ STEREONAV_INLINE Discriminant discriminantOf(const Walk<true>& w) {
     return {mulAdd(F(-4.0f) * w.sink, w.over, square), F(0x1p-20f) * square};
 }
 
-// Falling rays from above all ground that bend up before they come down to it.
+// Returns falling rays from above all ground that bend up before they come down to it.
 STEREONAV_INLINE M staysAbove(const Walk<true>& w) {
     const Discriminant d = discriminantOf(w);
     return (w.over > F(0.0f)) & (d.value < F(0.0f) - d.slack);
 }
 
-// Where falling rays come down to the highest sample, or a little before.
+// Returns the view depth, metres, at which falling rays come down to the highest sample, or a little less.
 template <bool kBent>
 STEREONAV_INLINE F comesDown(const Walk<kBent>& w) {
     if constexpr (kBent) {
@@ -247,6 +253,8 @@ STEREONAV_INLINE F comesDown(const Walk<kBent>& w) {
     }
 }
 
+// Begins walks at view depth `start`, metres, or further on, where rays come to this ground; level: of the
+// pyramid.
 template <bool kBent>
 STEREONAV_INLINE Walk<kBent> startWalk(const Eye<kBent>& eye, const Rays& rays, F start, I level, M lanes) {
     Walk<kBent> w;
@@ -314,7 +322,7 @@ STEREONAV_INLINE M leap(const Eye<kBent>& eye, Walk<kBent>& w, M move) {
     return parked;
 }
 
-// What is kept of a packet's hits until all its lanes are done.
+// Keeps what was met in `c` until all lanes of the packet are done.
 STEREONAV_INLINE void keep(CellHit& found, const CellHit& c) {
     found.t = select(c.hit, c.t, found.t);
     found.approach = select(c.hit, c.approach, found.approach);
@@ -338,6 +346,7 @@ STEREONAV_INLINE void tryCells(const Eye<kBent>& eye, Walk<kBent>& w, M m, CellH
     leaveCell(eye, w, e, andNot(m, done));
 }
 
+// Returns hits of rays that meet nothing.
 STEREONAV_INLINE Hits noHits() {
     Hits hits;
     hits.t = infinity();
@@ -348,7 +357,7 @@ STEREONAV_INLINE Hits noHits() {
     return hits;
 }
 
-// The last word on a packet's hits, once all its lanes are done.
+// Settles a packet's hits in double precision, once all its lanes are done.
 template <bool kBent>
 STEREONAV_INLINE Hits settle(const Eye<kBent>& eye, const Walk<kBent>& w, const CellHit& found) {
     Hits hits = noHits();
@@ -362,7 +371,7 @@ STEREONAV_INLINE Hits settle(const Eye<kBent>& eye, const Walk<kBent>& w, const 
     return hits;
 }
 
-// The rest of a walk that was started.
+// Walks on to the end with what startWalk() began.
 template <bool kBent>
 STEREONAV_INLINE Hits walkOn(const Eye<kBent>& eye, Walk<kBent>& w) {
     const I level = w.level;
@@ -384,9 +393,9 @@ STEREONAV_INLINE Hits walkOn(const Eye<kBent>& eye, Walk<kBent>& w) {
     return settle(eye, w, found);
 }
 
-// First hits of the rays `lanes` at or behind `start` (and the near distance). level: pyramid level to
-// begin with; 0 where the hit is thought to be close: then two cells are tried outright, which is all that
-// most rays need, and some more while most of a packet do.
+// Returns the first hits of the rays `lanes` at or behind view depth `start`, metres (and the near distance).
+// level: pyramid level to begin with; 0 where the hit is thought to be close: then two cells are tried
+// outright, which is all that most rays need, and some more while most of a packet do.
 template <bool kBent>
 STEREONAV_INLINE Hits castPacket(const Eye<kBent>& eye, const Rays& rays, F start, I level, M lanes) {
     Walk<kBent> w = startWalk(eye, rays, start, level, lanes);

@@ -9,7 +9,7 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Rise of a row's rays for a unit of depth.
+// Metres that a row's rays rise by for a metre of depth.
 struct RowSlope {
     D exact;
     F rough;
@@ -18,8 +18,8 @@ struct RowSlope {
 template <bool kBent>
 class Columns {
 public:
-    // rays: the lowest ray of each column.
-    // border: where they come from a finer ground; 0: they come from the eye.
+    // rays: the lowest ray of each column. border: view depth, metres, at which they come from a finer
+    // ground; 0: they come from the eye.
     STEREONAV_INLINE Columns(const Eye<kBent>& eye, const Rays& rays, M lanes, F border = F(0.0f))
         : mEye(eye) {
         mWalk = startWalk(eye, rays, border, I(0), lanes);
@@ -30,7 +30,7 @@ public:
         mStarted = false;
     }
 
-    // Hits of the lanes' rays in the next row, none of them flatter than that before.
+    // Returns the hits of the lanes' rays in the next row, none of them flatter than that before.
     STEREONAV_INLINE Hits cast(const RowSlope& slope, M lanes) {
         mWalk.rays.exactZ = slope.exact;
         takeSlope(mWalk, slope.rough);
@@ -89,7 +89,7 @@ private:
         const F u = mulAdd(mWalk.t, mWalk.rays.x, mEye.relativeX - toFloat(mWalk.i - I(mEye.baseI)));
         const F v = mulAdd(mWalk.t, mWalk.rays.y, mEye.relativeY - toFloat(mWalk.j - I(mEye.baseJ)));
         const F slopeU = mulAdd(v, twist, du), slopeV = mulAdd(u, twist, dv);
-        // The eye above it.
+        // Height of the eye above it.
         mGround0 = (mEye.height - mH00) + (mEye.rest - mulAdd(u, slopeU, v * dv));
         mGround1 = mulAdd(mWalk.rays.x, slopeU, mWalk.rays.y * slopeV);
         mCurvature = curvatureOf(mWalk, twist);

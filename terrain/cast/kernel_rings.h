@@ -10,7 +10,7 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// The same rays in grid units of a coarser ground: exact, since scales are powers of two.
+// Returns the same rays in grid units of a coarser ground: exact, since scales are powers of two.
 STEREONAV_INLINE Rays scaled(Rays rays, double scale) {
     const D d(scale);
     const F f(static_cast<float>(scale));
@@ -23,7 +23,7 @@ STEREONAV_INLINE Rays scaled(Rays rays, double scale) {
 template <bool kBent>
 struct Ring {
     const CasterScene* scene;
-    double scale;                // its grid units for one of the first ground: a power of two
+    double scale;                // grid units for one of the first ground: a power of two
     F west, east, south, north;  // grid units of the first ground
     Eye<kBent> eye;
 };
@@ -68,7 +68,7 @@ private:
     Ring<kBent> mRings[kMost];
 };
 
-// What the ways of the first ground's rays to borders are divided by.
+// 1 / direction, by which the ways of the first ground's rays to borders are multiplied.
 struct Inverses {
     F x, y;
 };
@@ -76,7 +76,8 @@ STEREONAV_INLINE Inverses inversesOf(const Rays& rays) {
     return {approxReciprocal(divisible(rays.x)), approxReciprocal(divisible(rays.y))};
 }
 
-// Where rays leave the ring. They come from inside it, or above its border.
+// Returns the view depth, metres, at which rays leave the ring. They come from inside it, or above its
+// border.
 template <bool kBent>
 STEREONAV_INLINE F borderExit(const Ring<kBent>& ring, const Inverses& inverse) {
     return min(max(ring.west * inverse.x, ring.east * inverse.x),
@@ -86,10 +87,11 @@ STEREONAV_INLINE F borderExit(const Ring<kBent>& ring, const Inverses& inverse) 
 // A ray's place where its walk stands.
 struct Standing {
     F height;    // over ground, metres
-    F u, v;      // in its cell
-    F approach;  // as of a hit
+    F u, v;      // in the cell, 0 to 1
+    F approach;  // Hits::approach
 };
 
+// Returns the places of lanes m over this ground.
 template <bool kBent>
 STEREONAV_INLINE Standing standingAt(const Eye<kBent>& eye, const Walk<kBent>& w, M m) {
     Standing s;
@@ -106,18 +108,20 @@ STEREONAV_INLINE Standing standingAt(const Eye<kBent>& eye, const Walk<kBent>& w
     return s;
 }
 
-// Below the ground by more than rounding makes of nothing. False in a hole, whose heights are NaN.
+// Returns which lanes are below the ground by more than rounding makes of nothing; none in a hole, whose
+// heights are NaN.
 template <bool kBent>
 STEREONAV_INLINE M sunk(const Eye<kBent>& eye, F height) {
     return height < F(0.0f) - eye.margin - eye.margin;
 }
 
-// Where a walk stands.
+// View depth, metres, and cell at which a walk stands.
 struct WalkPlace {
     F t;
     I i, j;
 };
 
+// Makes the places of lanes m their hits.
 STEREONAV_INLINE void meetAt(const WalkPlace& w, const Standing& s, M m, Hits& hits) {
     hits.t = select(m, w.t, hits.t);
     hits.i = select(m, w.i, hits.i);
@@ -128,7 +132,7 @@ STEREONAV_INLINE void meetAt(const WalkPlace& w, const Standing& s, M m, Hits& h
     hits.free = select(m, w.t, hits.free);
 }
 
-// First hits of rays that come from the finer ground at `border`; start: as of castPacket.
+// Returns the first hits of rays that come from the finer ground at `border`; start: castPacket()'s.
 template <bool kBent>
 STEREONAV_INLINE Hits castEntering(const Eye<kBent>& eye, const Rays& rays, F border, F start, M lanes) {
     const M entering = start <= border;
@@ -146,8 +150,8 @@ STEREONAV_INLINE Hits castEntering(const Eye<kBent>& eye, const Rays& rays, F bo
     return hits;
 }
 
-// For rays `lanes` that did not meet the first ground: what they meet beyond it, and its colour, or the
-// sky's. rays: of the first ground; start: as of castPacket.
+// Casts rays `lanes` that did not meet the first ground beyond it: what they meet, and its colour, or the
+// sky's. rays: of the first ground; start: castPacket()'s.
 template <bool kBent>
 inline void castBeyond(const Rings<kBent>& rings, const CasterView& view, const Rays& rays, F start, M lanes,
                        Hits& hits, I& color) {
@@ -176,8 +180,8 @@ inline void castBeyond(const Rings<kBent>& rings, const CasterView& view, const 
     }
 }
 
-// Colours of rays `lanes` that were cast at the first ground; hits become those beyond it where they met
-// nothing there.
+// Returns the PackedColors of rays `lanes` that were cast at the first ground; hits become those beyond it
+// where they met nothing there.
 template <bool kBent>
 STEREONAV_INLINE I shadeThrough(const Rings<kBent>& rings, const CasterView& view, const Rays& rays, F start,
                                 M lanes, Hits& hits) {
@@ -190,7 +194,7 @@ STEREONAV_INLINE I shadeThrough(const Rings<kBent>& rings, const CasterView& vie
     return color;
 }
 
-// First hits of the rays `lanes`, and their colours.
+// Casts the rays `lanes`: sets hits, and returns their PackedColors. start: castPacket()'s.
 template <bool kBent>
 STEREONAV_INLINE I castThrough(const Rings<kBent>& rings, const CasterView& view, const Rays& rays, F start,
                                M lanes, Hits& hits) {

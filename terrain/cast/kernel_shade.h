@@ -10,7 +10,7 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Base-2 logarithm within 0.01, for positive normal numbers.
+// Returns the base-2 logarithm within 0.01, for positive normal numbers.
 STEREONAV_INLINE F approxLog2(F x) {
     const I bitsOfX = asInt(x);
     const F exponent = toFloat(shiftRight<23>(bitsOfX) - I(127));
@@ -18,9 +18,9 @@ STEREONAV_INLINE F approxLog2(F x) {
     return exponent + mulAdd(mulAdd(F(-0.33333f), mantissa, F(2.0f)), mantissa, F(-1.66667f));
 }
 
-// The footprint of a pixel on the ground is t * pixelWidth across, and along the ray longer by as much
-// as the ray is flat to the ground. The level fits the geometric mean of the two sides: a compromise
-// between shimmer and blur (docs/decisions).
+// Returns the level of the texture, 0 or more. The footprint of a pixel on the ground is t * pixelWidth
+// across, and along the ray longer by as much as the ray is flat to the ground. The level fits the geometric
+// mean of the two sides: a compromise between shimmer and blur (docs/decisions).
 STEREONAV_INLINE F mipLevel(const TextureData& texture, const CasterView& view, F length, F t, F approach) {
     const F side = t * F(texture.texelsPerMetre);
     const F area = side * side * F(view.pixelWidth * view.pixelHeight) * length *
@@ -29,7 +29,7 @@ STEREONAV_INLINE F mipLevel(const TextureData& texture, const CasterView& view, 
     return clamp(level, F(0.0f), F(static_cast<float>(texture.levels - 1)));
 }
 
-// directions in metres, any length.
+// Returns the sky's colours in directions (x, y, z) of any length.
 STEREONAV_INLINE ColorHalves skyColor(const SkyData& sky, F x, F y, F z, M m) {
     const F scale = approxReciprocal(max(abs(x) + abs(y) + abs(z), F(1e-30f)));
     const F px = x * scale, py = y * scale;
@@ -45,7 +45,7 @@ STEREONAV_INLINE ColorHalves skyColor(const SkyData& sky, F x, F y, F z, M m) {
     return bilinearColor(sky.texels, j * I(sky.stride) + i, I(sky.stride), fx, fy, m);
 }
 
-// e^-x for x >= 0, relative error below 1e-5: a power of two, and the square of a series to the fifth
+// Returns e^-x for x >= 0, relative error below 1e-5: a power of two, and the square of a series to the fifth
 // power for half of the rest (at most ln 2 / 2, so what is left out is below 2.5e-6).
 STEREONAV_INLINE F expMinus(F x) {
     const F y = min(x, F(80.0f)) * F(1.44269504f);
@@ -58,7 +58,8 @@ STEREONAV_INLINE F expMinus(F x) {
     return half * half * asFloat(shiftLeft<23>(I(127) - whole));
 }
 
-// One channel (14-bit square root of linear light) seen through fog of the given linear colour.
+// Returns a channel (14-bit square root of linear light) seen through fog of the given linear colour, which
+// leaves the share `through`.
 STEREONAV_INLINE I fogChannel(I root, float fog, F through) {
     constexpr float kFull = 1023.0f * 16;
     const F value = toFloat(root) * F(1 / kFull);
@@ -75,7 +76,7 @@ STEREONAV_INLINE ColorHalves fogged(const FogData& fog, ColorHalves c, F through
     return {red | shiftLeft<16>(blue), green};
 }
 
-// What air_formula.h asks of numbers. e^-x within 3e-7, for x from -12 to 80; beyond as there.
+// What air_formula.h asks of numbers. airExp: e^-x within 3e-7, for x from -12 to 80; beyond as there.
 STEREONAV_INLINE F airExp(F x) {
     const F y = clamp(x, F(-12.0f), F(80.0f)) * F(-1.44269504f);
     const I whole = floorToInt(y + F(0.5f));
@@ -98,7 +99,8 @@ STEREONAV_INLINE F airRsqrt(F x) {
     return approxRsqrt(x);
 }
 
-// One channel (14-bit square root of linear light) behind air.
+// Returns a channel (14-bit square root of linear light) behind air, which leaves the share `through` and
+// adds `light`, linear.
 STEREONAV_INLINE I airChannel(I root, F through, F light) {
     constexpr float kFull = 1023.0f * 16;
     const F value = toFloat(root) * F(1 / kFull);
@@ -106,7 +108,8 @@ STEREONAV_INLINE I airChannel(I root, F through, F light) {
     return truncateToInt(mulAdd(sqrt(clamp(linear, F(0.0f), F(1.0f))), F(kFull), F(0.5f)));
 }
 
-// Through the air of a physical sky: of a ray in metres with that length, of which t go to the ground.
+// Returns colours through the air of a physical sky. (x, y, z): a ray in metres with that length, of which t
+// go to the ground.
 STEREONAV_INLINE ColorHalves aired(const AirData& air, const AirEye& eye, ColorHalves c, F x, F y, F z,
                                    F length, F t) {
     const F perMetre = approxReciprocal(length);
@@ -119,13 +122,14 @@ STEREONAV_INLINE ColorHalves aired(const AirData& air, const AirEye& eye, ColorH
     return {red | shiftLeft<16>(blue), green};
 }
 
-// The longer side of a pixel's footprint on the ground, metres.
+// Returns the longer side of a pixel's footprint on the ground, metres.
 STEREONAV_INLINE F longerSide(const CasterView& view, F length, F t, F approach) {
     const F along = F(view.pixelHeight) * length * approxReciprocal(max(abs(approach), F(1e-6f)));
     return t * max(along, F(view.pixelWidth));
 }
 
-// detailAt() of tests/oracle/plain_detail.h, for the lanes m.
+// Returns what detailAt() of tests/oracle/plain_detail.h does, for the lanes m: kDarkestDetail to
+// kBrightestDetail.
 STEREONAV_INLINE F detailOf(const DetailData& detail, const Hits& hits, F footprint, M m) {
     const F inverse = approxReciprocal(max(footprint * F(detail.perMetre), F(1e-9f)));
     F light(0.0f);
@@ -162,7 +166,7 @@ STEREONAV_INLINE F detailOf(const DetailData& detail, const Hits& hits, F footpr
     return clamp(rough * light, F(kDarkestDetail), F(kBrightestDetail));
 }
 
-// Linear light times 1 + brighter, in roots.
+// Returns colours whose linear light is 1 + brighter times as strong.
 STEREONAV_INLINE ColorHalves brightened(ColorHalves c, F brighter) {
     constexpr float kFull = 1023.0f * 16;
     const F scale = sqrt(F(1.0f) + brighter);
@@ -174,6 +178,7 @@ STEREONAV_INLINE ColorHalves brightened(ColorHalves c, F brighter) {
     return {red | shiftLeft<16>(blue), channel(c.green & low)};
 }
 
+// Returns the PackedColors of rays `lanes`: the ground's where they met it, through the air, else the sky's.
 STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view, const Rays& rays,
                                const Hits& hits, M lanes) {
     const F x = rays.x * F(static_cast<float>(scene.ground.spacingX));

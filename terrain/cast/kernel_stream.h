@@ -24,6 +24,7 @@ public:
         if constexpr (kBent) mWalk.sink = mWalk.lowest = F(0.0f);
     }
 
+    // Casts, colours and stores the whole batch.
     void cast() {
         for (;;) {
             const int busy = __builtin_popcount(bits(mWalk.active));
@@ -119,9 +120,9 @@ private:
     CellHit mFound;
     M mTaken;
     int mNext = 0;
-    int mPixel[kLanes];  // index in the batch
-    alignas(64) double mX[kLanes], mY[kLanes], mZ[kLanes];
-    alignas(64) float mStart[kLanes];
+    int mPixel[kLanes];                                     // index in the batch
+    alignas(64) double mX[kLanes], mY[kLanes], mZ[kLanes];  // directions, as CasterView's
+    alignas(64) float mStart[kLanes];                       // view depths, metres
 };
 
 }  // namespace stereonav::STEREONAV_ISA

@@ -15,46 +15,47 @@ struct Rays {
     F x, y, z;
 };
 
-// Where rays meet the ground. t is infinite for a miss; then the rest means nothing.
+// Where rays meet the ground. t: view depth, metres, infinite for a miss; then the rest means nothing.
 struct Hits {
     F t;
     I i, j;      // cell
-    F u, v;      // position in the cell
+    F u, v;      // position in the cell, 0 to 1
     F approach;  // rate of height over ground along the ray, metres a unit of t (negative from above)
     F free;      // the ray is above the ground (where there is ground) up to here; 0: not known
 };
 
-// What a round Earth adds. Metres that a ray rises by over level ground: that for a direction of 1 along x or
-// y, times the square of its parameter.
+// What a round Earth adds: a ray rises by t^2 (bendX x^2 + bendY y^2) metres over level ground, for a
+// direction of (x, y) grid units a unit of t.
 template <bool kBent>
 struct EyeBend {};
 template <>
 struct EyeBend<true> {
-    double bendX, bendY;
+    double bendX, bendY;  // metres, for t = 1
 };
 
 // What is the same for all rays of a view.
 template <bool kBent>
 struct Eye {
     const GroundData* ground;
-    double x, y, z;    // grid, grid, metres
-    int baseI, baseJ;  // grid cell that single-precision coordinates are relative to
-    F relativeX, relativeY;
+    double x, y, z;          // grid, grid, metres
+    int baseI, baseJ;        // grid cell that single-precision coordinates are relative to
+    F relativeX, relativeY;  // grid units from that cell
     // Metres: its height as a float and what that leaves over. Heights of the ground are taken from the
     // first, which is exact where both are far from 0, and only then is the rest added: ground at 10,000 km
     // is as exact as ground at 0.
     F height, rest;
     F margin;  // metres: bound of the rounding error of a ray's height (see below)
     I lastI, lastJ;
-    float nearDepth;
+    float nearDepth;  // metres along the view
     EyeBend<kBent> bend;
 };
 
+// Returns x rounded towards 0, low to high.
 STEREONAV_INLINE int clampInt(double x, int low, int high) {
     return x < low ? low : x > high ? high : static_cast<int>(x);
 }
 
-// Metres at most that a ray bends up by over this ground.
+// Returns the metres that a ray bends up by over this ground at most.
 STEREONAV_INLINE double largestRise(const GroundData& ground, double fall, double x, double y) {
     const double east = ground.width - 1 - x, north = ground.height - 1 - y;
     const double wide = (x > east ? x : east) * ground.spacingX,
@@ -62,7 +63,7 @@ STEREONAV_INLINE double largestRise(const GroundData& ground, double fall, doubl
     return fall * (wide * wide + high * high);
 }
 
-// x, y: of the eye, in grid coordinates of this ground.
+// Returns the eye of a view at grid coordinates x, y of this ground.
 template <bool kBent>
 STEREONAV_INLINE Eye<kBent> makeEyeAt(const GroundData& ground, const CasterView& view, double x, double y) {
     const int baseI = clampInt(x, 0, ground.width - 2);
@@ -99,6 +100,7 @@ STEREONAV_INLINE Eye<kBent> makeEyeAt(const GroundData& ground, const CasterView
             bend};
 }
 
+// Returns the eye over the view's own ground.
 template <bool kBent>
 STEREONAV_INLINE Eye<kBent> makeEye(const GroundData& ground, const CasterView& view) {
     return makeEyeAt<kBent>(ground, view, view.originX, view.originY);
@@ -108,12 +110,12 @@ STEREONAV_INLINE F infinity() {
     return F(__builtin_inff());
 }
 
-// A direction component that may be divided by: its size is kept above 1e-18.
+// Returns a direction component that may be divided by: its size is kept above 1e-18.
 STEREONAV_INLINE F divisible(F d) {
     return select(abs(d) < F(1e-18f), select(d < F(0.0f), F(-1e-18f), F(1e-18f)), d);
 }
 
-// A ray's height over level ground is z + t dz + t^2 sink, least at `lowest`.
+// A ray's height over level ground is z + t dz + t^2 sink metres, least at t = `lowest`.
 template <bool kBent>
 struct WalkBend {};
 template <>
@@ -121,20 +123,21 @@ struct WalkBend<true> {
     F sink, lowest;
 };
 
+// A packet of rays on their way over a ground.
 template <bool kBent>
 struct Walk : WalkBend<kBent> {
     Rays rays;
-    F inverseX, inverseY;
+    F inverseX, inverseY;  // 1 / direction, of a component that may be divided by
     M eastward, northward, downward;
-    F t;
-    F floor;  // no hit lies before: the near distance, or where the ray came to this ground
-    I i, j, level;
-    M active;
-    M risen;  // above all ground and rising: free for good
-    F over;   // height of the eye over the highest sample, metres, and the margin
+    F t;            // view depth that the walk has come to, metres
+    F floor;        // metres; no hit lies before: the near distance, or where the ray came to this ground
+    I i, j, level;  // cell, and level of the pyramid
+    M active;       // still over the ground, nothing met
+    M risen;        // above all ground and rising: free for good
+    F over;         // height of the eye over the highest sample, metres, and the margin
 };
 
-// Height of a ray at t over what lies so much below the eye.
+// Returns the height of a ray at t, metres, over what lies `eye` metres below the eye.
 template <bool kBent>
 STEREONAV_INLINE F heightAt(const Walk<kBent>& w, F t, F eye) {
     if constexpr (kBent)
@@ -143,7 +146,7 @@ STEREONAV_INLINE F heightAt(const Walk<kBent>& w, F t, F eye) {
         return mulAdd(t, w.rays.z, eye);
 }
 
-// How fast the ray rises at t.
+// Returns the metres that the ray rises by at t, for a unit of t.
 template <bool kBent>
 STEREONAV_INLINE F riseAt(const Walk<kBent>& w, F t) {
     if constexpr (kBent)
@@ -152,7 +155,7 @@ STEREONAV_INLINE F riseAt(const Walk<kBent>& w, F t) {
         return w.rays.z;
 }
 
-// Where a ray is lowest from where it stands to `end`.
+// Returns the t at which a ray is lowest from where it stands to `end`.
 template <bool kBent>
 STEREONAV_INLINE F lowestUntil(const Walk<kBent>& w, F end) {
     if constexpr (kBent)
@@ -161,7 +164,7 @@ STEREONAV_INLINE F lowestUntil(const Walk<kBent>& w, F end) {
         return select(w.downward, end, w.t);
 }
 
-// Above all ground for good.
+// Returns which rays are above all ground at t, and stay so.
 template <bool kBent>
 STEREONAV_INLINE M hasRisenAt(const Walk<kBent>& w, F t) {
     if constexpr (kBent)
@@ -170,6 +173,7 @@ STEREONAV_INLINE M hasRisenAt(const Walk<kBent>& w, F t) {
         return andNot(heightAt(w, t, w.over) > F(0.0f), w.downward);
 }
 
+// Sets the rays' rise at t = 0, metres a unit of t, and what follows from it.
 template <bool kBent>
 STEREONAV_INLINE void takeSlope(Walk<kBent>& w, F z) {
     w.rays.z = z;

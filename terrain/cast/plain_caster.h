@@ -16,9 +16,9 @@ struct GroundHit {
     double u = 0, v = 0;  // position inside it, each in [0, 1]
 };
 
-// First t >= tMin at which origin + t * direction (world) meets the bilinear surface, from either
-// side. direction: any length, not zero. Cells with a hole are passed through. bend: of the ground, as the
-// ray sees it.
+// Returns the first t >= tMin at which origin + t * direction (world, metres) meets the bilinear surface,
+// from either side. direction: any length, not zero. Cells with a hole are passed through. bend: the Earth's
+// curvature as the ray sees it.
 GroundHit castPlain(const Heightfield& ground, const glm::dvec3& origin, const glm::dvec3& direction,
                     double tMin, const EarthBend& bend = {});
 

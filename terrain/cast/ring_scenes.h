@@ -21,46 +21,48 @@ struct GroundFilter;  // terrain_renderer.h
 
 class RingScenes {
 public:
-    // ground must outlive this. share: RingWish::share, above 0. Throws Error where there is not enough
-    // memory.
+    // Makes the levels of a ground, which must outlive this. share: RingWish::share, above 0. Throws Error
+    // where there is not enough memory.
     RingScenes(const Heightfield& ground, double share);
-    // Makes rings of stored levels. The scenes that are given to dress() are of the samples of one of them,
-    // `whole`; there is nothing but rings then. Where they need more memory than can be had the share is made
-    // larger.
+    // Makes rings of stored levels. The scenes that are given to dress() have the samples of one of these
+    // levels, `whole`, and only rings are cast. Where rings need more memory than can be had the share is
+    // made larger.
     RingScenes(std::shared_ptr<const GroundLevels> levels, int whole, double share);
     ~RingScenes();
 
-    // Sets the colours of rings finer than the whole ground's samples, for what is chosen from now on; null:
-    // in the whole ground's.
+    // Sets what colours rings finer than the whole ground's samples, for rings that are chosen from now on;
+    // null: the whole ground's colours.
     void colorParts(PartColors colors);
-    // Whether rings may come later than the first picture they are for, from a thread of their own: what is
-    // there is cast meanwhile, from further and further away. Else lookFrom() waits for them.
+    // Lets rings come later than the first picture they are for, from a thread of their own: what is there is
+    // cast meanwhile, from further and further away. Else lookFrom() waits for them.
     void mayBeLate(bool may);
 
-    // Chooses the rings for pictures of these views, which are alike but for the eyes' places. Throws Error
+    // Chooses the rings for pictures of these views, which differ in the eyes' places alone. Throws Error
     // where levels are stored and can not be read.
     void lookFrom(const EyeView& left, const EyeView& right);
     // Whether what was chosen differs from the ground itself.
     bool any() const { return mShown.rings != nullptr; }
     const GroundRings& rings() const { return *mShown.rings; }                         // where any()
     const Heightfield& ground() const { return mShown.rings->rings.front()->ground; }  // the finest
-    // Share of a pixel for the pictures that are cast now: the wish's, or more. late: whether finer rings are
-    // on their way.
+    // Share of a pixel that the ground of the next picture may be off: the wish's, or more.
     double share() const { return mShareNow; }
+    // Whether finer rings are on their way.
     bool late() const { return mLate; }
     // Counts up, from any thread, when rings that were late are there.
     std::uint64_t arrivals() const { return *mArrivals; }
 
     // Makes the rings' scenes like those of the ground itself, with and without fog, in all but the ground.
-    // Those must outlive this, or others be given; what they point to, too.
+    // The given scenes, and what they point to, must outlive this or be replaced by others.
     void dress(const CasterScene& foggy, const CasterScene& clear, const GroundFilter& filter);
+    // The scene of the finest ring, which leads to the others; where any().
     const CasterScene& first(bool withoutFog) const { return (withoutFog ? mClear : mFoggy).front(); }
 
+    // Bytes of levels, rings and their colours.
     std::size_t byteCount() const;
 
 private:
     struct Color {
-        glm::dvec2 first{0.0};  // of the ring's sample (0, 0), in the grid of what was coloured
+        glm::dvec2 first{0.0};  // the ring's sample (0, 0), in the grid of what was coloured
         ColorTexture texture;
         int version = 0;
     };
@@ -88,9 +90,9 @@ private:
     std::vector<CasterScene> dressed(const CasterScene& whole, const GroundFilter& filter) const;
 
     std::shared_ptr<const GroundLevels> mLevels;
-    int mWhole = 0;      // level of the scenes that are dressed
-    double mBudget = 0;  // bytes of rings of stored levels
-    double mShare, mShareNow;
+    int mWhole = 0;            // level of the scenes that are dressed
+    double mBudget = 0;        // bytes of rings of stored levels
+    double mShare, mShareNow;  // of a pixel: wished; kept to
     PartColors mColors;
     int mColorVersion = 0;
     bool mMayBeLate = false, mLate = false;
@@ -106,7 +108,7 @@ private:
     int mComingColors = 0;
     std::future<Set> mWork;
     struct Seen {
-        glm::dvec3 eye;
+        glm::dvec3 eye;  // world, metres
         std::chrono::steady_clock::time_point when;
     };
     std::optional<Seen> mSeen;

@@ -15,23 +15,24 @@ namespace stereonav {
 
 class Specular {
 public:
-    // sunlight: what the sun's light has of its strength, by colour; with a set sun there is no highlight.
+    // sunlight: the share of its strength that the sun's light has, by colour; with a set sun there is no
+    // highlight.
     explicit Specular(const TerrainLook& look, const glm::vec3& sunlight = glm::vec3(1.0f));
     bool active() const { return mStrength > 0; }       // whether the look has highlights at all
     const glm::dvec3& toSun() const { return mToSun; }  // unit
-    // What ground with that unit normal sends to an eye in the direction toEye (unit, from the point),
-    // linear, where nothing hides the sun; 0 where it is turned from the sun.
+    // Returns what ground with that unit normal sends to an eye in the direction toEye (unit, from the
+    // point), linear, where nothing hides the sun; 0 where it is turned from the sun.
     glm::vec3 highlight(const glm::dvec3& normal, const glm::dvec3& toEye) const;
-    // cosine^shininess by linear interpolation in a table; cosine in [0, 1]. The absolute error is below
-    // shininess^2 / (8 * kEntries^2) of full strength.
+    // Returns cosine^shininess by linear interpolation in a table; cosine in [0, 1]. The absolute error is
+    // below shininess^2 / (8 * kEntries^2) of full strength.
     float power(float cosine) const;
 
-    static constexpr int kEntries = 4096;
+    static constexpr int kEntries = 4096;  // steps of the table
 
 private:
-    float mStrength;
-    glm::vec3 mColor{0.0f};  // of a full highlight
-    glm::dvec3 mToSun;
+    float mStrength;            // TerrainLook::specular
+    glm::vec3 mColor{0.0f};     // a full highlight, linear
+    glm::dvec3 mToSun;          // unit
     std::vector<float> mPower;  // empty where there is no highlight
 };
 

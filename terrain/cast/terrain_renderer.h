@@ -17,9 +17,9 @@ namespace stereonav {
 
 class Fog;  // terrain/light/fog.h
 
-// How the ground's colour is read, for comparing; as it is by default.
+// How the ground's colour is read; other values than these defaults are for comparing.
 struct GroundFilter {
-    bool mipLevels = true;  // else the finest alone
+    bool mipLevels = true;  // false: the finest level alone
     double levelBias = 0;   // levels coarser (above 0) or finer than the ray's footprint asks for, -8 to 8
 };
 
@@ -36,15 +36,16 @@ public:
     // share of what a pixel covers there (terrain/ground/ground_rings.h); 0: all of it from the ground's own.
     // The scene's own share at first. Not while a picture is cast.
     void takeCoarser(double share);
-    // The rings that the next pictures are of; null: the ground itself.
+    // Returns the rings that are cast in the next pictures; null: the ground itself.
     const GroundRings* rings() const;
-    // Whether pictures wait for tiles; TerrainScene::ringsMayBeLate at first. Not while a picture is cast.
+    // Sets whether pictures do without tiles that are not there yet; TerrainScene::ringsMayBeLate at first.
+    // Not while a picture is cast.
     void ringsMayBeLate(bool may);
     // Counts up, from any thread, when tiles that pictures did not wait for are there.
     std::uint64_t arrivals() const;
     // The share of a pixel that rings keep to, and whether finer ones are on their way.
     struct Detail {
-        double share = 0;
+        double share = 0;  // of a pixel; 0: there are no rings
         bool late = false;
     };
     Detail ringDetail() const;
@@ -67,23 +68,24 @@ public:
     bool airDiffers(double separation) const override;
     void changeAir(const EyeView& from, const EyeView& view, int y, EyeImage& image) const override;
 
-    // Colours rows y0 .. y1 - 1 of an upright view from the depths in image.viewDepth, which another caster
+    // Colours rows y0 to y1 - 1 of an upright view from the depths in image.viewDepth, which another caster
     // found: the same shading for comparing casters.
     void shadeRows(const EyeView& view, int y0, int y1, EyeImage& image) const;
 
-    // The scene's look has changed (moveSun()): highlights follow. Not while a picture is cast.
+    // Makes highlights and the air follow the scene's look, which has changed (moveSun()). Not while a
+    // picture is cast.
     void sunMoved();
-    // Casts the ground in these colours from now on, in place of the scene's own. light: that they are lit
-    // by, null: the plain sun, or none. Both must live until others are shown. Not while a picture is cast.
-    // parts: of rings of a tiled ground that are finer than it; null: as the rest.
+    // Casts the ground in these colours from now on, in place of the scene's own. light: the baked light in
+    // them; null: the plain sun, or none. Both must live until others are shown. Not while a picture is cast.
+    // parts: colours of rings of a tiled ground that are finer than it; null: the whole ground's.
     void showColors(const ColorTexture& lit, const TerrainIllumination* light, PartColors parts = {});
 
-    // The fog that the ground is seen through now; lives as long as the renderer, and changes with
+    // Returns the fog that the ground is seen through now; lives as long as the renderer, and changes with
     // sunMoved().
     const Fog& fog() const;
     SimdTarget target() const;  // what Auto became
     const TerrainScene& scene() const { return mScene; }
-    std::size_t byteCount() const;  // beside the scene: the pyramid of heights, coarser levels
+    std::size_t byteCount() const;  // beside the scene: pyramid of heights, detail, coarser levels
 
 private:
     struct State;

@@ -17,15 +17,15 @@ class GroundHorizon {
 public:
     // ground must outlive this. Holds 5.4 bytes a sample.
     explicit GroundHorizon(const Heightfield& ground);
-    // Horizons of a part of a larger ground, at finer samples: what lies beyond it is looked at in the whole.
-    // offset: metres, from the part's world to the whole's. Both must outlive this.
+    // Finds horizons of a part of a larger ground, at finer samples: what lies beyond it is looked at in the
+    // whole. offset: metres, from the part's world to the whole's. Both must outlive this.
     GroundHorizon(const Heightfield& part, const GroundHorizon& whole, const glm::dvec2& offset);
 
     const Heightfield& ground() const { return mGround; }
 
-    // Rise over run, 0 or more, of the steepest line from sample (i, j), which is known, to the ground in a
-    // horizontal unit direction (metres). Infinite where heights are too large for their distance. From any
-    // thread.
+    // Returns the rise over run, 0 or more, of the steepest line from sample (i, j), which is known, to the
+    // ground in a horizontal unit direction (metres). Infinite where heights are too large for their
+    // distance. From any thread.
     double steepest(int i, int j, const glm::dvec2& direction) const;
 
 private:
@@ -35,15 +35,15 @@ private:
         glm::dvec2 step;   // grid, a metre
         double height;     // metres, at its start
     };
-    // The steepest slope to what lies on the way further than `from` metres, or `found` where that is more.
-    // cell: at `from`.
+    // Returns the steepest slope to what lies on the way further than `from` metres, or `found` where that is
+    // more. cell: at `from`.
     double along(const Way& way, glm::ivec2 cell, double from, double found) const;
     double inCell(const Way& way, const glm::ivec2& cell, double from, double to) const;
 
     const Heightfield& mGround;
     HeightPyramid mMaxima;
     const GroundHorizon* mWhole = nullptr;  // null: this is no part
-    glm::dvec2 mOffset{0.0};                // to its world
+    glm::dvec2 mOffset{0.0};                // metres, to its world
 };
 
 }  // namespace stereonav

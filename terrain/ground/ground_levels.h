@@ -16,10 +16,11 @@ namespace stereonav {
 struct StoredLevels {
     glm::ivec2 size{0};                      // samples of the ground itself
     glm::dvec2 spacing{1.0};                 // metres between them
-    float low = 0, high = 0;                 // metres, of all samples that are known
+    float low = 0, high = 0;                 // metres, the least and the most that is known
     std::uint64_t content = 0;               // names the heights of all levels
     std::vector<std::vector<float>> bounds;  // of each level's blocks, row by row; metres
-    // Samples low to low + size - 1 of a level; from several threads at once.
+    // Writes samples low to low + size - 1 of a level, metres, NaN where missing; from several threads at
+    // once.
     std::function<void(int level, const glm::ivec2& low, const glm::ivec2& size, float* heights)> read;
 };
 
@@ -32,34 +33,37 @@ public:
 
     // ground must outlive this. Levels end before one that would have less than a block each way.
     explicit GroundLevels(const Heightfield& ground);
+    // Computes nothing: heights are read from where they lie.
     explicit GroundLevels(StoredLevels stored);
 
     int count() const { return static_cast<int>(mLevels.size()); }  // level 0 is the ground
     glm::ivec2 size(int level) const { return mLevels[level].size; }
-    glm::dvec2 spacing(int level) const { return mSpacing * double(1 << level); }
-    glm::dvec2 originWorld() const { return mOrigin; }  // of sample (0, 0) of every level
+    glm::dvec2 spacing(int level) const { return mSpacing * double(1 << level); }  // metres
+    glm::dvec2 originWorld() const { return mOrigin; }  // of sample (0, 0) of every level, metres
     float minHeight() const { return mLow; }            // metres, of the ground
-    float maxHeight() const { return mHigh; }
+    float maxHeight() const { return mHigh; }           // metres
+    // Returns grid coordinates of level 0 for a place of the world, metres; and whether it is over the
+    // ground.
     glm::dvec2 gridFromWorld(const glm::dvec2& world) const { return (world - mOrigin) / mSpacing; }
     bool contains(const glm::dvec2& world) const;
     bool stored() const { return mGround == nullptr; }  // elsewhere than in memory
     // Names the heights of all levels: a hash of them, or what was said of those that are stored.
     std::uint64_t content() const;
 
-    glm::ivec2 blocks(int level) const { return mLevels[level].blocks; }
-    // Metres: the surface of that level is nowhere further from the ground's, above or below, over that
-    // block, where both are known. 0 at level 0.
+    glm::ivec2 blocks(int level) const { return mLevels[level].blocks; }  // each way
+    // Returns a bound in metres: the surface of that level is nowhere further from the ground's, above or
+    // below, over that block, where both are known. 0 at level 0.
     float errorBound(int level, int blockI, int blockJ) const {
         return mLevels[level].bounds[static_cast<std::size_t>(blockJ) * mLevels[level].blocks.x + blockI];
     }
-    // The bound of the block that a place lies in, metres; world, clamped to the border.
+    // Returns the bound, metres, of the block that a place lies in; world, clamped to the border.
     float errorBoundAt(int level, const glm::dvec2& world) const;
-    float errorBound(int level) const { return mLevels[level].most; }  // the largest of a level
+    float errorBound(int level) const { return mLevels[level].most; }  // the largest of a level, metres
 
-    // Samples low to low + size - 1 of a level. None where no cell of them is known. Throws Error where they
-    // are stored and can not be read.
+    // Returns samples low to low + size - 1 of a level; nothing where no cell of them is known. Throws Error
+    // where they are stored and can not be read.
     std::optional<Heightfield> part(int level, const glm::ivec2& low, const glm::ivec2& size) const;
-    // The same as bare heights in rows of size.x, NaN where missing.
+    // Writes the same samples as heights in metres, in rows of size.x, NaN where missing.
     void read(int level, const glm::ivec2& low, const glm::ivec2& size, float* heights) const;
     std::size_t byteCount() const;  // in memory, beside the ground
 
@@ -67,15 +71,15 @@ private:
     struct Level {
         glm::ivec2 size{0}, blocks{0};
         std::vector<float> heights;  // empty at level 0, and where they are stored
-        std::vector<float> bounds;
-        float most = 0;
+        std::vector<float> bounds;   // by block, metres
+        float most = 0;              // of the bounds, metres
     };
     void addLevel();
     LevelRows rowsOf(int level) const;
 
-    const Heightfield* mGround = nullptr;  // null: stored
-    glm::dvec2 mSpacing{1.0}, mOrigin{0.0};
-    float mLow = 0, mHigh = 0;
+    const Heightfield* mGround = nullptr;    // null: stored
+    glm::dvec2 mSpacing{1.0}, mOrigin{0.0};  // metres; world
+    float mLow = 0, mHigh = 0;               // metres
     std::vector<Level> mLevels;
     std::uint64_t mContent = 0;  // of stored levels
     std::function<void(int, const glm::ivec2&, const glm::ivec2&, float*)> mRead;

@@ -10,18 +10,18 @@
 
 namespace stereonav {
 
-// Sixteen rays in the ray mesh's space: world, less centreHeight() in z.
+// Sixteen rays in the ray mesh's space, metres: world, less centreHeight() in z.
 struct RayPacket {
     static constexpr int kSize = 16;
     alignas(64) float originX[kSize], originY[kSize], originZ[kSize];
-    alignas(64) float directionX[kSize], directionY[kSize], directionZ[kSize];
-    alignas(64) float nearest[kSize];   // rays start here
-    alignas(64) float distance[kSize];  // of the hit, written by intersect(); infinite for a miss
+    alignas(64) float directionX[kSize], directionY[kSize], directionZ[kSize];  // of any length
+    alignas(64) float nearest[kSize];   // rays start here, in lengths of the direction
+    alignas(64) float distance[kSize];  // of the hit, likewise, written by intersect(); infinite: a miss
 };
 
-// Bytes that rays over so many samples take: Embree's vertices and the tree over them. Embree's own blocks
-// count most with small grounds: 1,024 x 1,024 samples took 59 MB more than the vertices, 4,000 x 4,000 no
-// more than that (two threads).
+// Returns the bytes that rays over so many samples take: Embree's vertices and the tree over them. Embree's
+// own blocks count most with small grounds: 1,024 x 1,024 samples took 59 MB more than the vertices, 4,000 x
+// 4,000 no more than that (two threads).
 constexpr double rayBytes(double samples) {
     return 40 * samples + (samples < 1e6 ? 60 * samples : 60e6);
 }
@@ -30,21 +30,24 @@ class GroundRays {
 public:
     // ground must outlive this. Throws Error where there are more samples than the mesh can index.
     explicit GroundRays(const Heightfield& ground);
-    // Rays over a part of a larger ground, at finer samples: rays that leave it go on over the whole. offset:
-    // metres, from the part's world to the whole's. Both must outlive this.
+    // Makes rays over a part of a larger ground, at finer samples: rays that leave it go on over the whole.
+    // offset: metres, from the part's world to the whole's. Both must outlive this.
     GroundRays(const Heightfield& part, const GroundRays& whole, const glm::dvec2& offset);
     ~GroundRays();
 
     // `active`: bit k for ray k. Returns the bits of those that meet the ground. From any thread.
     std::uint32_t occluded(const RayPacket& rays, std::uint32_t active) const;
+    // Sets `distance` of the active rays. From any thread.
     void intersect(RayPacket& rays, std::uint32_t active) const;
 
-    double centreHeight() const { return mCentreHeight; }
-    // How far starts are lifted off the ground: what rounding could hide, and a little of a cell.
+    double centreHeight() const { return mCentreHeight; }  // metres, half way up the ground
+    // Returns the metres that starts are lifted off the ground by: what rounding could hide, and a little of
+    // a cell.
     double lift() const { return mLift; }
     const Heightfield& ground() const { return mGround; }
 
-    // Height of the mesh at a world position (clamped to the ground): not quite that of the bilinear surface.
+    // Returns the height of the mesh, metres, at a world position (clamped to the ground): not quite that of
+    // the bilinear surface.
     double heightAt(const glm::dvec2& world) const;
 
 private:
@@ -55,10 +58,10 @@ private:
 
     struct State;
     const Heightfield& mGround;
-    double mCentreHeight, mLift;
+    double mCentreHeight, mLift;  // metres
     std::unique_ptr<State> mState;
     const GroundRays* mWhole = nullptr;  // null: this is no part
-    glm::dvec2 mOffset{0.0};             // to its world
+    glm::dvec2 mOffset{0.0};             // metres, to its world
 };
 
 }  // namespace stereonav

@@ -17,12 +17,14 @@ public:
     explicit HeightPyramid(const Heightfield& ground);
 
     int levelCount() const { return mLevels; }
-    // Largest height in block (i, j) of level k; minus infinity where all its cells are open.
+    // Returns the largest height in block (i, j) of level k, metres; minus infinity where all its cells are
+    // open.
     float at(int k, int i, int j) const {
         return mMaxima[mOffset[k] + static_cast<std::size_t>(j) * mPitch[k] + i];
     }
     const float* data() const { return mMaxima.data(); }
-    // Index of block (0, 0) of a level, and blocks a row. Entries above levelCount() repeat the last.
+    // Index of block (0, 0) of each level in data(), and its blocks a row. Entries above levelCount() repeat
+    // the last.
     const std::array<std::int32_t, kMaxLevels>& offsets() const { return mOffset; }
     const std::array<std::int32_t, kMaxLevels>& pitches() const { return mPitch; }
     std::size_t byteCount() const { return mMaxima.size() * sizeof(float); }
@@ -30,7 +32,7 @@ public:
 private:
     int mLevels = 0;
     std::array<std::int32_t, kMaxLevels> mOffset{}, mPitch{};
-    std::vector<float> mMaxima;
+    std::vector<float> mMaxima;  // metres
 };
 
 }  // namespace stereonav

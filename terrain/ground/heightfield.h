@@ -23,7 +23,7 @@ public:
     // finite cell. Throws Error otherwise, named by `source`.
     Heightfield(int width, int height, glm::dvec2 spacing, std::vector<float> heights,
                 const std::string& source);
-    // A part of a larger ground, whose sample (0, 0) lies there.
+    // Makes a part of a larger ground, whose sample (0, 0) lies there: world, metres.
     Heightfield(int width, int height, glm::dvec2 spacing, std::vector<float> heights,
                 const std::string& source, const glm::dvec2& originWorld)
         : Heightfield(width, height, spacing, std::move(heights), source) {
@@ -33,38 +33,40 @@ public:
     // Whether there is a cell whose four samples are known: without one there is no ground.
     static bool anyCell(int width, int height, const float* heights);
 
-    int width() const { return mWidth; }    // samples, >= 2
-    int height() const { return mHeight; }  // samples, >= 2
-    glm::dvec2 spacing() const { return mSpacing; }
-    glm::dvec2 originWorld() const { return mOrigin; }  // of sample (0, 0)
-    float minHeight() const { return mMin; }
-    float maxHeight() const { return mMax; }
-    // A Lipschitz constant of the surface: |h(p) - h(q)| <= maxSlope() * |p - q|, in metres a metre.
+    int width() const { return mWidth; }                // samples, >= 2
+    int height() const { return mHeight; }              // samples, >= 2
+    glm::dvec2 spacing() const { return mSpacing; }     // metres between samples
+    glm::dvec2 originWorld() const { return mOrigin; }  // of sample (0, 0), metres
+    float minHeight() const { return mMin; }            // metres, of all cells without a hole
+    float maxHeight() const { return mMax; }            // metres
+    // Returns a Lipschitz constant of the surface: |h(p) - h(q)| <= maxSlope() * |p - q|, in metres a metre.
     // Infinite when there are holes.
     double maxSlope() const { return mMaxSlope; }
     bool hasHoles() const { return mHasHoles; }
 
+    // Metres, NaN where missing: one sample, or all of them, row by row.
     float sample(int i, int j) const { return mHeights[static_cast<std::size_t>(j) * mWidth + i]; }
     const float* data() const { return mHeights.data(); }
 
     glm::dvec2 gridFromWorld(const glm::dvec2& world) const { return (world - mOrigin) / mSpacing; }
     glm::dvec2 worldFromGrid(const glm::dvec2& grid) const { return mOrigin + grid * mSpacing; }
+    // Whether a place lies over the grid, its border included.
     bool contains(const glm::dvec2& world) const;
 
-    // Height in metres at a world position; positions outside are clamped to the border. NaN in a
+    // Returns the height in metres at a world position; positions outside are clamped to the border. NaN in a
     // hole.
     double heightAt(const glm::dvec2& world) const;
-    // Unit normal, continuous across cells: from gradients at the samples (central differences,
+    // Returns the unit normal, continuous across cells: from gradients at the samples (central differences,
     // one-sided at borders and holes), interpolated bilinearly. Clamped outside.
     glm::dvec3 normalAt(const glm::dvec2& world) const;
-    // Gradient (dh/dx, dh/dy) at a sample, metres a metre.
+    // Returns the gradient (dh/dx, dh/dy) at a sample, metres a metre.
     glm::dvec2 gradientAtSample(int i, int j) const;
 
 private:
     int mWidth = 0, mHeight = 0;
-    glm::dvec2 mSpacing{1.0}, mOrigin{0.0};
-    float mMin = 0, mMax = 0;
-    double mMaxSlope = 0;
+    glm::dvec2 mSpacing{1.0}, mOrigin{0.0};  // metres; world
+    float mMin = 0, mMax = 0;                // metres
+    double mMaxSlope = 0;                    // metres a metre
     bool mHasHoles = false;
     std::vector<float> mHeights;
 };

@@ -9,21 +9,21 @@ namespace stereonav {
 
 constexpr int kLevelBlock = 64;  // cells of a level along each side of a block that has a bound of its own
 
-// Samples and blocks of the level above one of that size.
+// Returns the samples of the level above one of that size; the blocks of one of that size.
 inline glm::ivec2 coarserSize(const glm::ivec2& size) {
     return (size - 1) / 2 + 1;
 }
 inline glm::ivec2 levelBlocks(const glm::ivec2& size) {
     return (size - 1 + kLevelBlock - 1) / kLevelBlock;
 }
-// Whether there is a level above one of that size: of a block each way at least.
+// Whether there is a level above one of that size, which has a block each way at least.
 inline bool hasCoarser(const glm::ivec2& size) {
     return (size.x < size.y ? size.x : size.y) - 1 >= 2 * kLevelBlock;
 }
 
-// Rows of a level, row 0 southernmost. Some of them: those from `first` on.
+// Rows of a level from `first` on, or all of them; row 0 is the southernmost.
 struct LevelRows {
-    const float* heights = nullptr;  // of row `first`, size.x a row
+    const float* heights = nullptr;  // of row `first`, size.x a row; metres
     glm::ivec2 size{0};              // of the whole level
     int first = 0;
 
@@ -31,16 +31,16 @@ struct LevelRows {
     float at(int i, int j) const { return row(j)[i]; }
 };
 
-// Row j of the level above: means with the weights 1 2 1 each way of the samples that are known; missing
-// where the one in the middle is. Reads rows 2j - 1 to 2j + 1.
+// Makes row j of the level above: means with the weights 1 2 1 each way of the samples that are known;
+// missing where the one in the middle is. Reads rows 2j - 1 to 2j + 1.
 void coarserRow(const LevelRows& finer, int j, float* row);
 
-// Metres, rounded up: the most that two neighbouring levels' surfaces differ over a block of the coarser one,
-// where both are known. Reads the block's rows of both.
+// Returns the most, metres, rounded up, that two neighbouring levels' surfaces differ over a block of the
+// coarser one, where both are known. Reads the block's rows of both.
 float blockDifference(const LevelRows& finer, const LevelRows& coarser, const glm::ivec2& block);
 
-// The bound of a block against the ground itself: that difference, and the bounds of the finer level's blocks
-// within it, `blocks` of them in all.
+// Returns the bound of a block against the ground itself, metres: that difference, and the bounds of the
+// finer level's blocks within it, `blocks` of them in all.
 float boundOfBlock(float difference, const float* finerBounds, const glm::ivec2& blocks,
                    const glm::ivec2& block);
 

@@ -9,9 +9,9 @@
 
 namespace stereonav {
 
-// missing: ascending indices of samples to solve for; heights hold a first guess there and fixed values
-// elsewhere, at least one. The grid's border is free. About 90 bytes a missing sample while it runs;
-// one thread, so the same bits on every run. Throws Cancelled.
+// Solves for the samples `missing`, ascending indices; heights, metres, hold a first guess there and fixed
+// values elsewhere, at least one. spacing: metres. The grid's border is free. About 90 bytes a missing sample
+// while it runs; one thread, so the same bits on every run. Throws Cancelled.
 void solveMembrane(const std::vector<std::size_t>& missing, std::vector<float>& heights, int width,
                    int height, const glm::dvec2& spacing, Progress& progress);
 

@@ -22,13 +22,14 @@
 
 namespace stereonav {
 
+// By colour: the share of light that is left, and the light that the air adds, linear.
 template <class N>
 struct AirAlong {
     N through[3], light[3];
 };
 
-// Mean of an exponential over a way from its values at both ends, which differ by a factor e^-v: a quotient
-// of differences, and where that would be all rounding a series about their mean.
+// Returns the mean of an exponential over a way from its values at both ends, which differ by a factor e^-v:
+// a quotient of differences, and where that would be all rounding a series about their mean.
 template <class N>
 STEREONAV_AIR_INLINE N airMean(N start, N end, N v) {
     const auto small = abs(v) < N(0.5f);
@@ -37,15 +38,16 @@ STEREONAV_AIR_INLINE N airMean(N start, N end, N v) {
     return select(small, series, (start - end) * airReciprocal(select(small, N(1.0f), v)));
 }
 
-// At a point of a ray: optical depths from the eye, and what is left there.
+// A point of a ray: optical depths from the eye, and what is left there.
 template <class N>
 struct AirPoint {
-    N red, grey;          // of the eye's depth: of molecules red, of haze
-    N redSun, greySun;    // the sun's, and the eye's added
-    N thin, dense;        // e^- of the eye's
-    N thinLit, denseLit;  // ... and of both
-    N molecules, haze;    // extinction there: red of molecules, haze
+    N red, grey;          // depths from the eye: of molecules red, of haze
+    N redSun, greySun;    // depths to the sun, those from the eye added
+    N thin, dense;        // e^-red, e^-grey
+    N thinLit, denseLit;  // e^-redSun, e^-greySun
+    N molecules, haze;    // extinction there, 1/metre: red of molecules, haze
 };
+// Returns the point with these depths from the eye. molecules, haze: densities there, 1 at the sea.
 template <class N>
 STEREONAV_AIR_INLINE AirPoint<N> airPoint(const AirData& air, N red, N grey, N molecules, N haze) {
     AirPoint<N> p;
@@ -58,7 +60,7 @@ STEREONAV_AIR_INLINE AirPoint<N> airPoint(const AirData& air, N red, N grey, N m
     return p;
 }
 
-// x, x^2, x^5: of what is red, as green and as blue.
+// Returns x, x^2, x^5: what is left of green and of blue by what is left of red.
 template <class N>
 STEREONAV_AIR_INLINE N airPower(int channel, N x) {
     if (channel == 0) return x;
@@ -66,20 +68,21 @@ STEREONAV_AIR_INLINE N airPower(int channel, N x) {
     return channel == 1 ? square : square * square * x;
 }
 
-// The first part's share of two.
+// Returns a's share of a + b.
 template <class N>
 STEREONAV_AIR_INLINE N airShareOfFirst(N a, N b) {
     return a * airReciprocal(max(a + b, N(1e-30f)));
 }
-// Where the middle of e^-kx over x from 0 to 1 lies, from the middle of the way: 1 / k - 1 / (e^k - 1) - 1 /
-// 2, within 0.03.
+// Returns where the middle of e^-kx over x from 0 to 1 lies, from the middle of the way: 1 / k - 1 / (e^k -
+// 1) - 1 / 2, within 0.03.
 template <class N>
 STEREONAV_AIR_INLINE N airAside(N k) {
     const N square = mulAdd(k * k, N(4.0f), N(144.0f));
     return N(0.0f) - k * airRsqrt(square);
 }
 
-// The share of e^-kx over x from 0 to 1 that holds half of it, within 0.02: where a ray is parted.
+// Returns the x up to which e^-kx over x from 0 to 1 has half of its integral, within 0.02: where a ray is
+// parted.
 template <class N>
 STEREONAV_AIR_INLINE N airHalf(N k) {
     const N size = abs(k);
@@ -87,7 +90,8 @@ STEREONAV_AIR_INLINE N airHalf(N k) {
     return select(k < N(0.0f), N(1.0f) - share, share);
 }
 
-// way: metres from the eye. rise: metres a metre. cosSun: of the angle to the sun.
+// Returns what the air does along a ray. way: metres from the eye. rise: metres a metre. cosSun: cosine of
+// the angle to the sun.
 template <class N>
 STEREONAV_AIR_INLINE AirAlong<N> airAlong(const AirData& air, const AirEye& eye, N way, N rise, N cosSun) {
     if (eye.above > 0) way = max(way - N(eye.above) * airReciprocal(max(N(0.0f) - rise, N(1e-9f))), N(0.0f));

@@ -6,7 +6,7 @@
 
 namespace stereonav {
 
-// A number of the formula.
+// A number of the formula, of any unit.
 struct AirNumber {
     double v = 0;
     AirNumber() = default;

@@ -25,32 +25,35 @@
 
 namespace stereonav {
 
-// What of a light is seen through the air, and what the air adds.
+// What is seen of a light through the air, by colour: the share that is left, 0 to 1, and what the air adds,
+// linear.
 struct AirSeen {
     glm::dvec3 through{1.0}, light{0.0};
 };
 
 class Atmosphere {
 public:
-    // look: with a physical sky. Any place of the sun; a visibility of 0 counts as 10 m, an infinite one as
-    // that of molecules alone.
+    // Makes the air and sky of a look with a physical sky. Any place of the sun; a visibility of 0 counts as
+    // 10 m, an infinite one as that of molecules alone.
     explicit Atmosphere(const TerrainLook& look);
 
-    // World coordinates; direction: of any length but 0, of which `t` go to the point.
+    // Returns the air between an eye and eye + t * direction: world, metres; direction of any length but 0.
     AirSeen along(const glm::dvec3& eye, const glm::dvec3& direction, double t) const;
-    // The same by adding up `steps` steps: for tests.
+    // Returns the same by adding up `steps` steps: for tests.
     AirSeen plainAlong(const glm::dvec3& eye, const glm::dvec3& direction, double t, int steps) const;
 
-    // Light of the sky, with the sun's disc, seen from the look's height over the round Earth; below the
-    // horizon a level grey plain. direction: unit.
+    // Returns the light of the sky, linear, with the sun's disc, seen from the look's height over the round
+    // Earth; below the horizon a level grey plain. direction: unit.
     glm::vec3 sky(const glm::vec3& direction) const;
 
     const AirData& data() const { return mAir; }
+    // worldHeight: metres.
     AirEye eyeAt(double worldHeight) const;
 
 private:
     struct Elevation {
-        glm::vec3 molecules, haze, ambient, ground;  // as they are, for a phase of 1
+        // Light, linear, for a phase of 1; ground: the share of the plain's light that is left.
+        glm::vec3 molecules, haze, ambient, ground;
     };
     double sunlightAt(double height, int channel) const;
     Elevation elevation(double sine) const;
@@ -58,14 +61,15 @@ private:
     void makeElevations();
 
     AirData mAir;
-    double mSeenFrom = 0;  // metres above the sea
-    glm::dvec3 mToSun{0, 0, 1}, mSunlight{0.0};
-    double mSunUp = 1;
-    glm::vec3 mGround{0.0f};                // what the plain sends out
-    std::vector<glm::dvec3> mThroughToSun;  // by height
+    double mSeenFrom = 0;                        // metres above the sea
+    glm::dvec3 mToSun{0, 0, 1}, mSunlight{0.0};  // unit; above the air, linear
+    double mSunUp = 1;                           // share of the disc above the horizontal
+    glm::vec3 mGround{0.0f};                     // what the plain sends out, linear
+    std::vector<glm::dvec3> mThroughToSun;       // by height: share of sunlight that is left
     std::vector<Elevation> mElevations;
 };
 
+// Returns a map of the whole sky.
 SkyMap skyMapOf(const Atmosphere& air);
 
 }  // namespace stereonav

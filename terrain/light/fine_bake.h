@@ -19,19 +19,19 @@ class Peers;
 
 class FineBake {
 public:
-    // ground: a level of levels, at whose samples `light` was baked (stride 1). Of the light settings, grid
-    // and, where it has bounces, `full` are read. levels and ground must outlive this. Throws Error where the
-    // memory would not suffice.
+    // Prepares the bake. ground: a level of `levels`, at whose samples `light` was baked (stride 1). Of
+    // `light` the settings, grid and, where it has bounces, `full` are read. levels and ground must outlive
+    // this. Throws Error where the memory would not suffice.
     FineBake(const GroundLevels& levels, const Heightfield& ground, const TerrainLight& light);
 
-    // One tile's light, by all threads. Where the model differs from bakeTerrainLight(): rays go over the
-    // tile's own samples to 256 of them around it, then over those of `ground`; what is met sends out the
-    // light that `ground` has after all bounces, so that there is one more. None where no sample is known.
+    // Bakes one tile's light, by all threads. Where the model differs from bakeTerrainLight(): rays go over
+    // the tile's own samples to 256 of them around it, then over those of `ground`; what is met sends out the
+    // light that `ground` has after all bounces, so that there is one more. Nothing where no sample is known.
     // each: called every few samples, as a tile takes seconds; may throw.
     std::optional<TerrainLight> tile(int level, const glm::ivec2& low, const glm::ivec2& size,
                                      const std::function<void()>& each) const;
 
-    // Bytes that it takes, and the rays over the ground.
+    // Returns the bytes that a FineBake takes, with the rays over the ground.
     static double memoryOf(const Heightfield& ground, const TerrainLightSettings& settings);
 
 private:
@@ -46,12 +46,12 @@ private:
     TransferField mSent;  // of the ground
 };
 
-// By which the rays of a sample are chosen, of a level of so many samples: one of its own, in all tiles and
-// levels.
+// Returns the number by which a sample's rays are chosen, of a level of `all` samples: another one for each
+// sample of all tiles and levels.
 std::uint64_t numberOfSample(int level, const glm::ivec2& all, const glm::ivec2& sample);
 
-// What is baked for a ground whose light is `light`. finer: how many levels further than it, 1 or more, as
-// far as there are any.
+// Returns what is baked for a ground whose light, at samples of `level`, is `light`. finer: how many levels
+// further than it, 1 or more, as far as there are any.
 FineLightShape fineLightShape(const GroundLevels& levels, int level, const TerrainLight& light, int finer);
 
 // Makes LIGHT.fine in its place from `part`, which an earlier run that was stopped may have left. peers: all

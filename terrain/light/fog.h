@@ -1,5 +1,5 @@
 // The air between an eye and what it sees: light is lost with the distance, and the air's own takes its
-// place. Of a plain fog, or of a physical sky.
+// place. A plain fog, or the air of a physical sky.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,8 @@ public:
 
     bool any() const { return mPerMetre > 0 || mAir; }
     const Atmosphere* air() const { return mAir.get(); }
-    // linear: of what lies at eye + t * direction; any brightness.
+    // Returns the linear colour that the eye sees of what lies at eye + t * direction (world, metres), whose
+    // own colour is `linear`; any brightness.
     glm::vec3 seen(const glm::vec3& linear, const glm::dvec3& eye, const glm::dvec3& direction,
                    double t) const {
         if (mAir) {
@@ -36,7 +37,7 @@ public:
     }
 
 private:
-    double mPerMetre = 0;    // extinction
+    double mPerMetre = 0;    // extinction, 1/metre
     glm::vec3 mColor{0.0f};  // linear
     std::shared_ptr<const Atmosphere> mAir;
 };

@@ -10,17 +10,18 @@ namespace stereonav {
 
 // Where horizons and direct transfer of a row go.
 struct DirectRow {
-    std::uint8_t* openness;           // a sample each; left as it is in holes, as transfer is
+    std::uint8_t* openness;           // a sample each, 255: all; left as it is in holes, as transfer is
     std::uint8_t* horizon = nullptr;  // plane a at horizon[a * planeSize]; null: not kept
     std::size_t planeSize = 0;
-    std::int16_t* transfer = nullptr;  // sky->count() values a sample
+    std::int16_t* transfer = nullptr;  // sky->count() values a sample, in steps of transferUnit()
 };
 
-// sky: null for openness alone. each: called every few samples, as a row may take seconds; may throw.
+// Bakes openness, horizons and direct transfer of a row. sky: null for openness alone. each: called every few
+// samples, as a row may take seconds; may throw.
 void bakeDirectRow(const GroundHorizon& ground, const LightGrid& grid, int row, int azimuths,
                    const SkyTransfer* sky, const DirectRow& to, const std::function<void()>& each);
 
-// What a row has of horizons and direct transfer, and where the whole of it with another bounce goes.
+// Horizons and direct transfer that a row has, and where all of its transfer goes, another bounce included.
 struct BounceRow {
     const std::uint8_t* horizon;
     std::size_t planeSize;
@@ -28,7 +29,8 @@ struct BounceRow {
     std::int16_t* total;         // the same; left as it is in holes
 };
 
-// number: of the row's first sample, that of the next is one more (gatherBounce()).
+// Bakes a bounce of a row. number: the first sample's, that of the next is one more (gatherBounce()). each:
+// as bakeDirectRow()'s.
 void bakeBounceRow(const GroundRays& rays, const LightGrid& grid, int row, int azimuths, std::uint64_t number,
                    const SentLight& sent, const GatherSetting& setting, const BounceRow& to,
                    const std::function<void()>& each);

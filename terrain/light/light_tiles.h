@@ -24,27 +24,27 @@ namespace stereonav {
 
 constexpr int kLightTileSide = 256;  // samples along each side of a tile
 
-// What such a file is of.
+// What such a file holds.
 struct FineLightShape {
-    TerrainLightSettings settings;  // of the light that it goes on from, as the key is
+    TerrainLightSettings settings;  // those of the light that it goes on from, as the key is
     std::uint64_t key = 0;
     glm::ivec2 size{0};            // samples of the ground's finest level, which is level 0
-    int coarsest = 0, finest = 0;  // levels that tiles are of
+    int coarsest = 0, finest = 0;  // levels that have tiles
     std::uint64_t content = 0;     // names their heights: GroundLevels::content()
 };
 
-// Beside that light.
+// Returns the place of the file beside that light.
 std::filesystem::path fineLightPlace(const std::filesystem::path& light);
-bool isFineLight(const std::filesystem::path& file);  // begins as such a file does
+bool isFineLight(const std::filesystem::path& file);  // whether it begins as such a file does
 // Whether it goes on from the light with that key.
 bool isFineLightOf(const std::filesystem::path& file, std::uint64_t key);
 
 class LightTiles {
 public:
-    // A whole one, as far as it goes: shape.finest is not looked at. Throws Error named by the file where it
-    // is not whole, or of other light or other ground.
+    // Opens a whole file, as far as it goes: shape.finest is not looked at. Throws Error named by the file
+    // where it is not whole, or its light or ground is another one.
     LightTiles(const std::filesystem::path& file, const FineLightShape& shape);
-    // One that is being made: the undamaged tiles that an earlier run left of it, or none. Throws Error where
+    // Begins a file, or goes on with the undamaged tiles that an earlier run left of it. Throws Error where
     // it can not be written.
     static LightTiles begin(const std::filesystem::path& file, const FineLightShape& shape);
 
@@ -53,25 +53,25 @@ public:
 
     struct Tile {
         int level = 0;
-        glm::ivec2 number{0};
-        glm::ivec2 low() const { return number * kLightTileSide; }  // its first sample
+        glm::ivec2 number{0};                                       // column and row of tiles
+        glm::ivec2 low() const { return number * kLightTileSide; }  // first sample
     };
     std::size_t count() const { return mAt.size() - 1; }
     Tile tile(std::size_t n) const;
     std::size_t numberOf(const Tile& tile) const;
     glm::ivec2 sizeOf(const Tile& tile) const;  // samples
 
-    // Any thread. The tile's light at each of its samples, in a grid of its own; none where no sample is
-    // known. Throws Error named by the file where it is not there or is damaged.
+    // Returns the tile's light at each of its samples, in a grid of its own; nothing where no sample is
+    // known. From any thread. Throws Error named by the file where it is not there or is damaged.
     std::optional<TerrainLight> read(const Tile& tile) const;
 
     bool isWhole() const;  // reads all tiles: whether they are undamaged
 
-    // For a file that is being made: whether tile n is in it.
+    // Whether a file that is being made has tile n.
     bool has(std::size_t n) const { return mChecks[n] != kNotThere; }
-    // bytes: bytesOf() its light; none of a tile without a known sample. Throws Error.
+    // Writes bytesOf() a tile's light; no bytes for a tile without a known sample. Throws Error.
     void write(std::size_t n, std::span<const std::byte> bytes);
-    // Once it has all tiles: puts the file into its place. Throws Error.
+    // Puts the file, once it has all tiles, into its place. Throws Error.
     void finish(const std::filesystem::path& place);
 
     std::uint64_t byteCount() const { return mAt.back(); }  // on disk
@@ -98,7 +98,7 @@ private:
     PlacedFile mPlaced;
 };
 
-// A tile's light as it lies in the file.
+// Returns a tile's light as it lies in the file.
 std::vector<std::byte> bytesOf(const TerrainLight& tile);
 
 }  // namespace stereonav

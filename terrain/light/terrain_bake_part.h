@@ -11,7 +11,7 @@
 
 namespace stereonav {
 
-// Phase 0: horizons and direct transfer; then one a bounce. Rows of it that are done, from the first on.
+// Rows of a phase that are done, from the first on. Phase 0: horizons and direct transfer; then one a bounce.
 struct BakeReached {
     std::int32_t phase = 0, rows = 0;
 };
@@ -21,11 +21,11 @@ struct BakeBand {
     std::int32_t phase = 0, first = 0, rows = 0;
 };
 
-// What a band holds: memory that is read into, or written.
+// Memory of what a band holds, that is read into, or written.
 using BakeBlocks = std::vector<std::span<std::byte>>;
 using BlocksOfBand = std::function<BakeBlocks(const BakeBand&)>;
 
-// Where the part of the bake with this key lies (terrainLightKey()).
+// Returns where the part of the bake with this key lies (terrainLightKey()).
 std::filesystem::path terrainBakePart(std::uint64_t key);
 
 // Adds a band to the part of the bake with this key, behind the `after` bytes that hold all before it.
@@ -35,9 +35,10 @@ std::filesystem::path terrainBakePart(std::uint64_t key);
 std::uint64_t keepBakeBand(std::uint64_t key, std::uint64_t after, const BakeBand& band,
                            const BakeBlocks& blocks);
 
+// What of a bake lies in the cache.
 struct BakeKept {
     BakeReached reached;
-    std::uint64_t bytes = 0;  // that hold it
+    std::uint64_t bytes = 0;  // from the start of the file, that hold it
 };
 
 // Reads what is kept of this bake: calls begin(band) for each band in turn, which follows what came before it

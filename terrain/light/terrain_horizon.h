@@ -11,14 +11,14 @@
 
 namespace stereonav {
 
-// Unit, metres; plane `a` of `azimuths`.
+// Returns the unit direction over the plan, metres, of plane `a` of `azimuths`.
 glm::dvec2 azimuthDirection(double a, int azimuths);
 
-// Unit normal of a height sample, as shading has it; upright where the sample is unknown.
+// Returns the unit normal of a height sample, as shading has it; upright where the sample is unknown.
 glm::dvec3 sampleNormal(const Heightfield& ground, int i, int j);
 
-// One row of baked samples: horizon[a * planeSize + i]. Samples in holes get 0.
-// each: called before every few samples, as a row may take long; may throw.
+// Bakes one row of samples: horizon[a * planeSize + i], sines times 255. Samples in holes get 0. each: called
+// before every few samples, as a row may take long; may throw.
 void bakeHorizonRow(
     const GroundHorizon& ground, const LightGrid& grid, int row, int azimuths, std::uint8_t* horizon,
     std::size_t planeSize, const std::function<void()>& each = [] {});

@@ -26,6 +26,7 @@ namespace stereonav {
 
 class Peers;
 
+// What is baked.
 enum class TerrainLightKind : std::uint32_t {
     Openness = 1,  // the share of the sky's light that reaches a sample, one byte
     Transfer = 2,  // openness, horizons and harmonics
@@ -49,20 +50,22 @@ struct TerrainLightSettings {
 
 // Where the baked samples lie among the heightfield's: every stride-th, and the last.
 struct LightGrid {
-    glm::ivec2 first{0};  // of the heightfield's samples, that the grid begins at
-    int groundWidth = 0, groundHeight = 0, stride = 1;  // samples from there on
-    int width = 0, height = 0;
+    glm::ivec2 first{0};                                // sample of the heightfield that the grid begins at
+    int groundWidth = 0, groundHeight = 0, stride = 1;  // samples of the heightfield from there on
+    int width = 0, height = 0;                          // baked samples
 
     LightGrid() = default;
+    // step: samples from one to the next.
     LightGrid(const Heightfield& ground, int step);
-    // Each sample of a part of a heightfield.
+    // Takes each sample of a part of a heightfield.
     LightGrid(const glm::ivec2& low, const glm::ivec2& size)
         : first(low), groundWidth(size.x), groundHeight(size.y), width(size.x), height(size.y) {}
+    // Column or row of the heightfield that a baked sample lies at.
     int column(int i) const { return first.x + at(i, groundWidth); }
     int row(int j) const { return first.y + at(j, groundHeight); }
     std::size_t count() const { return static_cast<std::size_t>(width) * height; }
 
-    // The baked sample at or before a grid coordinate, and the share of the next.
+    // The baked sample at or before a grid coordinate, and the share of the next, 0 to 1.
     struct Place {
         int index;
         float next;
@@ -78,12 +81,13 @@ private:
     Place place(double grid, int samples, int count) const;
 };
 
+// Baked light.
 struct TerrainLight {
     TerrainLightSettings settings;
     LightGrid grid;
     std::uint64_t key = 0;  // terrainLightKey() of what it was baked from
 
-    std::vector<std::uint8_t> openness;  // 255: the whole sky's light
+    std::vector<std::uint8_t> openness;  // by sample; 255: the whole sky's light
     // The rest is empty for Openness. Planes of grid.count() values, one after the other.
     // Sine of the horizon's elevation in 1/255, plane a at azimuth a * 2 pi / azimuths from +x towards +y.
     std::vector<std::uint8_t> horizon;
@@ -96,41 +100,41 @@ struct TerrainLight {
     }
 };
 
-// Harmonics of an order that are even in z (l + m is even), and which coefficient (of
+// Returns how many harmonics of an order are even in z (l + m is even); and which coefficient (of
 // spherical_harmonics.h) the n-th of them is.
 constexpr int lightHarmonics(int order) {
     return order * (order + 1) / 2;
 }
 int lightHarmonic(int n);
 
-// The unit of the n-th number of transfer, in band l: sqrt((2 l + 1) / (4 pi)) / 32767. No transfer is larger
-// than the first factor, since no harmonic is (addition theorem) and all transfers of a sample together take
-// in light once at most.
+// Returns the unit of the n-th number of transfer, in band l: sqrt((2 l + 1) / (4 pi)) / 32767. No transfer
+// is larger than the first factor, since no harmonic is (addition theorem) and all transfers of a sample
+// together take in light once at most.
 double transferUnit(int n);
 
-// A key of heights, spacing and all settings.
+// Returns a key of heights, spacing and all settings.
 std::uint64_t terrainLightKey(const Heightfield& ground, const TerrainLightSettings& settings);
 
-// Where the light of this ground is kept between runs, whatever its settings: the last one baked.
+// Returns where the light of this ground is kept between runs, whatever its settings: the last one baked.
 std::filesystem::path terrainLightCache(const Heightfield& ground);
 
-// The smallest stride whose bake fits into memory; none where even large ones do not.
+// Returns the smallest stride whose bake fits into memory; nothing where even large ones do not.
 std::optional<int> strideWithinMemory(const Heightfield& ground, const TerrainLightSettings& settings);
 
-// Throws Error for settings outside their ranges and where the memory would not suffice; Cancelled. The
-// result does not depend on the thread count. keeps: where it is cancelled what is done is kept in the cache,
-// and the same bake goes on from there, to the same bytes. peers: all of them, who bake rows for the first;
-// the others' result is of no use. Throws PeerFailure where another one failed.
+// Bakes the light of a ground. Throws Error for settings outside their ranges and where the memory would not
+// suffice; Cancelled. The result does not depend on the thread count. keeps: where it is cancelled what is
+// done is kept in the cache, and the same bake goes on from there, to the same bytes. peers: all of them, who
+// bake rows for the first; the others' result is of no use. Throws PeerFailure where another one failed.
 TerrainLight bakeTerrainLight(const Heightfield& ground, const TerrainLightSettings& settings,
                               Progress& progress, bool keeps = false, Peers* peers = nullptr);
 
-// Written beside and renamed. Throws Error.
+// Writes beside the place, then renames. Throws Error.
 void saveTerrainLight(const std::filesystem::path& file, const TerrainLight& light);
 // Whether the file is there and begins as baked terrain light does.
 bool isTerrainLight(const std::filesystem::path& file);
 
-// Throws Error naming the file: cut off, damaged, of another kind or version, or (where `ground` is given)
-// baked from other ground.
+// Reads baked light. Throws Error naming the file: cut off, damaged, of another kind or version, or (where
+// `ground` is given) baked from other ground.
 TerrainLight loadTerrainLight(const std::filesystem::path& file, const Heightfield* ground);
 
 }  // namespace stereonav

@@ -14,11 +14,12 @@
 
 namespace stereonav {
 
-// Irradiance / pi by baked sample: three planes, red, green, blue.
+// Irradiance / pi, linear, by baked sample: three planes, red, green, blue.
 struct GroundBrightness {
     int width = 0, height = 0;
     std::vector<float> planes;
-    // The share of the sun's disc above the baked horizon, 0..1. Empty: not asked for, or not baked.
+    // The share of the sun's disc above the baked horizon, 0..1, by sample. Empty: not asked for, or not
+    // baked.
     std::vector<float> sunShown;
 
     std::size_t planeSize() const { return static_cast<std::size_t>(width) * height; }
@@ -32,17 +33,20 @@ class TerrainRelight {
 public:
     TerrainRelight(const Heightfield& ground, TerrainLight light, SimdTarget target = SimdTarget::Auto);
 
-    // Samples in holes get the mean of those known beside them, or none. withSunShown: that is wanted too.
+    // Sets the brightness under this light. Samples in holes get the mean of those known beside them, or
+    // none. withSunShown: GroundBrightness::sunShown is wanted too.
     void relight(const SunAndSky& now, GroundBrightness& brightness, bool withSunShown = false) const;
-    // Between the baked samples, at a grid coordinate of the ground; 1 where it was not asked for or baked.
+    // Returns sunShown between the baked samples, at a grid coordinate of the ground; 1 where it was not
+    // asked for or baked.
     float sunShownAt(const GroundBrightness& brightness, const glm::dvec2& grid) const;
 
+    // How light is shown.
     struct Display {
-        float exposure = 1;
-        float share = 1;  // of the light's variation that shows: 0 leaves colours as they are
+        float exposure = 1;  // factor on the light: exposureOf()
+        float share = 1;     // of the variation of light that shows: 0 leaves colours as they are
     };
-    // lit: of the same size and place as albedo; its texels become those of albedo times the light,
-    // 1 + share * (exposure * brightness - 1).
+    // Lights colours. lit: of the same size and place as albedo; its texels become those of albedo times the
+    // light, 1 + share * (exposure * brightness - 1).
     void lightTexture(const ColorTexture& albedo, const GroundBrightness& brightness, const Display& display,
                       ColorTexture& lit) const;
 
@@ -53,7 +57,7 @@ private:
 
     TerrainLight mLight;
     const RelightKernels* mKernels;
-    std::vector<float> mNormals;        // planes x, y, z of the baked samples
+    std::vector<float> mNormals;        // unit: planes x, y, z of the baked samples
     std::vector<std::uint32_t> mHoles;  // indices of samples in holes
 };
 

@@ -19,37 +19,40 @@ class SkyWedges {
 public:
     static constexpr int kSteps = 2;  // azimuths summed for each horizon; between them it is interpolated
 
+    // A step of azimuth.
     struct Wedge {
         double dx, dy;       // d
         double along;        // n.d
-        double bottom, top;  // of the ground that is seen; the sky is above top
+        double bottom, top;  // sines of the ground that is seen; the sky is above top
         double ground;       // its share of a constant light from everywhere
     };
 
     explicit SkyWedges(int azimuths);
-    // horizon: plane a at horizon[a * planeSize].
+    // Sets the sample by its unit normal and its horizons, sines times 255: plane a at horizon[a *
+    // planeSize].
     void set(const glm::dvec3& normal, const std::uint8_t* horizon, std::size_t planeSize);
     std::span<const Wedge> wedges() const { return mWedges; }
     const glm::dvec3& normal() const { return mNormal; }
-    // Share of a constant sky's light, 0..1: what the wedges leave of it.
+    // Returns the share of a constant sky's light, 0..1, that the wedges leave.
     double openness() const { return mOpenness; }
 
 private:
-    glm::dvec3 mNormal{0, 0, 1};
+    glm::dvec3 mNormal{0, 0, 1};  // unit
     std::vector<Wedge> mWedges;
-    double mOpenness = 1;
+    double mOpenness = 1;  // share
 };
 
 // Integrals of the even harmonics (terrain_light.h) from an elevation up to the zenith, by table.
 class SkyTransfer {
 public:
+    // order, azimuths: TerrainLightSettings has them.
     SkyTransfer(int order, int azimuths);
     int count() const { return mCount; }
-    // Direct transfer of a sample: count() values, divided by pi.
+    // Writes the direct transfer of a sample: count() values, divided by pi.
     void direct(const SkyWedges& wedges, float* transfer) const;
 
 private:
-    static constexpr int kEntries = 256;  // of the sine, linear between them: errors below 1e-5
+    static constexpr int kEntries = 256;  // over the sine, linear between them: errors below 1e-5
     int mCount;
     // Entry e: for each k two values, the integrals from e / kEntries to 1 of Y_k sqrt(1 - z^2) and Y_k z
     // without the azimuth's factor.
@@ -57,26 +60,28 @@ private:
     std::vector<float> mAzimuth;  // factors of coefficient k at wedge a: mAzimuth[a * count + k]
 };
 
-// Vectors of one row of samples after another: coefficient k of sample s at [s * count + k].
+// Transfer, in steps of transferUnit(), of one row of samples after another: coefficient k of sample s at [s
+// * count + k].
 using TransferField = std::vector<std::int16_t>;
 
+// How a bounce is gathered.
 struct GatherSetting {
-    int rays = 32;
-    double albedo = 0.3;
+    int rays = 32;        // a sample, a multiple of 16
+    double albedo = 0.3;  // 0..1, of the ground that sends light on
     std::uint64_t seed = 1;
     int count = 10;  // coefficients
 };
 
-// What ground sends out, known at the samples of a grid of it.
+// What ground sends out, known at the samples of a grid.
 struct SentLight {
     const Heightfield& ground;
     const LightGrid& grid;
     const TransferField& field;
-    glm::dvec2 offset{0.0};  // metres, from the world of who is lit to its own
+    glm::dvec2 offset{0.0};  // metres, from the world of what is lit to its own
 };
 
-// What the ground around a sample of rays.ground() sends it: count values. number: of the sample, which its
-// rays are chosen by.
+// Adds up what the ground around a sample of rays.ground() sends to it: setting.count values in steps of
+// transferUnit(). number: the sample's, by which its rays are chosen.
 void gatherBounce(const GroundRays& rays, const glm::ivec2& sample, std::uint64_t number,
                   const SkyWedges& wedges, const SentLight& sent, const GatherSetting& setting,
                   float* transfer);

@@ -14,19 +14,19 @@ struct MeshPlace {
     bool known = false;  // whether there is an offset; else the elevation model does not say where it lies
     std::string crs;     // WKT of the reference system that offset is of; "": it is not known
     glm::dvec2 offset{0.0};    // of the mesh's origin, in the system's units
-    double metresPerUnit = 1;  // of the mesh for a unit of the system
+    double metresPerUnit = 1;  // metres of the mesh for a unit of the system
     double verticalScale = 1;
     std::string verticalDatum;  // as the elevation model names it; "": it does not
 };
 
-// One JSON object, the same in the mesh's extras and in the file beside it: "crs" (a name), "crs_wkt",
-// "offset", "metres_per_unit", "vertical_scale", "vertical_datum", "to_crs". What is not known is null in the
-// file, and left out of the extras. Bytes that are no UTF-8 become U+FFFD.
+// Returns one JSON object, the same in the mesh's extras and in the file beside it: "crs" (a name),
+// "crs_wkt", "offset", "metres_per_unit", "vertical_scale", "vertical_datum", "to_crs". What is not known is
+// null in the file, and left out of the extras. Bytes that are no UTF-8 become U+FFFD.
 std::string meshPlaceText(const MeshPlace& place);
 
-// "hills.glb.json" of "hills.glb".
+// Returns "hills.glb.json" for "hills.glb".
 std::filesystem::path meshPlaceFile(const std::filesystem::path& mesh);
-// Whether a mesh written there has one: not in pipes and devices, where nothing lies beside.
+// Whether a mesh written there gets such a file: not in pipes and devices, where nothing lies beside.
 bool hasMeshPlaceFile(const std::filesystem::path& mesh);
 
 }  // namespace stereonav

@@ -10,16 +10,16 @@ namespace stereonav {
 
 class MeshTriangulation {
 public:
-    // The rectangle from (0, 0) to (lastX, lastY), cut along one diagonal.
+    // Makes the rectangle from (0, 0) to (lastX, lastY), cut along one diagonal.
     MeshTriangulation(int lastX, int lastY);
 
     int triangleCount() const { return static_cast<int>(mVertex.size() / 3); }
     const std::vector<glm::ivec2>& points() const { return mPoints; }
-    // Corner k (0..2) of a triangle, an index into points(); counterclockwise.
+    // Returns corner k (0..2) of a triangle, an index into points(); counterclockwise.
     int vertex(int triangle, int k) const { return mVertex[3 * triangle + k]; }
     const glm::ivec2& corner(int triangle, int k) const { return mPoints[vertex(triangle, k)]; }
 
-    // A triangle that contains the point (inside or on its border), searched from `start` on.
+    // Returns a triangle that contains the point (inside or on its border), searched from `start` on.
     int locate(const glm::ivec2& point, int start) const;
     // Inserts a point that lies in `triangle` and is no vertex yet, and restores the empty-circle
     // property. changed: the triangles that are new or have other corners now, each once.

@@ -21,8 +21,9 @@ struct TerrainMesh {
     double maxError = 0;  // metres: the largest vertical distance of a sample to the mesh, measured
 };
 
-// error: the largest vertical distance, in metres and >= 0, that any sample may have to the mesh (apart
-// from rounding: 1e-12 of the heights). Throws Error for other values; Cancelled.
+// Simplifies the ground to few triangles. error: the largest vertical distance, in metres and >= 0, that any
+// sample may have to the mesh (apart from rounding: 1e-12 of the heights). Throws Error for other values;
+// Cancelled.
 TerrainMesh simplifyTerrain(const Heightfield& ground, double error, Progress& progress);
 
 // Whether a mesh can be written under this name: .glb or .gltf.

@@ -16,10 +16,11 @@ namespace stereonav {
 
 struct ContourSetting {
     double interval = 0;       // metres of the file's heights; 0: no lines
-    double verticalScale = 1;  // of the ground's heights: so many times those of the file
+    double verticalScale = 1;  // the ground's heights for one of the file's
 };
 
-// Widths in pixels, and what lines are when they begin and end to fade: pixels between them.
+// Widths of lines, pixels; pixels between lines where they are gone and where they are whole; lines from one
+// wide line to the next.
 constexpr double kContourWidth = 1.2, kIndexContourWidth = 2.0;
 constexpr double kContourGone = 3.5, kContourWhole = 8;
 constexpr int kIndexContour = 5;
@@ -30,16 +31,16 @@ constexpr float kContourInk[3] = {0.055f, 0.027f, 0.012f};
 // Pixels from a line within which it may show, and one more, as a warped eye's depths may be those of the
 // next pixel.
 constexpr double kContourReach = 0.5 * kIndexContourWidth + 0.5 + 1;
-// Share of an interval, a pixel: ground whose height changes by less is level.
+// Ground whose height changes by less than this share of an interval from pixel to pixel is level.
 constexpr double kContourLevel = 1e-7;
 
-// A nice interval for heights over so many metres: some 25 lines; 0 of level ground.
+// Returns a nice interval for heights over so many metres, in metres: some 25 lines; 0 for level ground.
 double contourIntervalFor(double relief);
 
 struct GroundSeen;
-// The ink's share where a pixel shows the ground so; 0 where there is no line. least: half of how much
-// heights, in metres of the file, differ from pixel to pixel, by the lesser of both sides; 0 where that is
-// not known.
+// Returns the ink's share, 0 to 1, where a pixel shows the ground so; 0 where there is no line. least: half
+// of how much heights, in metres of the file, differ from pixel to pixel, by the lesser of both sides; 0
+// where that is not known.
 double contourShareAt(const GroundSeen& seen, double least, const ContourSetting& setting);
 
 class ContourPainter final : public EyePainter {
@@ -50,7 +51,8 @@ public:
         : mGround(ground), mFog(fog), mSetting(setting), mTarget(target) {}
 
     void paint(const EyeView& view, EyeImage& image) const override;
-    // The same pixel by pixel in doubles: what paint() is held against, and its way where floats do not do.
+    // Paints the same pixel by pixel in doubles: what paint() is held against, and its way where floats do
+    // not do.
     void paintPlainly(const EyeView& view, EyeImage& image) const;
 
 private:

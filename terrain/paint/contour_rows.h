@@ -10,13 +10,14 @@ namespace stereonav {
 
 class ContourRows {
 public:
-    // All outlive it.
+    // All but the target must outlive it.
     ContourRows(const Heightfield& ground, const Fog& fog, const ContourSetting& setting, const EyeView& view,
                 SimdTarget target);
 
     // Whether floats and 32-bit numbers hold the ground: not beyond some 1000 million samples, nor where
-    // lines lie closer than its heights have digits. Nor do they know of a round Earth.
+    // lines lie closer than its heights have digits, nor over a round Earth.
     bool fits() const { return mFits; }
+    // Paints row y of a finished eye; where fits().
     void paint(EyeImage& image, int y) const;
 
 private:

@@ -12,16 +12,16 @@
 
 namespace stereonav {
 
-// At equal steps of the value from 0 to 1; linear between them.
+// A colour at one of equal steps of the value from 0 to 1; linear between them.
 struct PaintStop {
     glm::vec3 color{0.0f};  // linear
-    float share = 0;        // of it over what is there, 0 to 1
+    float share = 0;        // of the colour over what is there, 0 to 1
 };
 
 class RasterPainter final : public EyePainter {
 public:
-    // ground, fog: outlive it. values: of its samples, row 0 southernmost, bilinear between them; clamped to
-    // 0 to 1, and a cell with a NaN stays as it is. stops: two or more.
+    // ground, fog: outlive it. values: by sample, row 0 southernmost, bilinear between them; clamped to 0 to
+    // 1, and a cell with a NaN stays as it is. stops: two or more.
     RasterPainter(const Heightfield& ground, const Fog& fog, Plane<float> values,
                   std::vector<PaintStop> stops);
 

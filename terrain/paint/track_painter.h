@@ -19,9 +19,9 @@ namespace stereonav {
 
 // Pixels: the line, with what is darker beside it; the mark of a place from its middle to its rim.
 constexpr double kTrackWidth = 2.6, kTrackCasing = 4.6, kMarkRadius = 6;
-// Linear: a blue that neither ground nor the colours of slopes have.
+// A blue, linear, that neither ground nor the colours of slopes have.
 constexpr float kTrackInk[3] = {0.0f, 0.25f, 1.0f};
-constexpr double kCasingShare = 0.65;  // of black
+constexpr double kCasingShare = 0.65;  // of black beside the line
 
 class TrackPainter final : public EyePainter {
 public:
@@ -32,22 +32,23 @@ public:
 
     void paint(const EyeView& view, EyeImage& image) const override;
 
-    // Length of all lines, metres over the plan; beside the ground or in its holes.
+    // Returns the length of all lines, metres over the plan; and that of what lies beside the ground or in
+    // its holes.
     double length() const { return mLength; }
     double lengthOutside() const { return mOutside; }
 
 private:
     // Within one cell; a place's mark has both ends at it.
     struct Piece {
-        glm::dvec3 from, to;
-        double sag = 0;  // metres by which the ground's parabola leaves the chord at most
+        glm::dvec3 from, to;  // world, metres
+        double sag = 0;       // metres by which the ground's parabola leaves the chord at most
         bool mark = false;
     };
     void addLine(const glm::dvec2& from, const glm::dvec2& to);
     const Heightfield& mGround;
     const Fog& mFog;
     std::vector<Piece> mPieces;
-    double mLength = 0, mOutside = 0;
+    double mLength = 0, mOutside = 0;  // metres over the plan
 };
 
 }  // namespace stereonav

@@ -6,8 +6,8 @@
 
 namespace stereonav {
 
-// The files of a folder whose extension is one of elevation models (.tif, .tiff, .hgt, .dem, .asc, .dt0,
-// .dt1, .dt2, .img, .bil, .flt, .bt, .nc, .hgt.zip, .hgt.gz), sorted by name; hidden ones, and those in
+// Returns the files of a folder whose extension is one of elevation models (.tif, .tiff, .hgt, .dem, .asc,
+// .dt0, .dt1, .dt2, .img, .bil, .flt, .bt, .nc, .hgt.zip, .hgt.gz), sorted by name; hidden ones, and those in
 // folders of it, do not count. None where it is no folder.
 std::vector<std::filesystem::path> elevationFilesIn(const std::filesystem::path& folder);
 

@@ -25,6 +25,7 @@ struct Georeference {
     std::vector<ControlPoint> points;
     std::string placedBy;  // how control points place it, in words; "" where they do not
 
+    // Map pixel coordinates to reference coordinates, and back.
     glm::dvec2 fromPixel(const glm::dvec2& pixel) const;
     glm::dvec2 toPixel(const glm::dvec2& reference) const;
     // Whether rows run east-west and columns north-south, to a hundredth of a pixel.
@@ -35,11 +36,13 @@ struct Georeference {
 // bilinear between: to a hundredth of a pixel. at() is safe from several threads.
 class PixelMap {
 public:
-    static constexpr int kStep = 16;  // the widest
-    // From mapPixels() of raster_file.h: rows of nodesX nodes each, 2^shift pixels apart.
+    static constexpr int kStep = 16;  // pixels between nodes at most
+    // Takes what mapPixels() of raster_file.h gives: rows of nodesX nodes each, pixel coordinates of the
+    // source, 2^shift pixels apart.
     PixelMap(int nodesX, std::vector<glm::dvec2> nodes, int shift);
 
-    // Infinite or NaN where there is no such place in the source.
+    // Returns the pixel coordinates in the source of a target pixel's centre; infinite or NaN where there is
+    // no such place.
     glm::dvec2 at(int column, int row) const;
 
 private:

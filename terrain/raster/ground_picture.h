@@ -18,15 +18,17 @@ struct PixelWindow {
 
 // Stored values that are shown black and white.
 struct PictureTone {
-    double black = 0, white = 255;
+    double black = 0, white = 255;   // stored values
     std::vector<std::string> notes;  // what was guessed of it, a line each
 };
 
+// A part of an image, perhaps shrunk.
 class GroundPicture {
 public:
     struct Parts {
-        glm::dvec2 origin{0.0},
-            shrink{1.0};  // the first pixel's corner in the whole image; its pixels a pixel
+        // Pixels of the whole image: where the first pixel's corner lies, and how many a pixel is wide and
+        // high.
+        glm::dvec2 origin{0.0}, shrink{1.0};
         Plane<PackedColor> color;
         Plane<unsigned char> mask;  // 0: no colour here; empty: colour everywhere
     };
@@ -34,9 +36,9 @@ public:
 
     struct Sample {
         glm::vec3 color{0.0f};  // linear
-        float cover = 0;        // share of the bilinear weight on pixels that hold colour
+        float cover = 0;        // share of the bilinear weight on pixels that hold colour, 0 to 1
     };
-    // At pixel coordinates of the whole image.
+    // Returns the bilinear colour at pixel coordinates of the whole image.
     Sample at(const glm::dvec2& pixel) const;
 
 private:

@@ -6,11 +6,12 @@
 
 namespace stereonav {
 
-// x, y as the file's system has them: metres, feet, or degrees (longitude first). From one thread at a time.
+// Places in the file's reference system, x, y as it has them: metres, feet, or degrees (longitude first).
+// From one thread at a time.
 class ReferencePlaces {
 public:
     virtual ~ReferencePlaces() = default;
-    // None where the systems have no such place. world: x, y in metres.
+    // Returns nothing where the systems have no such place. world: x, y in metres.
     virtual std::optional<glm::dvec2> referenceAt(const glm::dvec2& world) const = 0;
     virtual std::optional<glm::dvec2> worldAt(const glm::dvec2& reference) const = 0;
 };

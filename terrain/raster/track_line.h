@@ -10,18 +10,18 @@ namespace stereonav {
 struct TrackLine {
     std::string name;  // "" where the file has none
     bool closed = false;
-    std::vector<glm::dvec2>
-        degrees;      // longitude, latitude of WGS 84; of a closed one the first is not repeated
-    int feature = 0;  // the same of all segments of one track, and of all parts of one drawing
+    // Longitude, latitude of WGS 84; a closed line does not repeat the first.
+    std::vector<glm::dvec2> degrees;
+    int feature = 0;  // the same for all segments of one track, and for all parts of one drawing
 };
 
 struct TrackPlace {
     std::string name;         // "" where the file has none
-    glm::dvec2 degrees{0.0};  // as of a line
+    glm::dvec2 degrees{0.0};  // longitude, latitude of WGS 84
 };
 
-// Lines whose segments are one after the other: those of one feature become one, a straight way from the end
-// of each to the beginning of the next. Areas stay apart.
+// Returns lines whose segments are one after the other: those of one feature become one, a straight way from
+// the end of each to the beginning of the next. Areas stay apart.
 std::vector<TrackLine> joinedSegments(std::vector<TrackLine> lines);
 
 struct TrackFile {

@@ -8,13 +8,13 @@
 
 namespace stereonav {
 
-// A raster of one of the two planes, row 0 southernmost.
+// One of the two planes, row 0 southernmost, and what is written of it.
 struct WrittenRaster {
     const Plane<std::uint8_t>* bytes = nullptr;
     const Plane<float>* floats = nullptr;
-    double missing = 0;       // value of samples that are not known
+    double missing = 0;       // value of samples that are not known, in `unit`
     std::string description;  // of the band
-    std::string unit;
+    std::string unit;         // of the band's values
 };
 
 }  // namespace stereonav

@@ -14,7 +14,7 @@
 
 namespace stereonav {
 
-// Samples that are read at once at most: a side, and in all.
+// The most samples that are read at once: a side, and in all.
 constexpr int kMostDemSide = 65536;
 constexpr long long kMostDemSamples = 1ll << 28;
 
@@ -26,11 +26,11 @@ struct DemGrid {
     std::string crs;               // name of the source's reference system, "" when it has none
     std::string projection;        // how it was brought to metres
     std::string verticalDatum;     // of heights, as the file names it; "" where it does not
-    glm::dvec2 sourceOffset{0.0};  // reference x, y of the grid's middle
-    double sourceUnit = 0;         // metres of a unit of these; 0: they are not in the source's own system
-    long long sourceMissing = 0;   // missing samples of the file itself, before any resampling
-    long long outside = 0;         // samples of the grid that lie beyond the file's own: missing too
-    // Metres: the mean radius of the body that its reference system is of; 0 where it names none.
+    glm::dvec2 sourceOffset{0.0};  // reference x, y of the grid's middle, units of the source
+    double sourceUnit = 0;        // metres of a unit of sourceOffset; 0: it is not in the source's own system
+    long long sourceMissing = 0;  // missing samples of the file itself, before any resampling
+    long long outside = 0;        // samples of the grid that lie beyond the file's own: missing too
+    // Mean radius, metres, of the body that its reference system belongs to; 0 where it names none.
     double bodyRadius = 0;
 
     // What the file left to be found out, in words; "" where there is nothing to say.
@@ -44,29 +44,30 @@ struct DemGrid {
     Georeference grid;           // of these samples, north up; the same as source unless resampled
 };
 
-// A sample is missing where it is the file's nodata value, or without one what is customary (-32768 of 16
-// bits, -9999 far below all else), masked, NaN, infinite, or beyond 1e7 m. Of several bands the one that
-// speaks of heights counts. Heights are in the band's unit, else in that of the vertical reference system,
-// else metres. Degrees, feet, turned rasters, control points and projections whose scale is off by more than
-// 1 % (web Mercator) are brought to metres; over a pole the file's projection stays. Where the band or the
-// vertical axis counts downward heights are turned over. Without a georeference a sample is a metre wide,
-// except for a coded tile: spacing from a path that ends in zoom/x/y.png, else that of zoom 14 at 36 degrees
-// north. Throws Error named by the file; Cancelled. after: the bytes that the caller will hold at once for so
-// many samples, these heights among them; where they, or what reading takes, do not fit into the memory that
-// can be had, nothing is read.
+// Returns the bytes that a caller will hold at once for so many samples, the heights among them.
 using BytesForSamples = std::function<double(double samples)>;
+// Reads an elevation model. verticalScale: factor on the heights. A sample is missing where it is the file's
+// nodata value, or without one what is customary (-32768 of 16 bits, -9999 far below all else), masked, NaN,
+// infinite, or beyond 1e7 m. Of several bands the one that speaks of heights counts. Heights are in the
+// band's unit, else in that of the vertical reference system, else metres. Degrees, feet, turned rasters,
+// control points and projections whose scale is off by more than 1 % (web Mercator) are brought to metres;
+// over a pole the file's projection stays. Where the band or the vertical axis counts downward heights are
+// turned over. Without a georeference a sample is a metre wide, except for a coded tile: spacing from a path
+// that ends in zoom/x/y.png, else that of zoom 14 at 36 degrees north. Throws Error named by the file;
+// Cancelled. after: where what it gives, or what reading takes, does not fit into the memory that can be had,
+// nothing is read.
 DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
                 const BytesForSamples& after = {});
 
-// What the file's header says of it: no sample is read.
+// What the file's header says; no sample is read.
 struct DemGlance {
     int width = 0, height = 0;                                // samples of the file
-    glm::dvec2 step{1.0};                                     // between them, in `unit`
+    glm::dvec2 step{1.0};                                     // between samples, in `unit`
     std::string unit;                                         // of the plan: "m", "degrees", "units"
-    std::string driver, crs, band, heightUnit, missingValue;  // as of DemGrid
+    std::string driver, crs, band, heightUnit, missingValue;  // DemGrid's
     std::string type;                                         // of a sample, as GDAL calls it: "Int16"
 };
-// Throws Error as readDem() does where the header is enough to refuse it.
+// Reads the header. Throws Error as readDem() does where the header is enough to refuse it.
 DemGlance glanceAtDem(const std::filesystem::path& file);
 
 }  // namespace stereonav

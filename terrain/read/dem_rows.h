@@ -15,7 +15,7 @@ namespace stereonav {
 // Replaces each NaN of a grid by what fits the numbers around (terrain/ground/nodata.h).
 using FillBetween = std::function<void(std::vector<float>& values, int width, int height)>;
 
-// To one thread at a time. At most 2^20 samples a side and 2^40 in all.
+// The rows of one elevation model, for one thread at a time. At most 2^20 samples a side and 2^40 in all.
 //
 // Heights are those of readDem(), bit for bit, where its samples stay as they are. Ground that has to be
 // resampled (degrees, feet, turned, control points, web Mercator) is resampled alike, but summits and pits
@@ -44,12 +44,12 @@ public:
     // Opens it and reads no sample, but for the one tile of a GSI elevation tile. Throws Error as readDem()
     // does for what can not be read.
     explicit DemRows(const std::filesystem::path& file);
-    // At most so many samples of it, >= 4, spread over all of the ground; of the file's overviews where it
-    // has them. Text has all.
+    // Opens it at `most` samples at most, >= 4, spread over all of the ground, of the file's overviews where
+    // it has them. A text file gives all of its samples.
     DemRows(const std::filesystem::path& file, long long most);
 
-    // The grid of readDem(), but for the heights and what is counted over samples (sourceMissing, outside:
-    // 0).
+    // Returns the grid of readDem(), but for the heights and what is counted over samples (sourceMissing,
+    // outside: 0).
     const DemGrid& place() const { return mReader->place(); }
 
     // Rows that are best read at once: whole blocks of the file, at most 256.
@@ -63,25 +63,26 @@ public:
     // Cancelled.
     void read(int first, int rows, float* heights) { mReader->read(first, rows, heights); }
 
-    // Only all samples tell, so after all rows were read: true where -9999 alone, far below all else, in a
-    // file that names no nodata value, stands for missing samples. Whoever keeps the heights then reads all
-    // rows again, in which they are missing. True once: afterwards they are missing in whatever is read.
+    // Returns true where -9999 alone, far below all else, in a file that names no nodata value, stands for
+    // missing samples. Only all samples tell, so it is asked after all rows were read. Whoever keeps the
+    // heights then reads all rows again, in which they are missing. True once: afterwards they are missing in
+    // whatever is read.
     bool mustBeReadAgain() { return mReader->mustBeReadAgain(); }
 
-    // After all rows were read: throws Error where heights are not what single precision holds, or all
+    // Throws Error, once all rows were read, where heights are not what single precision holds, or all
     // samples are missing, or heights times the vertical scale leave their range, as readDem() says it. Of
     // ground that is resampled only samples around those of the grid count.
     void checkHeights(double verticalScale) const { mReader->checkHeights(verticalScale); }
 
-    // For a reader of a few samples: whether they lie in compressed blocks, of which each row takes many, and
-    // there are no overviews.
+    // Whether samples lie in compressed blocks, of which each row takes many, and there are no overviews: bad
+    // for who reads a few samples.
     bool isPacked() const { return mReader->isPacked(); }
 
-    // For such a reader: decodes blocks of the file spread evenly over it, as many as that time gives, and
-    // from then on read() gives what they hold and what `fill` puts between them. It is missing where most of
-    // what was read nearby is. False where blocks are too large or too slow for the fewest of them (most_ms),
-    // all samples are read, or the format is decoded from its beginning: then nothing is changed. Throws as
-    // read() does.
+    // Decodes blocks of the file spread evenly over it, as many as time_ms gives, for who reads a few
+    // samples; from then on read() gives what they hold and what `fill` puts between them. It is missing
+    // where most of what was read nearby is. False where blocks are too large or too slow for the fewest of
+    // them (most_ms), all samples are read, or the format is decoded from its beginning: then nothing is
+    // changed. Throws as read() does.
     bool readSpread(double time_ms, double most_ms, const FillBetween& fill) {
         return mReader->readSpread(time_ms, most_ms, fill);
     }
@@ -99,7 +100,7 @@ private:
     std::unique_ptr<Reader> mReader;
 };
 
-// The module's function. most: 0: all.
+// Returns a reader from the module. most: samples at most; 0: all.
 std::unique_ptr<DemRows::Reader> openDemRows(const std::filesystem::path& file, long long most);
 
 }  // namespace stereonav

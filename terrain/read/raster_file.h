@@ -22,47 +22,50 @@ namespace stereonav {
 class RasterPicture {
 public:
     virtual ~RasterPicture() = default;
-    // Where it lies; `known` is set to whether the file says so (else a unit a pixel, no system).
+    // Returns where it lies; sets `known` to whether the file says so (else a unit a pixel, no system).
     virtual Georeference georeference(bool& known) = 0;
-    // The tone that its pixels ask for: 16 bits that are hardly used are stretched, and that is noted. Of all
-    // of it, so that its parts are shown alike. Throws Error.
+    // Returns the tone that its pixels ask for, of all of it, so that its parts are shown alike: 16 bits that
+    // are hardly used are stretched, and that is noted. Throws Error.
     virtual PictureTone tone() = 0;
-    // All that its bits hold, whatever its pixels.
+    // Returns the tone that spans all that its bits hold, whatever its pixels.
     virtual PictureTone wholeTone() = 0;
-    // The window, averaged down by the factor `shrink` (>= 1) each way. Throws Error.
+    // Reads the window, averaged down by the factor `shrink` (>= 1) each way. Throws Error.
     virtual GroundPicture read(const PixelWindow& window, const glm::dvec2& shrink,
                                const PictureTone& tone) = 0;
 };
 
-// `expected` completes the sentence "expected ..." and `advice` says what to give instead. Throws Error.
+// Opens a picture. `expected` completes the sentence "expected ..." and `advice` says what to give instead.
+// Throws Error.
 std::unique_ptr<RasterPicture> openRasterPicture(const std::filesystem::path& file,
                                                  const std::string& expected, const std::string& advice);
 
-// Throws Error named by `file` when there is no way between the two reference systems.
+// Maps pixels of `target` to those of `source`. Throws Error named by `file` when there is no way between the
+// two reference systems.
 PixelMap mapPixels(const Georeference& target, const Georeference& source, const std::filesystem::path& file);
 
 // Whether the two rasters share ground. Throws Error as mapPixels does.
 bool overlap(const Georeference& a, const Georeference& b, const std::filesystem::path& file);
 
-// Where the places of a world lie whose grid this is, north up, with so many metres a pixel; the world's
-// origin is the grid's middle. Null where its reference system does not say, or is of another body.
+// Returns where the places of a world lie whose grid this is, north up, with `spacing` metres a pixel; the
+// world's origin is the grid's middle. Null where its reference system does not say, or belongs to another
+// body.
 std::unique_ptr<EarthPlaces> earthPlaces(const Georeference& grid, const glm::dvec2& spacing);
 
-// The same places in the reference system of the file, `source`, that the grid was made of. Null where there
-// is no way between the two systems.
+// Returns the same places in the reference system of the file, `source`, that the grid was made of. Null
+// where there is no way between the two systems.
 std::unique_ptr<ReferencePlaces> referencePlaces(const Georeference& source, const Georeference& grid,
                                                  const glm::dvec2& spacing);
 
-// A GeoTIFF over the grid's samples; the file is made anew. Throws Error.
+// Writes a GeoTIFF over the grid's samples; the file is made anew. Throws Error.
 void writeGeoTiff(const std::filesystem::path& file, const Georeference& grid, const WrittenRaster& raster);
 
-// The lines, areas and places of a GPX or GeoJSON file, one or more; areas without their holes, and tracks
-// without their points. Throws Error.
+// Reads the lines, areas and places of a GPX or GeoJSON file, one or more; areas without their holes, and
+// tracks without their points. Throws Error.
 TrackFile readTrackFile(const std::filesystem::path& file);
-// The lines and areas of a file, one or more; the segments of a track are one line. Throws Error.
+// Reads the lines and areas of a file, one or more; the segments of a track are one line. Throws Error.
 std::vector<TrackLine> readTracks(const std::filesystem::path& file);
 
-// The module's table.
+// The module's functions, which those above call.
 struct RasterFunctions {
     decltype(&stereonav::readDem) readDem;
     decltype(&stereonav::glanceAtDem) glanceAtDem;

@@ -16,6 +16,7 @@ constexpr int kBuiltInSizeMin = 17, kBuiltInSizeMax = 2049;  // samples a side o
 
 constexpr double kUsualVisibility = 60e3;  // metres; of a physical sky
 
+// How a terrain is lit and shown.
 struct TerrainLook {
     double sunAzimuth = 5.5;     // radians clockwise from north; the default shines from the north-west
     double sunElevation = 0.79;  // radians above the horizon
@@ -28,22 +29,23 @@ struct TerrainLook {
     // Sky and air by scattering (terrain/light/atmosphere.h), in the place of a picture and of fog.
     bool physicalSky = false;
     double visibility = kUsualVisibility;  // metres: meteorological range at the sea
-    double seaLevel = 0, skySeenFrom = 0;  // world heights; the loader sets them
+    double seaLevel = 0, skySeenFrom = 0;  // world heights, metres; the loader sets them
 };
 
-// By what ground without a picture is coloured: its tints, or how it lies (terrain/scene/slope_color.h).
+// What colours ground without a picture: its tints, or how it lies (terrain/scene/slope_color.h).
 enum class GroundPaint { None, Slope, Aspect, Hillshade };
 
 // Whether an elevation model's samples go into tiles on disk (terrain/scene/tiled_ground.h): where they would
 // not fit into memory, always, or never.
 enum class GroundTiles { Auto, On, Off };
 
+// A mesh in the scene.
 struct LandmarkFile {
     std::filesystem::path mesh;     // .gltf or .glb
     glm::dvec2 positionWorld{0.0};  // metres from the world's origin
-    std::optional<double> z;        // metres; unset: on the ground
-    double heading = 0.0;           // radians clockwise
-    double scale = 1.0;
+    std::optional<double> z;        // metres; none: on the ground
+    double heading = 0.0;           // radians clockwise from north
+    double scale = 1.0;             // factor on the mesh, above 0 to 1e9
 };
 
 struct SceneFile {
@@ -52,7 +54,7 @@ struct SceneFile {
     std::uint64_t seed = 1;      // of the generated terrain
     int builtInSize = 513;       // its samples a side
     std::filesystem::path dem;
-    double verticalScale = 1.0;  // > 0
+    double verticalScale = 1.0;  // factor on heights, > 0
     GroundTiles tiles = GroundTiles::Auto;
     // Where tiles have to be made, coarser ground of so many samples a side is given until they are; 0: none.
     int standInSide = 0;
@@ -66,12 +68,12 @@ struct SceneFile {
     std::vector<LandmarkFile> landmarks;
     std::optional<glm::dvec3> startPosition;  // world metres; z above the ground when startAboveGround
     bool startAboveGround = true;
-    double startHeading = 0, startPitch = 0, startRoll = 0;  // radians
+    double startHeading = 0, startPitch = 0, startRoll = 0;  // radians: poseFromAngles()
     std::filesystem::path path;                              // "" for the scene's own computed flight
-    std::optional<double> separation;                        // metres
-    std::optional<double> zeroParallax;
-    double verticalFov = 0.8;  // radians
-    double clearance = 0.0;    // metres; 0: chosen from the spacing
+    std::optional<double> separation;                        // metres between the eyes
+    std::optional<double> zeroParallax;                      // metres along the view axis
+    double verticalFov = 0.8;                                // radians
+    double clearance = 0.0;                                  // metres; 0: chosen from the spacing
 };
 
 // Reads a .toml scene. Relative files are relative to the scene's folder. Throws Error: unknown keys

@@ -5,6 +5,6 @@
 
 namespace stereonav {
 
-constexpr NumberRange kVerticalScaleRange = within(1e-6, 1e6);
+constexpr NumberRange kVerticalScaleRange = within(1e-6, 1e6);  // factor on heights
 
 }  // namespace stereonav

@@ -16,11 +16,11 @@ class FineHeights {
 public:
     explicit FineHeights(std::shared_ptr<const GroundLevels> levels) : mLevels(std::move(levels)) {}
 
-    // Metres; clamped to the border, NaN in holes, as Heightfield::heightAt(). Throws Error where a tile can
-    // not be read.
+    // Returns metres; clamped to the border, NaN in holes, as Heightfield::heightAt(). Throws Error where a
+    // tile can not be read.
     double heightAt(const glm::dvec2& world) const;
-    // The samples around a place, which lies at least one from the edge of it but at the ground's own; null
-    // in a hole.
+    // Returns samples around a place, which lies at least one from their edge but at the ground's own; null
+    // in a hole. Throws as heightAt().
     std::shared_ptr<const Heightfield> around(const glm::dvec2& world) const;
 
 private:

@@ -12,25 +12,25 @@ namespace stereonav {
 
 class FineLight {
 public:
-    // levels: of the ground that it was baked for.
+    // levels: those of the ground that it was baked for.
     FineLight(std::shared_ptr<const GroundLevels> levels, LightTiles tiles, SimdTarget target);
 
     const GroundLevels& levels() const { return *mLevels; }
     const FineLightShape& shape() const { return mTiles.shape(); }
     std::uint64_t byteCount() const { return mTiles.byteCount(); }  // on disk
-    // The level whose light is nearest to a part with samples that far apart, metres; none where the ground
-    // in memory has them too.
+    // Returns the level whose light is nearest to a part with samples `spacing` metres apart; nothing where
+    // the ground in memory has them too.
     std::optional<int> levelFor(double spacing) const;
 
-    // One tile: its ground with a sample around it where there is one, and the brightness of the tile's own
-    // samples, the first of which is `first` of the ground's. From any thread. Throws Error where it can not
-    // be read.
+    // A tile: its ground with a sample around it where there is one, and the brightness of the tile's own
+    // samples, of which the first is `first` in that ground.
     struct LitTile {
         Heightfield ground;
         glm::ivec2 first{0};
         GroundBrightness brightness;
     };
-    // None where no sample is known.
+    // Lights a tile; nothing where no sample is known. From any thread. Throws Error where it can not be
+    // read.
     std::optional<LitTile> lit(const LightTiles::Tile& tile, const SunAndSky& now) const;
     glm::ivec2 size(int level) const { return mTiles.size(level); }  // samples
 

@@ -15,9 +15,10 @@
 
 namespace stereonav {
 
+// Colours of ground, and where they come from.
 struct GroundColor {
     ColorTexture texture;
-    std::string source;     // for `info`: "image winter.jpg 457x499 over the same extent", ...
+    std::string source;     // "image winter.jpg 457x499 over the same extent", ...
     bool holdsSun = false;  // some of it is lit by the look's sun
 };
 
@@ -26,22 +27,23 @@ struct GroundColor {
 class GroundLight {
 public:
     explicit GroundLight(const TerrainLook& look);
-    float at(const glm::dvec3& unitNormal) const;
+    float at(const glm::dvec3& unitNormal) const;  // the factor, 0 or more
     const glm::dvec3& direct() const { return mDirect; }
 
 private:
-    glm::dvec3 mDirect{0.0};  // towards the sun, scaled with its strength
-    double mAmbient = 0;
+    glm::dvec3 mDirect{0.0};  // towards the sun, as long as its light is strong
+    double mAmbient = 0;      // factor where the sun does not reach
 };
 
-// Bytes that tintedGround() holds at once for ground of so many samples.
+// Returns the bytes that tintedGround() holds at once for ground of so many samples.
 double bytesOfTint(double samples);
 
-// Tints by height, place and slope (ground_tint.h), lit; two texels a sample each way.
+// Returns tints by height, place and slope (ground_tint.h), lit; two texels a sample each way. Throws
+// Cancelled.
 GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, const TintPlace& place,
                          Progress& progress);
 
-// Tints of a part of a ground, so many texels a sample each way; place: of the whole.
+// Returns tints of a part of a ground, `density` texels a sample each way; place: that of the whole.
 ColorTexture tintedPart(const Heightfield& part, const Heightfield& whole, const TerrainLook& look,
                         const TintPlace& place, double density, Progress& progress);
 
@@ -53,11 +55,11 @@ struct PicturedGround {
     bool perSample = false;  // its light is that of every sample: a part has a texel a sample at least
 };
 
-// An image with a georeference (its own, or a world file's beside it, then in the elevation model's system)
-// is laid where it belongs; one without covers the extent of the elevation file, whatever its aspect. Masked
-// and uncovered places get the tint. 8 or 16 bits, gray, colour or palette, taken as sRGB; texels as fine as
-// the image's pixels, 2^26 of them and so many a sample each way at most. Throws Error named by the image,
-// among others where it does not overlap.
+// Lays an image over the ground. One with a georeference (its own, or a world file's beside it, then in the
+// elevation model's system) is laid where it belongs; one without covers the extent of the elevation file,
+// whatever its aspect. Masked and uncovered places get the tint. 8 or 16 bits, gray, colour or palette, taken
+// as sRGB; texels as fine as the image's pixels, 2^26 of them and mostDensity a sample each way at most.
+// Throws Error named by the image, among others where it does not overlap; Cancelled.
 GroundColor picturedGround(const Heightfield& ground, const PicturedGround& pictured, double mostDensity,
                            Progress& progress);
 // Colours of a part of a ground, of any level: texels as fine as the picture's pixels, so many at most, or a

@@ -14,15 +14,15 @@ namespace stereonav {
 
 struct GroundMap {
     Plane<PackedColor> picture;  // row 0 northernmost
-    glm::dvec2 northWest{0.0};   // world x, y of the outer corner of its first pixel
+    glm::dvec2 northWest{0.0};   // world x, y, metres, of the outer corner of its first pixel
     double metresPerPixel = 1;
 };
 
 constexpr int kMostMapPixels = 4096;  // a side
 
-// most: pixels of the longer side, cut to 1..kMostMapPixels. Pixels that lie mostly over holes are hatched in
-// greys. Reads nothing that changes with the sun: may be called on any thread while frames are made. Throws
-// Cancelled.
+// Draws the map. most: pixels of the longer side, cut to 1..kMostMapPixels. Pixels that lie mostly over holes
+// are hatched in greys. Reads nothing that changes with the sun: may be called on any thread while frames are
+// made. Throws Cancelled.
 GroundMap mapOfGround(const TerrainScene& terrain, int most, Progress& progress);
 
 }  // namespace stereonav

@@ -16,14 +16,14 @@ struct GroundPlace {
     std::optional<EarthPlace> earth;
     double height = 0;  // metres, as in the file: without the vertical scale
     double slope = 0;   // radians from the level, 0 to pi / 2, of the file's heights
-    // Where it falls, radians clockwise from the grid's north (the world's y), 0 to 2 pi; none of level
-    // ground.
+    // Direction in which it falls, radians clockwise from the grid's north (the world's y), 0 to 2 pi; none
+    // of level ground.
     std::optional<double> aspect;
 };
 
-// Slope and aspect are those of the normals that the ground is shaded with: central differences at the
-// samples (Zevenbergen and Thorne 1987), bilinear between them. world: x, y, metres. None beside the ground
-// and in holes.
+// Returns what is known of a place; nothing beside the ground and in holes. Slope and aspect are those of the
+// normals that the ground is shaded with: central differences at the samples (Zevenbergen and Thorne 1987),
+// bilinear between them. world: x, y, metres.
 std::optional<GroundPlace> groundPlaceAt(const TerrainScene& terrain, const glm::dvec2& world);
 
 }  // namespace stereonav

@@ -19,10 +19,10 @@ struct BuiltInOrigin {
 
 // What colours are made of, beside the ground.
 struct GroundColorSource {
-    TerrainLook look;    // as the scene was loaded
-    bool alone = false;  // without the sun's light: whoever shows them lights them
-    double verticalScale = 1;
-    GroundPaint paint = GroundPaint::None;  // the scene was loaded with
+    TerrainLook look;                       // as the scene was loaded
+    bool alone = false;                     // without the sun's light: whoever shows them lights them
+    double verticalScale = 1;               // of the heights: so many times those of the file
+    GroundPaint paint = GroundPaint::None;  // that the scene was loaded with
     std::optional<BuiltInOrigin> builtIn;
     TintPlace tint;
 };
@@ -30,24 +30,26 @@ struct GroundColorSource {
 // Takes what was lit out of the words for colours, where somebody else lights them.
 void leaveOutLit(std::string& source);
 
-// From the cache where it is there.
+// Returns the generated terrain under a look, from the cache where it is there. Throws Error, Cancelled.
 BuiltInTerrain builtInUnder(const BuiltInOrigin& origin, const TerrainLook& look, bool alone,
                             Progress& progress);
+// Lays the colours of the generated terrain over its ground.
 GroundColor colorsOfBuiltIn(const Heightfield& ground, const BuiltInTerrain& built);
 
+// A place of the sun.
 struct SunAngles {
-    double azimuth = 0, elevation = 0;  // radians, as a look's
+    double azimuth = 0, elevation = 0;  // radians, TerrainLook's
     bool operator==(const SunAngles&) const = default;
 };
-// Whether a scene's ground that is painted so is to be made again where the sun turns.
+// Whether ground in that paint is to be made again where the sun turns.
 bool turnsWithSun(GroundPaint paint, const GroundColorSource& source);
-// sun: that paint is made under; the ground's own colours are under that of source.look. Throws Error,
-// Cancelled.
+// Returns the colours in that paint. sun: for the paint; the ground's own colours are under that of
+// source.look. Throws Error, Cancelled.
 GroundColor groundColorsAs(GroundPaint paint, const Heightfield& ground, const GroundColorSource& source,
                            const SunAngles& sun, Progress& progress);
 
-// The same for a part of the ground, coarser or finer than that, with a texel a sample each way: as much as
-// can be made while one flies towards it. Not for ground that was generated in colours of its own.
+// Returns the same for a part of the ground, coarser or finer than that, with a texel a sample each way: as
+// much as can be made while one flies towards it. Not for ground that was generated in colours of its own.
 ColorTexture colorsOfPart(const Heightfield& part, const Heightfield& whole, GroundPaint paint,
                           const GroundColorSource& source, const SunAngles& sun);
 

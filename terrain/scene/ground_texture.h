@@ -11,19 +11,20 @@
 
 namespace stereonav {
 
-constexpr double kMostGroundTexels = 1 << 26;  // 256 MiB, a third more with the mip levels
+constexpr double kMostGroundTexels = 1 << 26;  // texels: 256 MiB, a third more with the mip levels
 constexpr double kLitDensity = 2.0;            // texels a sample each way where light is baked in
 
 struct GroundTextureSize {
-    int width, height;
+    int width, height;  // texels
 };
 
-// `density` texels a sample, less where that were too many.
+// Returns the size at `density` texels a sample, less where that were more than kMostGroundTexels.
 GroundTextureSize groundTextureSize(const Heightfield& ground, glm::dvec2 density);
 
-// Over the extent of the samples' own squares: half a sample beyond the outer ones.
-// colorAt: linear colour from column and row (0 northernmost) and the grid position of a texel's centre.
+// Returns the linear colour at column and row (0 northernmost) and at the grid position of a texel's centre.
 using GroundColorAt = std::function<glm::vec3(int column, int row, const glm::dvec2& grid)>;
+// Makes a texture over the extent of the samples' own squares: half a sample beyond the outer ones. Throws
+// Cancelled.
 ColorTexture groundTexture(const Heightfield& ground, const GroundTextureSize& size,
                            const GroundColorAt& colorAt, Progress& progress);
 

@@ -26,24 +26,25 @@
 
 namespace stereonav {
 
-// What is known of where the ground lies.
+// What is known of the place of the ground.
 struct TintPlace {
-    double verticalScale = 1;       // of the ground's heights
+    double verticalScale = 1;       // the ground's heights for one of the file's
     std::vector<double> latitudes;  // radians, evenly from the southern edge to the northern; empty: unknown
 };
 
-// Treeline and snow line of a latitude (radians), metres above the sea; 0 <= tree <= snow.
+// Tree line and snow line, metres above the sea; 0 <= tree <= snow.
 struct GrowthLines {
     double tree = 0, snow = 0;
 };
+// latitude: radians.
 GrowthLines growthLines(double latitude);
 
 class GroundTint {
 public:
     // ground must outlive it.
     GroundTint(const Heightfield& ground, const TintPlace& place) : GroundTint(ground, place, ground) {}
-    // Tints of a part of a ground, finer than that or not: in the colours that it has as a part of the whole,
-    // which must outlive this. place: of the whole.
+    // Takes a part of a ground, finer than that or not: in the colours that it has as a part of the whole,
+    // which must outlive this. place: that of the whole.
     GroundTint(const Heightfield& part, const TintPlace& place, const Heightfield& whole);
 
     // What is kept at the samples and bilinear between them; beyond the edge it counts on.
@@ -55,7 +56,8 @@ public:
     };
     Site siteAt(const glm::dvec2& grid) const;
 
-    // Linear colour without light. height: metres as the ground has them, NaN in holes; site: of the place.
+    // Returns the linear colour without light. height: metres as the ground has them, NaN in holes; site: the
+    // place's.
     glm::vec3 at(const glm::dvec2& grid, double height, const Site& site) const;
 
     static constexpr double kBytesPerSample = sizeof(Site);
@@ -73,12 +75,12 @@ private:
     glm::dvec2 inWhole(const glm::dvec2& grid) const { return mFirst + grid * mStep; }
 
     const Heightfield &mGround, &mWhole;
-    glm::dvec2 mFirst{0.0}, mStep{1.0};
-    double mUnscale = 1;        // metres above the sea for one of the ground's
-    double mMetresPerStep = 1;  // the wider spacing
+    glm::dvec2 mFirst{0.0}, mStep{1.0};  // grid of the whole: the first sample, and from one to the next
+    double mUnscale = 1;                 // metres above the sea for one of the ground's
+    double mMetresPerStep = 1;           // the wider spacing
     bool mPlaced = false, mSeaFloor = false;
-    double mLow = 0, mPerMetre = 0;                // of heights without a place: the range they span
-    double mStretch = 1, mMiddle = 0, mShift = 0;  // of the scales: wider about a middle
+    double mLow = 0, mPerMetre = 0;                // metres, 1/metre: the range of heights without a place
+    double mStretch = 1, mMiddle = 0, mShift = 0;  // of the scales: wider about a middle; metres
     float mRockFrom = 0.6f, mRockFull = 1.2f;      // slopes, metres a metre
     std::vector<Zone> mZones;                      // evenly from south to north
     std::vector<Site> mSites;

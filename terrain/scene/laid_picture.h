@@ -19,25 +19,28 @@ namespace stereonav {
 // Keeps no file open: every read opens it anew, so that parts may be read from any thread.
 class LaidPicture {
 public:
-    // dem: without its heights. Throws Error named by the picture, among others where it does not overlap.
+    // Opens the picture. dem: its heights are not read. Throws Error named by the picture, among others where
+    // it does not overlap.
     LaidPicture(const std::filesystem::path& file, const DemGrid& dem);
 
-    // Pixels a sample of a ground, or a part of one, at any of its levels: by that at the model's middle.
+    // Returns pixels a sample, each way, of a ground, or a part of one, at any of its levels: by that at the
+    // model's middle.
     glm::dvec2 density(const Heightfield& ground) const { return mDensity * ground.spacing() / mSpacing; }
 
     struct Pixels {
         PixelMap map;  // from the texels' columns and rows
         GroundPicture picture;
     };
-    // What a texture of that size over a ground needs, averaged down to its texels: from the file's overviews
-    // where it has them. None where the picture does not reach it. From any thread. Throws Error where the
-    // file can not be read any more, or would not fit into memory.
+    // Returns what a texture of that size over a ground needs, averaged down to its texels: from the file's
+    // overviews where it has them. Nothing where the picture does not reach it. From any thread. Throws Error
+    // where the file can not be read any more, or would not fit into memory.
     std::optional<Pixels> over(const Heightfield& ground, const GroundTextureSize& size) const;
 
     // What was guessed of its colours, a line each.
     const std::vector<std::string>& notes() const { return mTone.notes; }
     // "image winter.jpg 457x499 over the same extent"
     std::string describe() const;
+    // Throws Error named by the picture.
     [[noreturn]] void throwNoOverlap() const;
 
 private:
@@ -46,7 +49,7 @@ private:
     std::filesystem::path mFile;
     Georeference mGrid;   // of the model's finest samples
     glm::dvec2 mSpacing;  // of those, metres
-    Georeference mPlace;  // of the picture: by its own georeference, or over the elevation file's extent
+    Georeference mPlace;  // the picture's own, or over the elevation file's extent
     bool mOwn = false;
     glm::dvec2 mDensity{1.0};  // pixels a finest sample
     PictureTone mTone;

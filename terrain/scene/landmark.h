@@ -19,17 +19,17 @@ public:
     LandmarkSet(const std::vector<LandmarkFile>& files, const Heightfield& ground, const TerrainLook& look);
     ~LandmarkSet();
 
-    // Casts `count` rays from view.eye: where a mesh is hit in front of viewDepth[k], replaces
-    // viewDepth[k] and color[k]. direction: unit length along the view axis (rayDirection()). A
-    // negative viewDepth[k] marks a lane to leave alone. throughFog: colours as the eye sees them; else as
-    // they are. Safe from several threads.
+    // Casts `count` rays from view.eye: where a mesh is hit in front of viewDepth[k], metres, replaces
+    // viewDepth[k] and color[k]. direction: unit length along the view axis (rayDirection()). A negative
+    // viewDepth[k] marks a lane to leave alone. throughFog: colours as the eye sees them; else the meshes'
+    // own. Safe from several threads.
     void cast(const EyeView& view, int count, const glm::dvec3* direction, float* viewDepth,
               PackedColor* color, bool throughFog = true) const;
 
-    // Light and fog of another look. No cast() may run meanwhile.
+    // Takes light and fog of another look. No cast() may run meanwhile.
     void setLook(const TerrainLook& look);
 
-    // World bounding box of everything.
+    // World bounding box of everything, metres.
     glm::dvec3 boundsMin() const;
     glm::dvec3 boundsMax() const;
     std::size_t triangleCount() const;

@@ -16,23 +16,24 @@ class TerrainIllumination;
 // From any thread. Throws Error where a picture can not be read any more.
 struct PartColors {
     std::function<ColorTexture(const Heightfield& part)> make;  // null: parts have no colours of their own
-    double texelsASample = 1;    // of the finest samples: what the picture has there
-    double mostTexels = 0;       // of a part; but one for each of its samples
-    double bytesMeanwhile = 24;  // a texel, while a part is made
+    double texelsASample = 1;    // texels a finest sample: what the picture has there
+    double mostTexels = 0;       // texels of a part at most; but one for each of its samples
+    double bytesMeanwhile = 24;  // bytes a texel, while a part is made
 
     explicit operator bool() const { return make != nullptr; }
-    // The most texels that a part of that level has.
+    // Returns the most texels that a part of that level has, with so many samples.
     double texels(double samples, int level) const;
 };
 
-// Colours of parts as the whole ground has them in that paint, under that sun; null where parts have no
-// colours of their own: the ground is not tiled. Under baked light they are without light. scene must outlive
-// it, and not move.
+// Returns the colours of parts as the whole ground has them in that paint, under that sun; null where parts
+// have no colours of their own: the ground is not tiled. Under baked light they are without light. scene must
+// outlive them, and not move.
 PartColors partColorsOf(const TerrainScene& scene, GroundPaint paint, const SunAngles& sun);
-// Colours of parts of the ground as it was loaded.
+// Returns the colours of parts of the ground as it was loaded.
 PartColors partColorsOf(const TerrainScene& scene);
 
-// The same, lit by what was baked for the whole, as it was applied last. Does not change with it.
+// Returns the same colours, lit by what was baked for the whole, as it was applied last. Does not change with
+// it.
 PartColors litParts(const PartColors& colors, const TerrainScene& scene, const TerrainIllumination& light);
 
 }  // namespace stereonav

@@ -18,9 +18,9 @@
 
 namespace stereonav {
 
-// Bounds of the quotient of baked light over the plain light of the same place. What is darker counts as the
-// first, since a quotient of two dark places says nothing; beyond the second it is that of the sun's edge at
-// one sample alone.
+// Bounds of the quotient of baked light over the plain light of the same place, both linear. Plain light
+// below the first counts as the first, since a quotient of two dark places says nothing; quotients beyond the
+// second come from the sun's edge at one sample alone.
 constexpr float kDarkestPlainLight = 0.05f, kLargestLightQuotient = 2.5f;
 inline float lightQuotient(float baked, float plain) {
     return std::min(baked / std::max(plain, kDarkestPlainLight), kLargestLightQuotient);
@@ -33,16 +33,17 @@ inline float lightQuotient(float baked, float plain) {
 // not change: parts may be lit from any thread while the sun moves on.
 class PartLight {
 public:
-    // whole: what was baked, in the samples of the grid. shown: as TerrainRelight::Display.
+    // whole: ground whose light was baked, at the samples of the grid. shown: how TerrainRelight shows light.
     PartLight(const Heightfield& whole, const LightGrid& grid, const GroundBrightness& brightness,
               const TerrainLook& look, const TerrainRelight::Display& shown);
 
-    // Light at finer samples under the same sun and sky, which is shown in place of the other where it is.
+    // Takes light at finer samples under the same sun and sky, which is shown in place of the other where
+    // there is some.
     void takeFiner(std::shared_ptr<const FineLight> fine, const SunAndSky& now);
 
-    // colors: of the part, without light; they become lit. Throws Error where finer light can not be read.
+    // Lights the colours of a part, which are without light. Throws Error where finer light can not be read.
     void apply(const Heightfield& part, ColorTexture& colors) const;
-    // Bytes for each sample of a part that it takes meanwhile.
+    // Returns the bytes that apply() takes meanwhile, for each sample of a part.
     double bytesASample() const { return mFine ? sizeof(glm::vec3) : 0; }
 
 private:
@@ -60,10 +61,10 @@ private:
     LightGrid mGrid;
     TerrainLook mLook;
     TerrainRelight::Display mShown;
-    glm::dvec2 mOrigin, mSpacing;            // of the whole
+    glm::dvec2 mOrigin, mSpacing;            // of the whole: world, metres
     std::vector<float> mQuotients;           // three planes of the grid
     std::shared_ptr<const FineLight> mFine;  // null: there is none
-    SunAndSky mNow;                          // that it is under
+    SunAndSky mNow;                          // light that the finer one is under
 };
 
 }  // namespace stereonav

@@ -6,14 +6,15 @@
 
 namespace stereonav {
 
-// A viewpoint over low ground near the border, well above it, facing the highest ground.
-// clearance: metres, >= 0, kept in any case. pitch: radians upwards.
+// Returns a viewpoint over low ground near the border, well above it, facing the highest ground. clearance:
+// metres, >= 0, kept in any case. pitch: radians upwards.
 Pose defaultStartPose(const Heightfield& ground, double clearance, double pitch);
 
-// A fixed flight of kDefaultFlightSeconds: an inward spiral scaled with the ground's extent, at even
-// speed, looking ahead and a little down, banking mildly. Everywhere along it, between samples too,
-// the position is at least `clearance` metres above the ground (and higher, for a comfortable view).
+// How long defaultFlight() takes, seconds.
 constexpr double kDefaultFlightSeconds = 24.0;
+// Returns a fixed flight: an inward spiral scaled with the ground's extent, at even speed, looking ahead and
+// a little down, banking mildly. Everywhere along it, between samples too, the position is at least
+// `clearance` metres above the ground (and higher, for a comfortable view).
 RecordedPath defaultFlight(const Heightfield& ground, double clearance);
 
 }  // namespace stereonav

@@ -21,20 +21,23 @@
 
 namespace stereonav {
 
-// "slope", "aspect", "hillshade"; none of anything else.
+// Returns the paint of "slope", "aspect", "hillshade"; nothing for other words.
 std::optional<GroundPaint> groundPaintNamed(const std::string& word);
 
-// paint: not None. look: its light falls on slope and aspect. density: texels a sample each way.
+// Paints the ground. paint: not None. look: its light falls on slope and aspect. density: texels a sample
+// each way. Throws Cancelled.
 GroundColor paintedGround(const Heightfield& ground, double verticalScale, GroundPaint paint,
                           const TerrainLook& look, Progress& progress, double density = kLitDensity);
 
+// Returns what the colours mean; nothing for a hillshade.
 Legend legendOfPaint(GroundPaint paint);
 
-// Colours by the slope of the file's heights: linear, without light. gradient: metres a metre.
+// Return colours by the slope or aspect of the file's heights: linear, without light. gradient: metres a
+// metre.
 glm::vec3 slopeColor(const glm::dvec2& gradient);
 glm::vec3 aspectColor(const glm::dvec2& gradient);
-// Horn's differences at a sample, metres a metre; unknown neighbours count as the sample itself, and an
-// unknown sample as level.
+// Returns Horn's differences at a sample, metres a metre; unknown neighbours count as the sample itself, and
+// an unknown sample as level.
 glm::dvec2 hornGradient(const Heightfield& ground, int i, int j);
 
 }  // namespace stereonav

@@ -18,38 +18,39 @@ public:
     // that the sun's place is seen without doubling every shadow.
     static constexpr float kPhotoShare = 0.5f;
 
-    // albedo: colours without light; share: as TerrainRelight::Display.
+    // albedo: colours without light; share: TerrainRelight::Display::share.
     TerrainIllumination(const Heightfield& ground, const ColorTexture& albedo, const SkyMap& sky,
                         TerrainLight light, float share, SimdTarget target = SimdTarget::Auto);
 
-    // Writes the colours under the look's sun into `lit`, which is of albedo's size.
+    // Writes the colours under the look's sun into `lit`, which has albedo's size.
     void apply(const TerrainLook& look, ColorTexture& lit) { applyTo(mAlbedo, look, lit); }
-    // The same on other colours without light; `lit` is of their size.
+    // Lights other colours without light; `lit` has their size.
     void applyTo(const ColorTexture& albedo, const TerrainLook& look, ColorTexture& lit);
 
-    // The same from light that was baked at some samples alone, for colours `plain` that are lit by a plain
-    // light already, which is known at all of them: what is baked is laid over it as the quotient of both at
-    // the baked samples, so that what lies between them keeps its shades. plainLight: of the baked samples,
-    // of what lies around each.
+    // Lights colours `plain` by light that was baked at some samples alone. They are lit by a plain light
+    // already, which is known at all samples: what is baked is laid over it as the quotient of both at the
+    // baked samples, so that what lies between them keeps its shades. plainLight: by baked sample, the mean
+    // of the samples around it.
     void applyOver(const TerrainLook& look, const ColorTexture& plain, const std::vector<float>& plainLight,
                    ColorTexture& lit);
 
-    // Light that was baked at finer samples, as a part of this: for parts of the ground. Null: there is none.
+    // Takes light that was baked at finer samples, as a part of this: for parts of the ground. Null: there is
+    // none.
     void takeFiner(std::shared_ptr<const FineLight> fine) { mFine = std::move(fine); }
     const FineLight* finer() const { return mFine.get(); }
-    // For parts of the ground that are finer than it: the light of the last apply().
+    // Returns the light of the last apply(), for parts of the ground that are finer than it.
     PartLight partLight(const Heightfield& ground, const TerrainLook& look) const;
 
-    // What the sun's highlights have of their strength after the last apply(), by colour, as the ground's own
-    // light is shown: 1 with the sun 45 degrees high. It does not know of shadows.
+    // Returns the share of their strength that the sun's highlights have after the last apply(), by colour,
+    // as the ground's own light is shown: 1 with the sun 45 degrees high. It does not know of shadows.
     const glm::vec3& highlightLight() const { return mHighlightLight; }
-    // The share of the sun's disc that is seen from the ground at a grid coordinate, 0..1. Of a look with
-    // highlights; 1 where no horizons were baked.
+    // Returns the share of the sun's disc that is seen from the ground at a grid coordinate, 0..1. For a look
+    // with highlights; 1 where no horizons were baked.
     float sunShownAt(const glm::dvec2& grid) const { return mRelight.sunShownAt(mBrightness, grid); }
 
     const TerrainLight& light() const { return mRelight.light(); }
     const ColorTexture& albedo() const { return mAlbedo; }              // does not change
-    const GroundBrightness& brightness() const { return mBrightness; }  // of the last apply()
+    const GroundBrightness& brightness() const { return mBrightness; }  // after the last apply()
     std::size_t byteCount() const;
 
 private:
@@ -57,7 +58,7 @@ private:
     SkyRadiance mSky;
     TerrainRelight mRelight;
     GroundBrightness mBrightness;
-    glm::vec3 mHighlightLight{1.0f};
+    glm::vec3 mHighlightLight{1.0f};  // shares, by colour
     float mShare;
     std::shared_ptr<const FineLight> mFine;
 };

@@ -7,7 +7,7 @@
 
 namespace stereonav {
 
-// Reads, checks, projects, fills, colours. Throws Error with file and place; Cancelled.
+// Loads a terrain: reads, checks, projects, fills, colours. Throws Error with file and place; Cancelled.
 TerrainScene loadTerrain(const SceneFile& scene, Progress& progress);
 
 }  // namespace stereonav

@@ -27,7 +27,7 @@ class FineHeights;          // terrain/scene/fine_heights.h
 class LandmarkSet;          // terrain/scene/landmark.h: meshes cast with Embree
 class TerrainIllumination;  // terrain/scene/terrain_illumination.h: baked light
 
-// What the reader did, for `info`.
+// What the reader did.
 struct TerrainReport {
     std::string driver;         // "GeoTIFF", "built-in", ...
     std::string sourceCrs;      // name of the source's reference system, "" when it has none
@@ -47,9 +47,9 @@ struct TerrainReport {
     bool placed = false;           // the file says where it lies: sourceOffset tells something
     std::string worldCrs;          // WKT of the system that sourceOffset is of; "": it is not known
     double worldUnit = 1;          // metres of the world for a unit of that system
-    double sourceUnit = 0;         // metres of a unit of these; 0: they are not in the source's own system
-    std::string colorSource;       // "image winter.jpg 457x499", "hypsometric tint", ...
-    bool colorHoldsSun = false;    // some of the colours hold the light of the look's sun
+    double sourceUnit = 0;       // metres of a unit of sourceOffset; 0: it is not in the source's own system
+    std::string colorSource;     // "image winter.jpg 457x499", "hypsometric tint", ...
+    bool colorHoldsSun = false;  // some of the colours hold the light of the look's sun
     std::string skySource;
     std::string lightSource;         // of baked light, "" without
     std::string tiles;               // of a tiled ground: what lies where; "" of others
@@ -59,14 +59,14 @@ struct TerrainReport {
 // The ground's finer levels, which lie in tiles on disk (terrain/tiles).
 struct TiledGround {
     std::shared_ptr<const GroundLevels> levels;
-    int level = 0;  // of TerrainScene::ground
+    int level = 0;  // level of TerrainScene::ground
     std::shared_ptr<const FineHeights> fine;
 };
 
 // Coarser ground in the place of one in tiles, which are not made yet (terrain/scene/stand_in_ground.h).
 struct StandInGround {
     std::string tiles;                         // the file that they will lie in
-    glm::dvec2 spacing{1.0};                   // metres, of the finest samples
+    glm::dvec2 spacing{1.0};                   // metres between the finest samples
     std::function<void(Progress&)> makeTiles;  // on any thread. Throws Error, Cancelled
 };
 
@@ -76,19 +76,20 @@ struct TerrainScene {
     TerrainScene(TerrainScene&&) noexcept;
     TerrainScene& operator=(TerrainScene&&) noexcept;
 
-    // Metres at a place, of the finest samples: NaN in holes, clamped to the border.
+    // Returns metres at a place, of the finest samples: NaN in holes, clamped to the border. Throws Error
+    // where a tile can not be read.
     double heightAt(const glm::dvec2& world) const;
 
     Heightfield ground;                    // all of it; of a tiled one at a level that fits into memory
     std::optional<TiledGround> tiled;      // none: `ground` has all samples
     std::optional<StandInGround> standIn;  // none: `ground` is what it is to be
     bool ringsMayBeLate = false;           // pictures do not wait for tiles: for who shows one after another
-    double verticalScale = 1;              // of its heights: so many times those of the file
+    double verticalScale = 1;              // the ground's heights for one of the file's
     ColorTexture color;
     SkyMap sky;
-    bool detail = false;  // of its shading, below the sample spacing (terrain/cast/ground_detail.h)
-    // Share of a pixel that far ground may be off (RingWish::share); 0: none is, but where it is tiled, of
-    // which no more than kTiledShare is.
+    bool detail = false;  // shading has detail below the sample spacing (terrain/cast/ground_detail.h)
+    // Share of a pixel that far ground may be off (RingWish::share); 0: none is, but tiled ground may be off
+    // by kTiledShare.
     double levelOfDetail = 0;
     static constexpr double kTiledShare = 0.5;
     TerrainLook look;                        // fog, specular, sun
@@ -106,7 +107,7 @@ struct TerrainScene {
     StereoSetting stereo;
     bool eyesGiven = false;  // by the scene's file, or an option
     Lens lens;               // width and height are the caller's to set
-    // The share of the ground's curvature that light follows; of round ground, which the lens's fall is of.
+    // The share of the ground's curvature that light follows, 0 to 1; none over level ground.
     std::optional<double> refraction;
     Body body;               // that the ground lies on
     double clearance = 2.0;  // metres kept above the ground

@@ -14,13 +14,13 @@ class GroundLevels;
 struct TerrainScene;
 
 // Whether the file's ground goes into tiles: where it was wished, or where it takes more memory than can be
-// had and that was not ruled out. bytesOfSamples: that a scene of so many samples holds. Throws Error as
+// had and that was not ruled out. bytesOfSamples: what a scene of so many samples holds. Throws Error as
 // readDem() does.
 bool goesIntoTiles(const SceneFile& file, double (*bytesOfSamples)(double samples));
 
 // Sets scene.tiled, and scene.ground to the finest level that leaves room for what lies around an eye. Where
 // tiles are not there yet and file.standInSide wishes so, and the file gives some samples of all of it soon:
-// scene.standIn and scene.ground. Missing samples stay open. Gives what readDem() does, without heights.
+// scene.standIn and scene.ground. Missing samples stay open. Returns what readDem() does, without heights.
 // Throws Error: as readDem() does, and where the cache has no room for the tiles; Cancelled.
 DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& progress);
 
@@ -29,9 +29,10 @@ struct GroundInTiles {
     DemGrid place;  // as readDem() gives it, without heights
     std::shared_ptr<const GroundLevels> levels;
 };
+// Throws as readTiledGround().
 GroundInTiles readGroundInTiles(const SceneFile& file, Progress& progress);
 
-// The finest level that has at most so many samples; the coarsest where none has.
+// Returns the finest level that has at most so many samples; the coarsest where none has.
 int levelWithin(const GroundLevels& levels, double mostSamples);
 
 // The most samples held of a whole ground whose finest samples do not fit into memory: more would only take

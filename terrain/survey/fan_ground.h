@@ -10,11 +10,12 @@
 
 namespace stereonav {
 
+// How a line passes ground; Untold: too close to it to say.
 enum class Passing { Clear, Hidden, Untold };
 
 class FanGround {
 public:
-    // eye: grid. axis: 0 looks east (sign 1) or west (-1), 1 north or south.
+    // eye: grid. fall: curvatureFall(), 1/metre. axis: 0 looks east (sign 1) or west (-1), 1 north or south.
     FanGround(const Heightfield& ground, const glm::dvec2& eye, double fall, int axis, int sign);
 
     int columns() const { return mColumns; }
@@ -22,42 +23,43 @@ public:
     int sign() const { return mSign; }
     // The first column that is a sample spacing away or more: 0 or 1. Nothing before it has bounds.
     int first() const { return mNearest < 1 ? 1 : 0; }
-    // Distance of a column from the eye, columns; that of column -1 is 0 or below.
+    // Returns the distance of a column from the eye, in columns; that of column -1 is 0 or below.
     double distance(int column) const { return mNearest + column; }
-    double middle() const { return mMiddle; }  // the eye's row
+    double middle() const { return mMiddle; }  // row of the eye
     double step() const { return mStep; }      // metres a column
     double across() const { return mAcross; }  // metres a row
-    double fall() const { return mFall; }
-    // Square metres: (length over distance in columns)^2 along a tangent.
+    double fall() const { return mFall; }      // 1/metre
+    // Returns (length over distance in columns)^2 along a tangent (rows a column), square metres.
     double stretch(double tangent) const { return mStep * mStep + tangent * tangent * mAcross * mAcross; }
+    // Returns the sample (i, j) of the ground.
     glm::ivec2 sample(int column, int row) const {
         const int along = mStart + mSign * column;
         return mAxis == 0 ? glm::ivec2(along, row) : glm::ivec2(row, along);
     }
-    // column: -1 or more; the eye is on the ground.
+    // Returns metres; column: -1 or more.
     float height(int column, int row) const { return mData[column * mAlongStride + row * mAcrossStride]; }
-    // A column from a row on, and how far one row is from the next.
+    // Returns heights of a column from a row on, and how far one row is from the next.
     const float* row(int column, int first, std::ptrdiff_t* stride) const {
         *stride = mAcrossStride;
         return mData + column * mAlongStride + first * mAcrossStride;
     }
-    // 0 for each of some samples that is known with all beside it, and so all that it is a corner of; NaN for
-    // the others.
+    // Writes 0 for each of some samples that is known with all beside it, and so all that it is a corner of;
+    // NaN for the others.
     void firm(int column, int firstRow, int rows, float* zeros) const;
 
-    // How the line from `eye` metres up to a height in a sample of a column passes the ground between two
-    // columns: its cells as SightLines would look at them. Not told where it lies lower by what SightLines
-    // may take for rounding, `grazing` or a part of it.
+    // Returns how the line from `eye` metres up to a height, metres, in a sample of a column passes the
+    // ground between two columns: its cells as SightLines would look at them. Untold where the ground lies
+    // over the line by what SightLines may take for rounding, `grazing` metres or a part of it.
     Passing passing(double eye, double target, int column, int row, int fromColumn, int toColumn,
                     double grazing) const;
 
 private:
     const Heightfield& mGround;
     int mAxis, mSign, mRows = 0, mColumns = 0, mStart = 0;
-    double mNearest = 0;  // distance of column 0: above 0 to 1
-    double mMiddle, mStep = 1, mAcross = 1, mFall;
+    double mNearest = 0;                            // distance of column 0: above 0 to 1 column
+    double mMiddle, mStep = 1, mAcross = 1, mFall;  // row; metres a column, a row; 1/metre
     std::ptrdiff_t mAlongStride = 0, mAcrossStride = 0;
-    const float* mData = nullptr;
+    const float* mData = nullptr;  // metres, row 0 of column 0
 };
 
 }  // namespace stereonav

@@ -17,6 +17,7 @@
 
 namespace stereonav {
 
+// One instruction set's kernels.
 struct FanKernels {
     decltype(&plain::readHeights) readHeights;
     decltype(&plain::raiseLow) raiseLow;
@@ -25,7 +26,7 @@ struct FanKernels {
     decltype(&plain::walkSamples) walkSamples;
 };
 
-// Each line by itself. What that takes is made when the first one is asked for: mostly none is.
+// Answers one line at a time. What that takes is made when the first one is asked for: mostly none is.
 class SingleLines {
 public:
     SingleLines(const Heightfield& ground, double fall) : mGround(ground), mFall(fall) {}
@@ -39,7 +40,7 @@ public:
 
 private:
     const Heightfield& mGround;
-    double mFall;
+    double mFall;  // 1/metre
     mutable std::once_flag mOnce;
     mutable HeightPyramid mMaxima;
     mutable std::optional<SightLines> mLines;
@@ -51,21 +52,23 @@ struct FanTask {
     const HoleTiles& holes;
     const SingleLines& lines;
     const FanKernels& kernels;
-    glm::dvec3 eye;  // x, y in the grid's units, z in metres
-    double fall, targetHeight, reach;
-    double grazing;             // metres that no line may lie under the ground by
-    Plane<std::uint8_t>& seen;  // Seen
+    glm::dvec3 eye;                    // x, y in the grid's units, z in metres
+    double fall, targetHeight, reach;  // ViewshedSetting's: 1/metre, metres, metres
+    double grazing;                    // metres that no line may lie under the ground by
+    Plane<std::uint8_t>& seen;         // Seen
 };
 
+// Numbers of samples.
 struct FanCounts {
-    // Seen; not known; walked over the last columns; walked further.
+    // Seen; not known; walked over the last columns; walked further; walked in doubles.
     long long visible = 0, unknown = 0, near = 0, all = 0, alone = 0;
 };
 
 class FanSweep {
 public:
-    // One of some parts of a fan: tasks for threads.
+    // Prepares one of some parts of a fan: tasks for threads.
     FanSweep(const FanTask& task, int axis, int sign, int part, int parts);
+    // Sets FanTask::seen of all samples of the part.
     FanCounts run();
 
 private:
@@ -111,20 +114,20 @@ private:
     const FanTask& mTask;
     const Heightfield& mHeights;
     const FanGround mGround;
-    double mFrom, mTo;          // tangents
+    double mFrom, mTo;          // tangents, rows a column
     bool mOpenFrom, mClosedTo;  // which of two fans, or parts, a ray between them belongs to
-    // Metres from the eye, and from row to row, in the columns so far.
+    // Metres over the eye, and from row to row, the most in the columns so far.
     float mTallest = 0, mSteepest = 0;
-    // No slope up to the first column is above it.
+    // Metres a column: no slope up to the first column is above it.
     double mBeside = std::numeric_limits<double>::infinity();
     int mBins = 1;
-    std::vector<float> mLow, mHigh, mEdge;
+    std::vector<float> mLow, mHigh, mEdge;  // slopes, metres a column
     std::vector<std::uint16_t> mOpen, mAbove;
     std::vector<float> mBlock;  // upper bounds of the last columns, which are kBlock or less
     // Upper bounds of the columns before, in the bins that there were at the end of each block.
     std::vector<std::vector<float>> mKept;
     std::vector<WalkBlock> mBlocks;  // mKept, and the last one
-    std::vector<float> mStore;       // heights of all columns so far
+    std::vector<float> mStore;       // heights of all columns so far, metres over the eye
     std::size_t mStored = 0;
     bool mHoles = false;  // in any column so far
     int mLastStart = 0;   // of the column before

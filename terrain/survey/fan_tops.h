@@ -8,7 +8,8 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// No less than the surface between two rows, and a row beside them: `tops` are those of ReadRow.
+// Returns a height, metres over the eye, no less than the surface between two rows, and a row beside them.
+// tops: ReadRow's.
 STEREONAV_INLINE float tallestBetween(const float* tops, int rows, float from, float to) {
     const auto group = [&](float row) {
         const int whole = static_cast<int>(row);

@@ -21,14 +21,14 @@ class SurveyTiles {
 public:
     static constexpr int kSide = 256;  // samples, as they lie on disk
     static constexpr std::size_t kMostBytes = std::size_t(128) << 20;
-    using Tile = std::vector<float>;  // kSide * kSide, NaN where missing and beyond the ground
+    using Tile = std::vector<float>;  // metres, kSide * kSide, NaN where missing and beyond the ground
 
     explicit SurveyTiles(std::shared_ptr<const GroundLevels> levels, int level = 0,
                          std::size_t mostBytes = kMostBytes);
 
     const GroundLevels& levels() const { return *mLevels; }
     int level() const { return mLevel; }
-    // Throws Error where it can not be read.
+    // Returns a tile by its column and row of tiles. Throws Error where it can not be read.
     std::shared_ptr<const Tile> tile(const glm::ivec2& number);
 
 private:
@@ -47,8 +47,8 @@ private:
     std::vector<std::list<Kept>::iterator> mPlaces;  // by tile; mKept.end(): not kept
 };
 
-// World and grid as of Heightfield: figures of both kinds are equal to the last bit. One object is for one
-// thread; copies are cheap, and share the tiles.
+// The samples of a ground. World and grid are Heightfield's: figures of both kinds are equal to the last bit.
+// One object is for one thread; copies are cheap, and share the tiles.
 class GroundSamples {
 public:
     // ground must outlive it.
@@ -59,13 +59,15 @@ public:
     int height() const { return mSize.y; }
     glm::dvec2 spacing() const { return mSpacing; }  // metres
     float minHeight() const { return mLow; }         // metres; of a thinned ground those of all of it
-    float maxHeight() const { return mHigh; }
+    float maxHeight() const { return mHigh; }        // metres
 
     glm::dvec2 gridFromWorld(const glm::dvec2& world) const { return (world - mOrigin) / mSpacing; }
     glm::dvec2 worldFromGrid(const glm::dvec2& grid) const { return mOrigin + grid * mSpacing; }
+    // Whether a place lies over the grid, its border included.
     bool contains(const glm::dvec2& world) const;
 
-    // Metres; NaN where it is missing. Throws Error where its tile can not be read.
+    // Returns the height of a sample, metres; NaN where it is missing. Throws Error where its tile can not be
+    // read.
     float sample(int i, int j) const {
         const glm::ivec2 at = mFirst + mStep * glm::ivec2(i, j);
         const float height = mHeights ? mHeights[static_cast<std::size_t>(at.y) * mPitch + at.x] : stored(at);
@@ -73,10 +75,10 @@ public:
     }
     double heightAt(const glm::dvec2& world) const;  // as Heightfield::heightAt()
 
-    // Every second sample from (firstX, firstY) on, in a world whose origin lies `shift` from this one's.
-    // This ground has four samples or more each way.
+    // Returns every second sample from (firstX, firstY) on, in a world whose origin lies `shift` metres from
+    // this one's. This ground has four samples or more each way.
     GroundSamples thinned(int firstX, int firstY, glm::dvec2& shift) const;
-    // The same ground with its heights divided by that.
+    // Returns the same ground with its heights divided by that.
     GroundSamples dividedBy(double scale) const;
 
 private:
@@ -95,9 +97,9 @@ private:
 
     glm::ivec2 mSize{0}, mFirst{0};
     int mStep = 1;
-    glm::dvec2 mSpacing{1.0}, mOrigin{0.0};
+    glm::dvec2 mSpacing{1.0}, mOrigin{0.0};  // metres; world
     double mScale = 1;
-    float mLow = 0, mHigh = 0;
+    float mLow = 0, mHigh = 0;        // metres
     const float* mHeights = nullptr;  // null: in tiles
     int mPitch = 0;
     std::shared_ptr<SurveyTiles> mTiles;

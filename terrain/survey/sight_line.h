@@ -21,34 +21,35 @@ struct Sight {
     double at = 0;         // distance from the eye of that place
 };
 
-// The line between two places, as SightLines::measure() has it, by a walk over all cells below it: for one
-// line, for which maxima are not worth making. Places as there.
+// Measures the line between two places as SightLines::measure() does, by a walk over all cells below it: for
+// one line, for which maxima are not worth making. Places as there; fall: curvatureFall(), 1/metre.
 Sight sightOver(const GroundSamples& ground, double fall, const glm::dvec3& eye, const glm::dvec3& target);
 
 class SightLines {
 public:
-    // ground and maxima live as long. fall: of curvatureFall(), 0 for level ground.
+    // ground and maxima live as long. fall: curvatureFall(), 1/metre; 0 for level ground.
     SightLines(const Heightfield& ground, const HeightPyramid& maxima, double fall);
 
     const Heightfield& ground() const { return mGround; }
-    double fall() const { return mFall; }
+    double fall() const { return mFall; }  // 1/metre
 
-    // x, y in the grid's units, z in metres: a place on the grid, or above it.
+    // Whether one place sees the other: x, y in the grid's units, z in metres; on the grid, or above it.
     // Grazing counts as seen: a line may lie below the ground by what rounding makes of heights. Ground that
     // is missing hides nothing.
     bool sees(const glm::dvec3& eye, const glm::dvec3& target) const { return clear(eye, target, 0, 1); }
-    // The same for the part of the line from share `from` to share `to` of it.
+    // Answers the same for the part of the line from share `from` to share `to` of it, 0 to 1.
     bool clear(const glm::dvec3& eye, const glm::dvec3& target, double from, double to) const;
-    // The whole line, its ends among it, with where it is closest to the ground.
+    // Measures the whole line, its ends included, with where it is closest to the ground.
     Sight measure(const glm::dvec3& eye, const glm::dvec3& target) const;
 
-    // No less than a line from there to any sample may lie under the ground by, metres.
+    // Returns metres, no less than a line from there to any sample may lie under the ground by and count as
+    // seen. Heights: metres; eyeHeight as in sees(), targetHeight over the samples.
     double grazing(const glm::dvec2& eye, double eyeHeight, double targetHeight) const;
 
 private:
     const Heightfield& mGround;
     const HeightPyramid& mMaxima;
-    double mFall, mTallest;
+    double mFall, mTallest;  // 1/metre; metres
 };
 
 }  // namespace stereonav

@@ -8,7 +8,8 @@
 
 namespace stereonav {
 
-// spacing: metres between samples of the finest level. verticalScale: factor on the store's heights, > 0.
+// Returns levels that are read from the store. spacing: metres between samples of the finest level.
+// verticalScale: factor on the store's heights, > 0.
 StoredLevels storedLevels(std::shared_ptr<const TileStore> store, const glm::dvec2& spacing,
                           double verticalScale);
 

@@ -15,21 +15,22 @@ namespace stereonav {
 constexpr int kTileSide = 256;  // samples along each side of a tile
 constexpr std::uint64_t kTileBytes = sizeof(float) * kTileSide * kTileSide;
 
+// The head of the file, as it lies there.
 struct TileFileHead {
     std::array<char, 8> magic{'s', 'n', 't', 'i', 'l', 'e', 's', '1'};
-    std::uint64_t content = 0;  // of what the heights are: TileStore's `content`
-    std::int32_t width = 0, height = 0;
-    float low = 0, high = 0;       // metres, of the finest level
-    std::int64_t missing = 0;      // of its samples
-    std::uint64_t indexCheck = 0;  // of bounds and check values
-    std::uint64_t check = 0;       // of what is before
+    std::uint64_t content = 0;           // names the heights: TileStore's `content`
+    std::int32_t width = 0, height = 0;  // samples of the finest level
+    float low = 0, high = 0;             // metres, of the finest level
+    std::int64_t missing = 0;            // samples of the finest level
+    std::uint64_t indexCheck = 0;        // of bounds and check values
+    std::uint64_t check = 0;             // of what is before
 };
 
-// What follows from the size alone.
+// Where the parts lie, which follows from the size alone: samples of the finest level.
 class TileFilePlan {
 public:
     struct Level {
-        glm::ivec2 size{0}, blocks{0}, tiles{0};
+        glm::ivec2 size{0}, blocks{0}, tiles{0};         // samples, blocks, tiles each way
         std::uint64_t bounds = 0, checks = 0, data = 0;  // bytes from the start of the file
 
         std::size_t blockCount() const { return static_cast<std::size_t>(blocks.x) * blocks.y; }
@@ -40,13 +41,15 @@ public:
 
     const std::vector<Level>& levels() const { return mLevels; }
     std::uint64_t byteCount() const { return mBytes; }
-    std::uint64_t indexEnd() const { return mIndexEnd; }  // of bounds and check values, from the head's end
+    // Bytes from the start; bounds and check values lie from the head to here.
+    std::uint64_t indexEnd() const { return mIndexEnd; }
 
 private:
     std::vector<Level> mLevels;
     std::uint64_t mBytes = 0, mIndexEnd = 0;
 };
 
+// Returns the check value of what is before it in the head, or of some bytes: a hash.
 std::uint64_t checkOf(const TileFileHead& head);
 std::uint64_t checkOf(const void* data, std::size_t bytes);
 

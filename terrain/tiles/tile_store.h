@@ -15,21 +15,22 @@ namespace stereonav {
 // number of threads may read.
 class TileStore {
 public:
-    // content: names what the heights must be of. Throws Error named by the file where it is of something
-    // else, is cut off, or its index is damaged.
+    // Opens a store. content: names what the heights must be of. Throws Error named by the file where it is
+    // of something else, is cut off, or its index is damaged.
     TileStore(const std::filesystem::path& file, std::uint64_t content);
 
     int levels() const { return static_cast<int>(mPlan.levels().size()); }
-    glm::ivec2 size(int level) const { return mPlan.levels()[level].size; }
-    float low() const { return mHead.low; }  // metres, of all samples
-    float high() const { return mHead.high; }
-    long long missing() const { return mHead.missing; }
+    glm::ivec2 size(int level) const { return mPlan.levels()[level].size; }  // samples
+    float low() const { return mHead.low; }                  // metres, the least of all samples
+    float high() const { return mHead.high; }                // metres
+    long long missing() const { return mHead.missing; }      // samples of the finest level
     std::uint64_t hash() const { return mHead.indexCheck; }  // of the heights of all levels
-    // Bounds of a level, by rows of blocks; metres.
+    // Returns the bounds of a level, by rows of blocks; metres.
     const std::vector<float>& bounds(int level) const { return mBounds[level]; }
 
-    // Samples low to low + size - 1 of a level, which has them; rows of size.x, the southernmost first.
-    // Throws Error named by the file where a tile can not be read or is damaged.
+    // Writes samples low to low + size - 1 of a level, which has them; rows of size.x, the southernmost
+    // first; metres, NaN where missing. Throws Error named by the file where a tile can not be read or is
+    // damaged.
     void read(int level, const glm::ivec2& low, const glm::ivec2& size, float* heights) const;
 
     const std::filesystem::path& file() const { return mFile; }
@@ -42,7 +43,7 @@ private:
     PlacedFile mIn;
     TileFileHead mHead;
     TileFilePlan mPlan{glm::ivec2(2)};
-    std::vector<std::vector<float>> mBounds;
+    std::vector<std::vector<float>> mBounds;  // by level and block, metres
     std::vector<std::vector<std::uint64_t>> mChecks;
 };
 
