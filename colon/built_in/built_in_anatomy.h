@@ -15,34 +15,35 @@ namespace stereonav {
 
 // A place on the axis, every millimetre.
 struct AxisPoint {
-    glm::dvec3 place{0.0}, tangent{0.0};
-    glm::dvec3 across{0.0}, over{0.0};  // unit, with the tangent a frame that does not twist
-    glm::dvec2 turn{1, 0};              // cosine and sine of the taeniae's turn about the axis
-    glm::dvec3 bend{0.0};               // the curvature vector, 1/mm
-    double radius = 0;                  // of the wall between folds
-    double slope = 0;                   // of the radius, mm a mm
+    glm::dvec3 place{0.0}, tangent{0.0};  // mm; unit
+    glm::dvec3 across{0.0}, over{0.0};    // unit, with the tangent a frame that does not twist
+    glm::dvec2 turn{1, 0};                // cosine and sine of the taeniae's turn about the axis
+    glm::dvec3 bend{0.0};                 // the curvature vector, 1/mm
+    double radius = 0;                    // mm, of the wall between folds
+    double slope = 0;                     // of the radius, mm a mm
 };
 
 // A crescent in one of three sectors between the taeniae.
 struct Fold {
     double along = 0;      // mm along the axis
-    double unbent = 0;     // the same where the axis is not bent
-    double cosine = 1;     // of the sector's middle, in the axis' frame
-    double sine = 0;       //
-    double height = 0;     // of the crest's middle over the wall, mm
+    double unbent = 0;     // mm, the same where the axis is not bent
+    double cosine = 1;     // angle of the sector's middle, in the axis' frame
+    double sine = 0;       // of the same angle
+    double height = 0;     // mm, of the crest's middle over the wall
     double thickness = 0;  // mm
     double lean = 0;       // mm along the axis from one side to the other
 };
 
+// A polyp, and its shape.
 struct BuiltInPolyp {
-    Polyp data;  // metres
-    // Millimetres: the head is an ellipsoid of revolution, flattened along `inward`, on a stalk of this
-    // length (0: none) from `foot`.
+    Polyp data;  // in metres
+    // Millimetres: the head is an ellipsoid of revolution, flattened along `inward` (unit), on a stalk of
+    // this length (0: none) from `foot`.
     glm::dvec3 head{0.0}, foot{0.0}, inward{0.0};
-    double across = 0, height = 0, stalk = 0;  // half axes
+    double across = 0, height = 0, stalk = 0;  // half axes, length
 };
 
-// Fluid stands in the pieces of the line between these, where y is larger than the level.
+// Fluid stands along this part of the axis where y is larger than the level.
 struct FluidLevel {
     double from = 0, to = 0;  // mm along the axis
     double y = 0;             // mm
@@ -50,8 +51,8 @@ struct FluidLevel {
 
 class BuiltInAnatomy {
 public:
-    // gap: mm that walls between neighbouring loops are thick at least.
-    // bend, inflation: as of BuiltInColonSetting, bend in mm.
+    // gap: mm that walls between neighbouring loops are thick at least. bend: mm; inflation:
+    // BuiltInColonSetting's.
     BuiltInAnatomy(std::uint64_t seed, double gap, double bend = 0, double inflation = 1);
 
     const std::vector<AxisPoint>& axis() const { return mAxis; }
@@ -60,12 +61,13 @@ public:
     double length() const { return static_cast<double>(mAxis.size() - 1); }  // mm
 
     struct Place {
-        double wall;   // about the distance to the wall, mm, negative in the lumen
+        double wall;   // mm to the wall, about; negative in the lumen
         double along;  // mm along the axis
     };
-    // From the nearest (by distance less radius) of some axis points, by number.
+    // Returns the place of p by the axis point that is nearest (by distance less radius) of some, given by
+    // number.
     Place placeOf(const glm::dvec3& p, const int* candidates, int count) const;
-    Place placeOf(const glm::dvec3& p) const;  // among all
+    Place placeOf(const glm::dvec3& p) const;  // by the nearest of all
 
 private:
     void makeAxis(std::uint64_t seed, double bend, double inflation);
@@ -87,7 +89,7 @@ private:
     double footOf(const glm::dvec3& p, int nearest) const;
 
     std::vector<AxisPoint> mAxis;
-    // Where each millimetre of the unbent axis is on this one.
+    // Millimetres along this axis, by millimetre of the unbent one.
     std::vector<double> mBent;
     std::vector<Fold> mFolds;               // by `along`
     std::vector<std::array<int, 2>> mNear;  // of each axis point: its folds, from and to

@@ -27,14 +27,14 @@ struct BuiltInColon {
 
 struct BuiltInColonSetting {
     std::uint64_t seed = 1;
-    glm::ivec3 size{512, 512, 411};
+    glm::ivec3 size{512, 512, 411};  // voxels
     // The same colon on another day: its loops lie elsewhere by up to so many metres, and its radii are
     // larger by this factor. Folds and polyps stay at their places of the line. 0 to 0.03, 0.7 to 1.4.
-    double bend = 0, inflation = 1;
+    double bend = 0, inflation = 1;  // metres; factor
 };
 
-// The same for the same setting, on any number of threads. Made anew each time: what is found in it is what
-// the cache keeps. Throws Error on a size it can not show, Cancelled.
+// Makes the colon of a setting: the same for the same setting, on any number of threads. Made anew each time:
+// what is found in it is what the cache keeps. Throws Error on a size it can not show, Cancelled.
 BuiltInColon builtInColon(const BuiltInColonSetting& setting, Progress& progress);
 
 }  // namespace stereonav

@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// Where runs of one segment begin, and, last, the number of points.
+// Returns where runs of one segment begin, and, last, the number of points.
 std::vector<std::size_t> segmentStarts(const Centreline& line);
 
 constexpr const char* kRadiusArray = "MaximumInscribedSphereRadius";

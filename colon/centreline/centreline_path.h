@@ -10,8 +10,9 @@
 
 namespace stereonav {
 
-// Voxels, each a neighbour of the one before it (engine/volume/voxel_path.h), one or more; which end comes
-// first is not said. mostUneven: CentrelineSetting's. Throws Error when the piece has no voxel.
+// Returns voxels, each a neighbour of the one before it (engine/volume/voxel_path.h), one or more; which end
+// comes first is not said. mostUneven: CentrelineSetting's. poll: called now and then; may throw. Throws
+// Error when the piece has no voxel.
 std::vector<glm::ivec3> roughCentreline(const LumenField& lumen, int segment, const DistanceVolume& distance,
                                         std::size_t mostUneven, const std::function<void()>& poll);
 

@@ -22,8 +22,8 @@
 
 namespace stereonav {
 
-// Distance free of wall around a world point, in metres, at most upTo; 0 at the wall and beyond it. Never
-// above the true distance, so it falls by at most a metre a metre.
+// Returns the distance free of wall around a world point, in metres, at most upTo; 0 at the wall and beyond
+// it. Never above the true distance, so it falls by at most a metre a metre.
 using FreeDistance = std::function<double(const glm::dvec3& world, double upTo)>;
 
 struct ColonFlightSetting {
@@ -41,14 +41,14 @@ struct ColonFlightSetting {
 class ColonFlight final : public Flight {
 public:
     enum Mode { Guided, Free };
-    // line may be empty, or without a place that has room for the eyes: then there is one mode, free, and
-    // its number is 0. Throws Error when settings or home are not finite or out of range, or when there is
-    // no room for the eyes around home.
+    // line: may be empty, or without a place that has room for the eyes: then there is one mode, free, and
+    // its number is 0. Throws Error when settings or home are not finite or out of range, or when there is no
+    // room for the eyes around home.
     ColonFlight(FreeDistance freeDistance, const Centreline& line, const Pose& home,
                 const ColonFlightSetting& setting);
     ~ColonFlight() override;
 
-    static constexpr double kMostMultiplier = 100;  // of the speed; more is cut to it
+    static constexpr double kMostMultiplier = 100;  // factor on the speed; more is cut to it
     void step(const FlightInput& input, double dt) override;
     void turnBy(double yaw, double pitch) override;
     Pose pose() const override;
@@ -62,7 +62,7 @@ public:
     void setMode(int mode) override;
     std::string_view modeName(int mode) const override;
     double speed() const override;
-    // Clearance of the nearer eye, at the largest separation, metres; at most kFarthestClearance.
+    // Returns the clearance of the nearer eye, at the largest separation, metres; at most kFarthestClearance.
     double clearanceNow() const override;
     static constexpr double kFarthestClearance = 0.1;  // metres
     // With the head as it is, and the eyes at their largest separation.
@@ -74,7 +74,8 @@ public:
     bool goesBack() const override;
     static constexpr double kRoundSeconds = 1.2;  // that turning round takes
     bool turnRound() override;                    // while guided
-    // The clearance that is kept here: the setting's, or less around a narrow part of the centreline.
+    // Returns the clearance that is kept here, metres: the setting's, or less around a narrow part of the
+    // centreline.
     double allowedClearance() const;
 
 private:
@@ -82,9 +83,9 @@ private:
     std::unique_ptr<State> mState;
 };
 
-// The flight along a centreline at an even speed, looking ahead, from rectum to caecum or back, as a recorded
-// path. Every pose lies on the centreline and keeps the clearance by ColonFlight's rule. Stretches that the
-// guided flight jumps over are cut out: the path changes to the next one within half a millisecond, which
+// Returns the flight along a centreline at an even speed, looking ahead, from rectum to caecum or back, as a
+// recorded path. Every pose lies on the centreline and keeps the clearance by ColonFlight's rule. Stretches
+// that the guided flight jumps over are cut out: the path changes to the next one within kFlightCut, which
 // lies between the frames at 24, 25, 30, 50 and 60 a second. Throws Error when no stretch has room.
 RecordedPath centrelineFlight(const FreeDistance& freeDistance, const Centreline& line,
                               const ColonFlightSetting& setting, bool backwards = false);
@@ -94,41 +95,43 @@ constexpr double kFlightCut = 0.0005;  // seconds
 // apart, metres: never above the truth, and below the least free distance by no more than 0.01 mm; at most
 // ColonFlight::kFarthestClearance. What lies in centrelineFlight's cuts, which no frame shows, is left out.
 struct FlightClearance {
-    double head = 0, eyes = 0;
+    double head = 0, eyes = 0;  // metres
 };
-// The same of one place, of the nearest of the three.
+// Returns the same for one place, metres, the least of head and both eyes.
 double clearanceAt(const FreeDistance& freeDistance, const Pose& head, double separation);
 FlightClearance clearanceOf(const RecordedPath& path, const FreeDistance& freeDistance, double separation);
 
-// The eye separation that suits a clearance, changed slowly: follows the free distance around the head
-// within the comfort limits and never jumps. Zero parallax goes to the typical depth, but no further than
-// kNearest free distances; the separation to its share of that. Logarithms are followed, so that near
-// and far changes feel alike: exponentially, no faster than a doubling or halving in Setting::seconds, and in
-// closed form, so that steps of any length end at the same value.
+// The eye separation that suits a clearance, changed slowly: follows the free distance around the head within
+// the comfort limits and never jumps. Zero parallax goes to the typical depth, but no further than kNearest
+// free distances; the separation to its share of that. Logarithms are followed, so that near and far changes
+// feel alike: exponentially, no faster than a doubling or halving in Setting::seconds, and in closed form, so
+// that steps of any length end at the same value.
 class SeparationControl {
 public:
     struct Setting {
-        double share = 1.0 / 30;                    // of the zero-parallax distance
+        double share = 1.0 / 30;                    // separation over the zero-parallax distance
         double smallest = 0.0002, largest = 0.004;  // metres
         double seconds = 2.0;                       // to follow
     };
-    // At share 1/30 and 90 degrees of view, the wall at a third of the zero-parallax distance has a crossed
-    // parallax of 3.3 % of the picture's width: within the 4 % that short excursions may have.
+    // Zero-parallax distance over the free distance, at most. At share 1/30 and 90 degrees of view, the wall
+    // at a third of the zero-parallax distance has a crossed parallax of 3.3 % of the picture's width: within
+    // the 4 % that short excursions may have.
     static constexpr double kNearest = 3;
     static constexpr double kFarthestZeroParallax = 10;  // metres
 
-    // Throws Error when a setting is not finite or not above 0, or smallest > largest. The start values are
-    // brought within the limits; NaN starts at the smallest.
+    // Begins at these metres. Throws Error when a setting is not finite or not above 0, or smallest >
+    // largest. The start values are brought within the limits; NaN starts at the smallest.
     SeparationControl(const Setting& setting, double separation, double zeroParallax);
-    // free: distance around the head; typicalDepth: view depth in the middle of the picture; metres. What is
-    // infinite, NaN or, of a depth, not above 0 tells nothing and is left out. dt: seconds, cut to 1.
+    // Follows for dt seconds, cut to 1. free: distance around the head; typicalDepth: view depth in the
+    // middle of the picture; metres. What is infinite, NaN or, of a depth, not above 0 tells nothing and is
+    // left out.
     void step(double free, double typicalDepth, double dt);
-    double separation() const { return mSeparation; }
-    double zeroParallax() const { return mZeroParallax; }
+    double separation() const { return mSeparation; }      // metres
+    double zeroParallax() const { return mZeroParallax; }  // metres
 
 private:
     Setting mSetting;
-    double mSeparation, mZeroParallax;
+    double mSeparation, mZeroParallax;  // metres
 };
 
 }  // namespace stereonav

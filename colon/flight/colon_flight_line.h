@@ -19,7 +19,7 @@ void checkColonFlightSetting(const ColonFlightSetting& setting);
 
 class FlightLine {
 public:
-    // clearance, half: as in LumenRoom. Where the line's own free distance is less than asked for, the
+    // clearance, half: LumenRoom's, metres. Where the line's own free distance is less than asked for, the
     // clearance allowed shrinks to kShare of what is left beside the eyes; where less than kLeast of the
     // clearance would be left, and between segments, a run ends.
     static constexpr double kShare = 0.8;
@@ -29,22 +29,23 @@ public:
     const std::vector<FlightRun>& runs() const { return mRuns; }  // in order; empty: nothing to fly along
     const std::vector<NarrowPlace>& narrow() const { return mNarrow; }
 
-    // s: metres along the line, clamped to its ends; defined inside runs.
+    // Returns a place of the line, world. s: metres along the line, clamped to its ends; defined inside runs.
     glm::dvec3 at(double s) const;
-    // At s, and straight on beyond the run's ends.
+    // Returns the place at s, and straight on beyond the run's ends.
     glm::dvec3 ahead(const FlightRun& run, double s) const;
-    // Unit direction of the run around s, towards the caecum.
+    // Returns the unit direction of the run around s, towards the caecum.
     glm::dvec3 direction(const FlightRun& run, double s) const;
-    // A ball of this radius around at(s) has room everywhere, whatever way the head is turned. > 0 in runs.
+    // Returns the radius of a ball around at(s), metres, that has room everywhere, whatever way the head is
+    // turned. > 0 in runs.
     double roomAt(double s) const { return mPlaces[placeAt(s)].room; }
-    // How wide the lumen is there: the line's own radius. For looks, not for keeping clear.
+    // Returns how wide the lumen is there, metres: the line's own radius. For looks, not for keeping clear.
     double widthAt(double s) const { return mPlaces[placeAt(s)].width; }
-    // The s in [from, to] whose point is nearest to p.
+    // Returns the s in [from, to] whose point is nearest to p.
     double nearest(const glm::dvec3& p, double from, double to) const;
 
 private:
     struct Place {
-        glm::dvec3 position{0.0};
+        glm::dvec3 position{0.0};                         // world, metres
         double along = 0, room = 0, free = 0, width = 0;  // metres
         bool endsSegment = false;
     };

@@ -21,55 +21,61 @@ struct NarrowPlace {
 
 class LumenRoom {
 public:
-    // half: metres from the head to each eye. Narrow places have an allowed clearance in (0, clearance).
+    // clearance: metres; half: metres from the head to each eye. Narrow places have an allowed clearance in
+    // (0, clearance).
     LumenRoom(FreeDistance freeDistance, double clearance, double half,
               const std::vector<NarrowPlace>& narrow);
 
-    // The clearance kept at a world point: what was asked for, less around narrow places, from where it
-    // grows again by kAllowedSlope metres a metre.
+    // Metres a metre by which the allowed clearance grows again from narrow places on.
     static constexpr double kAllowedSlope = 0.5;
+    // Returns the clearance kept at a world point, metres: what was asked for, less around narrow places.
     double allowed(const glm::dvec3& head) const;
 
-    // Metres left before an eye or the head itself is nearer to the wall than allowed, for a head whose
-    // right side is `right` (unit); at most upTo; negative: too near. Falls by at most kSlope metres a metre.
+    // Metres a metre by which room() falls at most.
     static constexpr double kSlope = 1 + kAllowedSlope;
+    // Returns the metres left before an eye or the head itself is nearer to the wall than allowed, for a head
+    // whose right side is `right` (unit); at most upTo; negative: too near.
     double room(const glm::dvec3& head, const glm::dvec3& right, double upTo) const;
-    // The direction in which the room grows, or 0 where there is no clear one (between two walls).
+    // Returns the unit direction in which the room grows, or 0 where there is no clear one (between two
+    // walls).
     glm::dvec3 away(const glm::dvec3& head, const glm::dvec3& right) const;
 
-    // The head moved by `by`, or as far as room is left, sliding along the wall. The new place has room;
-    // so does every point on the way, to within kCrawl of the clearance. `head` must have room.
+    // Share of the clearance by which the way of moved() may come nearer to the wall.
     static constexpr double kCrawl = 1.0 / 32;
+    // Returns the head moved by `by`, metres, or as far as room is left, sliding along the wall. The new
+    // place has room; so does every point on the way, to within kCrawl of the clearance. `head` must have
+    // room.
     glm::dvec3 moved(const glm::dvec3& head, const glm::dvec3& right, const glm::dvec3& by) const;
     // Whether a head finds room everywhere on the straight way.
     bool wayIsFree(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& right) const;
 
-    // Distance of the nearer eye (or the head) to the wall, at most upTo.
+    // Returns the distance of the nearer eye (or the head) to the wall, metres, at most upTo; and that of a
+    // point.
     double free(const glm::dvec3& head, const glm::dvec3& right, double upTo) const;
     double freeAt(const glm::dvec3& point, double upTo) const;
-    double clearance() const { return mClearance; }
-    double half() const { return mHalf; }
+    double clearance() const { return mClearance; }  // metres
+    double half() const { return mHalf; }            // metres
 
 private:
     struct Answer {
-        glm::dvec3 head{0.0}, right{0.0};
-        double upTo = -1, room = 0;
+        glm::dvec3 head{0.0}, right{0.0};  // world, metres; unit
+        double upTo = -1, room = 0;        // metres
     };
     struct Direction {
         bool known = false;
-        glm::dvec3 head{0.0}, right{0.0}, direction{0.0};
+        glm::dvec3 head{0.0}, right{0.0}, direction{0.0};  // world, metres; unit; unit
     };
     double lookedUp(const glm::dvec3& head, const glm::dvec3& right, double upTo) const;
     std::uint64_t cellOf(const glm::dvec3& p, const glm::ivec3& offset) const;
 
     FreeDistance mFree;
-    double mClearance, mHalf;
+    double mClearance, mHalf;  // metres
     // The last answers and the last ball found free of wall: they save looking again and change no result
-    // beyond the tolerance of the distances. Hence one thread.
+    // beyond the tolerance of the distances. Hence one thread. World, metres.
     mutable Answer mLast, mLastFree;
     mutable Direction mLastAway;
-    mutable glm::dvec3 mKnownPoint{0.0};
-    mutable double mKnownFree = 0;
+    mutable glm::dvec3 mKnownPoint{0.0};                                 // world, metres
+    mutable double mKnownFree = 0;                                       // metres
     double mCell = 1;                                                    // metres
     std::unordered_map<std::uint64_t, std::vector<NarrowPlace>> mCells;  // those that matter in a cell
 };

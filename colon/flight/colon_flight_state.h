@@ -26,9 +26,11 @@ struct ColonFlight::State {
     const FlightRun& stretch() const { return line.runs()[run]; }
     double freeAround(const glm::dvec3& p) const { return room.room(p, view.right(), 1); }
 
+    // h: seconds, 0.01 at most; lengths: metres.
     void substep(const FlightInput& wish, double h);
     void turn(const FlightInput& wish, double h);
     void turnTo(const FlightView& wanted);
+    // False where the eyes have no room, even aside.
     bool turnPiece(const FlightView& next);
     void moveFree(const FlightInput& wish, double h);
     void moveGuided(const FlightInput& wish, double h);
@@ -36,11 +38,16 @@ struct ColonFlight::State {
     void followLine(const glm::dvec3& moved, double length);
     void jumpBetweenRuns(double forward);
     void startRun(std::size_t next, double s);
+    // range: where the wall pushes.
     glm::dvec3 besideWall(const glm::dvec3& by, double range, bool pushes, double h);
     glm::dvec3 pushed(const glm::dvec3& wall, double length) const;
+    // The range in guided flight.
     double pushRange() const;
+    // Whether there is room all the way to the line at s.
     bool sees(double s) const;
+    // Sets run and s; false where no place of the line is seen.
     bool findOnLine();
+    // Moves to where there is room near a place; false where there is none.
     bool findPlace(const glm::dvec3& wanted);
     bool findPlaceTowardsLine(const glm::dvec3& wanted);
     void rest();
@@ -54,12 +61,12 @@ struct ColonFlight::State {
     Pose home;
     bool guided;
     FlightView view;
-    glm::dvec3 position{0.0};
-    glm::dvec3 velocity{0.0};                         // metres a second: free, or sideways
+    glm::dvec3 position{0.0};                         // world, metres
+    glm::dvec3 velocity{0.0};                         // metres a second: in free flight, or sideways
     double along = 0;                                 // metres a second along the line, guided
     double yawRate = 0, pitchRate = 0, rollRate = 0;  // radians a second
-    std::size_t run = 0;                              // guided: the stretch of the line and
-    double s = 0;                                     // the place on it that the viewer is at
+    std::size_t run = 0;                              // guided: the stretch of the line
+    double s = 0;                                     // and the place on it that the viewer is at, metres
     bool back = false;                                // `forward` goes to the line's start
     double roundAngle = 0, roundTime = 0;             // radians to turn in all, and seconds since then
 };

@@ -9,19 +9,20 @@ namespace stereonav {
 
 struct FlightView {
     glm::dquat base = glm::dquat(1, 0, 0, 0);  // worldFromCamera
-    double yaw = 0, pitch = 0, roll = 0;       // radians, on top of it: as FlightInput's rates
+    double yaw = 0, pitch = 0, roll = 0;       // radians, on top of the base: signs of FlightInput's rates
 
     glm::dquat orientation() const;
     glm::dvec3 right() const { return orientation() * glm::dvec3(1, 0, 0); }
-    // The same view with everything in the base.
+    // Returns the same view with everything in the base.
     FlightView settled() const { return {orientation(), 0, 0, 0}; }
-    // The base turned towards a unit direction by `share` of the way, along the shortest arc: without roll.
+    // Returns a view whose base is turned towards a unit direction by `share` of the way, along the shortest
+    // arc: without roll.
     FlightView facing(const glm::dvec3& direction, double share) const;
 };
 
-// From a (t = 0) to b (t = 1).
+// Returns the view on the way from a (t = 0) to b (t = 1).
 FlightView between(const FlightView& a, const FlightView& b, double t);
-// At least the angle that the head turns through from a to b as between() turns it, radians.
+// Returns at least the angle that the head turns through from a to b as between() turns it, radians.
 double pathBetween(const FlightView& a, const FlightView& b);
 
 }  // namespace stereonav

@@ -13,7 +13,7 @@ namespace stereonav {
 
 struct CandidateSetting {
     PolypSetting polyp;
-    double shapeIndex = 0.85;                   // at least, of a vertex that may be a tip
+    double shapeIndex = 0.85;                   // the least of a vertex that may be a tip, 0 to 1
     double leastCurved = 40, mostCurved = 800;  // 1/metre: its curvedness
     double leastWide = 0.004, mostWide = 0.04;  // metres: the longest diameter
     double leastScore = 0.0006;                 // metres
@@ -21,12 +21,12 @@ struct CandidateSetting {
 
 struct Candidate {
     MeasuredPolyp polyp;
-    // Metres: MeasuredPolyp::score.
+    // MeasuredPolyp::score(), metres.
     double score = 0;
 };
 
-// The highest scores first; of each head one. The same on any number of threads. progress: told of it, if
-// any. Throws Cancelled.
+// Returns candidates, the highest scores first; of each head one. The same on any number of threads.
+// progress: told of it, if any. Throws Cancelled.
 std::vector<Candidate> polypCandidates(const WallMesh& mesh, const WallNeighbours& neighbours,
                                        const CandidateSetting& setting, Progress* progress = nullptr);
 

@@ -26,7 +26,7 @@ class Peers;
 struct CoverageSetting {
     double verticalFov = 1.5707963267948966;  // radians, in (0, pi)
     double aspect = 1;                        // width of the picture over its height, > 0
-    double within = 0.1;                      // metres from the eye, > 0
+    double within = 0.1;                      // metres from the eye at most, > 0
     double angle = 1.4835298641951802;        // radians, 85 degrees: off the wall's normal, in (0, pi / 2]
     double smallestPatch = 300e-6;            // square metres, >= 0
 };
@@ -36,12 +36,12 @@ struct UnseenPatch {
     double area = 0;                      // square metres
     glm::dvec3 place{0.0};                // world, metres: on it, next to its middle
     std::vector<std::uint32_t> vertices;  // of the mesh, ascending
-    std::optional<Pose> view;             // that shows it; none where there is no room for an eye
+    std::optional<Pose> view;             // shows it; none where there is no room for an eye
 };
 
 class Coverage {
 public:
-    // Distance free of wall around a place, metres, at most upTo (ColonScene::freeDistanceAt).
+    // Returns the distance free of wall around a place, metres, at most upTo (ColonScene::freeDistanceAt).
     using FreeDistance = std::function<double(const glm::dvec3& world, double upTo)>;
 
     // All but the setting must outlive it. Nothing is seen yet. Throws Error for settings out of range.
@@ -56,26 +56,28 @@ public:
     // From here on the wall is shared with the other processes of this run, each of which calls look() as
     // this one does; the first has what is seen, the others have nothing of use. They must outlive it.
     void shareWith(Peers& peers) { mPeers = &peers; }
-    // Nothing is seen any more. Throws as the constructor.
+    // Forgets all that was seen. Throws as the constructor.
     void startAgain(const CoverageSetting& setting);
 
-    double percent() const;  // of the wall's area; 0 of a wall without area
+    double percent() const;  // 0 to 100 of the wall's area; 0 of a wall without area
     const std::vector<std::uint8_t>& seen() const { return mSeen; }  // by vertex, 0 or 1
 
-    // Those of at least the set size, largest first, with their views. clearance: metres that the eye keeps.
+    // Returns the patches of at least the set size, largest first, with their views. clearance: metres that
+    // the eye keeps.
     std::vector<UnseenPatch> patches(const FreeDistance& freeDistance, double clearance) const;
 
-    // Looks at each of them, and at what is left of it while that is of the set size and a view shows more of
-    // it, at most kMostViews times each. Gives the number of views. Throws Cancelled.
+    // Views of a patch at most in visit().
     static constexpr int kMostViews = 6;
+    // Looks at each of them, and at what is left of it while that is of the set size and a view shows more of
+    // it, at most kMostViews times each. clearance: metres. Returns the number of views. Throws Cancelled.
     int visit(const std::vector<UnseenPatch>& patches, const FreeDistance& freeDistance, double clearance,
               Progress& progress);
 
 private:
     struct Chunk {  // of vertices that are near each other, and the ball around them
         std::uint32_t from, to;
-        glm::vec3 middle;
-        float radius;
+        glm::vec3 middle;  // world, metres
+        float radius;      // metres
     };
     void makeChunks();
     void lookHere(std::span<const EyeView> eyes, Progress& progress);
@@ -99,7 +101,7 @@ private:
     Peers* mPeers = nullptr;  // none: this process looks at all of it
 };
 
-// By vertex: 1 where it was not seen, else 0.
+// Returns a mark by vertex: 1 where it was not seen, else 0.
 std::vector<float> unseenMarks(const std::vector<std::uint8_t>& seen);
 
 }  // namespace stereonav

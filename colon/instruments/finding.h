@@ -21,7 +21,7 @@ constexpr std::size_t kMostFindings = 1000;
 struct Finding {
     glm::dvec3 asked{0.0};  // world, metres: where it was looked for
     std::string comment;
-    std::optional<Polyp> truth;  // of a generated colon
+    std::optional<Polyp> truth;  // a generated colon's
 
     std::optional<MeasuredPolyp> polyp;
     std::string problem;                // why there is none, or a note on it; ""
@@ -29,26 +29,28 @@ struct Finding {
     std::string segment;                // of the colon, by landmarks; "": not told
     std::optional<PolypValues> values;  // of the CT inside it; none: not told
 
-    bool candidate = false;  // of the program alone: nobody has looked at it and kept it
+    bool candidate = false;  // found by the program alone: nobody has looked at it and kept it
 
     double diameter() const { return polyp ? polyp->widest.length : 0; }  // metres
-    bool doubled = false;  // of the same polyp as one before it in its list
+    bool doubled = false;  // shows the same polyp as one before it in its list
     // Whether the diameter is that of the truth, within 1 mm or a tenth. True without a truth.
     bool right() const;
 };
 
 class FindingTool {
 public:
-    // colon must outlive it; wall: its own. Values are those of its `study`, where it has one.
+    // colon must outlive it; wall: the wall of it. Values are those of its `study`, where it has one.
     FindingTool(const ColonScene& colon, std::shared_ptr<const JoinedWall> wall);
 
-    // Values are those of this study from now on, which must outlive it.
+    // Takes values from this study from now on, which must outlive it.
     void useStudy(const GreyVolume& study);
 
+    // Measures what is at a place: world, metres. Where there is no polyp `problem` says so.
     Finding at(const glm::dvec3& place) const;
-    // Those of a generated colon, at their true places.
+    // Measures the polyps of a generated colon, at their true places.
     std::vector<Finding> atTruth() const;
-    // Places that look like polyps (candidates.h), as candidates, with a comment that says so.
+    // Finds places that look like polyps (candidates.h), as candidates, with a comment that says so. Throws
+    // Cancelled.
     std::vector<Finding> candidates(Progress& progress) const;
 
     const WallMesh& wall() const { return mWall->mesh; }
@@ -60,30 +62,30 @@ private:
     std::optional<double> mBlur;         // of mStudy across the wall, metres
 };
 
-// Adds one to a list in which the same place is one entry: a place that is there already (within
+// Adds a finding to a list in which the same place is one entry: a place that is there already (within
 // kSamePlace) or, where either is a candidate, a polyp that is there already. What a person gives is no
 // candidate any more, and has their comment.
 void addFinding(std::vector<Finding>& findings, Finding finding);
 constexpr double kSamePlace = 0.0005;  // metres
-// Whether the list has that place already: one there needs not to be measured to be added.
+// Whether the list has that place already: then it needs no measuring to be added.
 bool listsPlace(const std::vector<Finding>& findings, const glm::dvec3& place);
 
-// Notes on findings that are of one polyp: each but the first says so. Nothing is left out.
+// Notes on findings that show one polyp: each but the first says so. Nothing is left out.
 void noteDoubles(std::vector<Finding>& findings);
 
-// Where a place of the line, metres from its start, lies: "rectum", "sigmoid", "descending", "splenic
+// Returns where a place of the line, metres from its start, lies: "rectum", "sigmoid", "descending", "splenic
 // flexure", "transverse", "hepatic flexure", "ascending", "caecum"; "" where the line has no two flexures. By
 // landmarks alone: the flexures are the highest places on the left and, after it, on the right; the
 // descending colon reaches down to where the line rises again; the rectum is the first 15 cm, the caecum the
 // last 6 cm.
 std::string colonSegmentAt(const Centreline& line, double along);
 
-// Distance along the line of its place next to this one, metres.
+// Returns the metres along the line to its place next to this one.
 double alongLine(const Centreline& line, const glm::dvec3& place);
 
-// C-RADS (Zalis et al., "CT colonography reporting and data system: a consensus proposal", Radiology 236
-// (2005)) by size and count alone: "C1" to "C4", of findings that a person kept; "" where there are
-// candidates alone. C0, an inadequate study, and what is outside the colon are left to the reader.
+// Returns the C-RADS class (Zalis et al., "CT colonography reporting and data system: a consensus proposal",
+// Radiology 236 (2005)) by size and count alone: "C1" to "C4", for findings that a person kept; "" where
+// there are candidates alone. C0, an inadequate study, and what is outside the colon are left to the reader.
 std::string cradsClassOf(const std::vector<Finding>& findings);
 
 }  // namespace stereonav

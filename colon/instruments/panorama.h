@@ -28,7 +28,7 @@ namespace stereonav {
 
 class Panorama {
 public:
-    enum class End { Rectum = 0, Caecum = 1 };  // that the eye looks from
+    enum class End { Rectum = 0, Caecum = 1 };  // from which the eye looks
 
     // All must outlive it. pixel: metres along the line, > 0. The same on any number of threads. Throws Error
     // (no line, too large a picture), Cancelled.
@@ -39,25 +39,26 @@ public:
     struct Place {
         glm::dvec3 wall{0.0}, eye{0.0};
     };
+    // Told what a pixel of picture() shows, from many threads.
     using Seen = std::function<void(int x, int y, const Place& place)>;
 
     int width() const { return mWidth; }
     int height() const { return mHeight; }
-    // Both strips, that from the rectum above, lit by the eye's own lamp; white where there is no eye.
-    // Between them a mark each centimetre of the line, a longer one every ten.
-    // seen: told what each pixel shows that shows something, from many threads; null for none.
+    // Returns both strips, that from the rectum above, lit by the eye's own lamp; white where there is no
+    // eye. Between them a mark each centimetre of the line, a longer one every ten. seen: told of each pixel
+    // that shows something; null for none. Throws Cancelled.
     Plane<PackedColor> picture(const VolumeLook& look, Progress& progress, const Seen& seen = nullptr) const;
 
-    int rows() const { return 2 * mHeight + kGap; }  // of picture()
+    int rows() const { return 2 * mHeight + kGap; }  // pixels, of picture()
     double pixel() const { return mPixel; }          // metres along the line
 
-    // Whether the ring of some eye passes through a place (in the lumen, metres) with nothing between.
+    // Whether the ring of some eye passes through a place (in the lumen; world, metres) with nothing between.
     bool shows(End from, const glm::dvec3& place) const { return eyeThatSees(from, place).has_value(); }
-    // Where it lies in picture(), continuous pixels: from the rectum's end, from the caecum's; none where it
-    // does not show. Of several eyes that see it the one nearest to the rectum.
+    // Returns where a place (world, metres) lies in picture(), continuous pixels: from the rectum's end, from
+    // the caecum's; none where it does not show. Of several eyes that see it the one nearest to the rectum.
     std::array<std::optional<glm::dvec2>, 2> pixelsOf(const glm::dvec3& place) const;
 
-    // Shares of the wall's area: what the strip from each end shows, and what one of both shows.
+    // Shares of the wall's area, 0 to 1: what the strip from each end shows, and what one of both shows.
     struct Shares {
         double rectum = 0, caecum = 0, either = 0;
     };
@@ -69,7 +70,7 @@ private:
     // The eye of a column, and where its ring is looked at.
     struct Ray {
         UnfoldingLine::Frame from;
-        glm::dvec3 way{0.0};
+        glm::dvec3 way{0.0};  // unit
     };
     std::optional<Ray> rayOf(int x, int y) const;
 

@@ -10,12 +10,12 @@
 
 namespace stereonav {
 
-// Eyes at the side of the polyp that the lumen is on, turned to one side of its axis (side: -1, 1; 0: on it),
-// with nothing between.
+// Returns eyes at the side of the polyp that the lumen is on, turned to one side of its axis (side: -1, 1; 0:
+// on it), with nothing between.
 Pose eyeBeside(const MeasuredPolyp& polyp, const LineOfSight& sight, double side);
 
-// Places of the lumen just before the wall, above the way between the ends of the longest diameter; isovalue:
-// stored numbers, as of `sight`. Left out where the wall is not met.
+// Returns places of the lumen just before the wall, world, metres, above the way between the ends of the
+// longest diameter; isovalue: stored number, that of `sight`. Left out where the wall is not met.
 std::vector<glm::dvec3> widestOnWall(const MeasuredPolyp& polyp, const LineOfSight& sight, double isovalue);
 
 }  // namespace stereonav

@@ -11,31 +11,32 @@
 
 namespace stereonav {
 
-// At a mean cost of a pair above it two lines are not of one colon. Measured: see docs/instruments.md.
+// The mean cost of a pair above which two lines are not of one colon. Measured: see docs/instruments.md.
 constexpr double kMostCostOfOneColon = 1;
 
 struct RegistrationSetting {
     double step = 0.003;    // metres between samples of a line, > 0
-    double smooth = 0.008;  // metres, sigma: of radii and places before they are compared, > 0
+    double smooth = 0.008;  // metres, sigma over which radii and places are smoothed first, > 0
     double radius = 1;      // weight of a difference of radii by a factor e, each by its line's own mean
-    double direction = 2;   // of a difference of unit tangents, in the patient's axes
-    double turn = 1;        // of a difference of curvatures times 2 cm
-    double length = 30;     // of a difference of shares of the whole length
+    double direction = 2;   // weight of a difference of unit tangents, in the patient's axes
+    double turn = 1;        // weight of a difference of curvatures times 2 cm
+    double length = 30;     // weight of a difference of shares of the whole length
 };
 
 class LineRegistration {
 public:
-    // Both from rectum to caecum, of two points at least. The same for the same lines. Throws Error.
+    // Registers two lines, both from rectum to caecum, of two points at least. The same for the same lines.
+    // Throws Error.
     LineRegistration(const Centreline& first, const Centreline& second,
                      const RegistrationSetting& setting = {});
 
-    // The place of the second line, metres from its start, that belongs to this one of the first; and back.
-    // What is beyond an end counts as the end. Neither ever goes back where its argument goes on.
+    // Returns the place of the second line, metres from its start, that belongs to this one of the first; and
+    // back. What is beyond an end counts as the end. Neither ever goes back where its argument goes on.
     double toSecond(double along) const { return mapped(mPairs, along, false); }
     double toFirst(double along) const { return mapped(mPairs, along, true); }
-    // Mean cost of a matched pair: lower is more alike; 0 of a line with itself.
+    // Returns the mean cost of a matched pair, 0 or more: lower is more alike; 0 of a line with itself.
     double cost() const { return mCost; }
-    // Whether they may be of one colon.
+    // Whether both lines may lead through one colon.
     bool matches() const { return mCost <= kMostCostOfOneColon; }
 
 private:
@@ -45,10 +46,11 @@ private:
     static double mapped(const std::vector<Pair>& pairs, double along, bool back);
 
     std::vector<Pair> mPairs;
-    double mCost = 0;
+    double mCost = 0;  // of a pair, the mean
 };
 
-// A place of a line by metres from its start; its ends beyond them. Of one point or more.
+// Returns a place of a line, world, by metres from its start; its ends beyond them. The line has one point or
+// more.
 glm::dvec3 placeAlong(const Centreline& line, double along);
 
 }  // namespace stereonav

@@ -14,16 +14,17 @@ struct JoinedWall {
     WallNeighbours neighbours;
 };
 
-// Throws as wallMesh.
+// Makes the wall of a colon. Throws as wallMesh().
 std::shared_ptr<const JoinedWall> joinedWall(const ColonScene& colon, Progress& progress);
 
-// Holds nothing itself: a wall lives as long as somebody measures on it. Any number of threads.
+// Gives the wall to all who measure on it, on any number of threads: it lives as long as somebody holds it.
 class SharedWall {
 public:
-    // A colon, which must outlive it.
+    // colon must outlive it.
     explicit SharedWall(const ColonScene& colon) : mColon(colon) {}
 
-    // Makes it where nobody has it; who asks meanwhile waits for that one. Throws as wallMesh.
+    // Returns the wall, which is made where nobody has it; who asks meanwhile waits for that one. Throws as
+    // wallMesh().
     std::shared_ptr<const JoinedWall> get(Progress& progress) const;
 
 private:

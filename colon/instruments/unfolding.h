@@ -29,59 +29,63 @@ namespace stereonav {
 
 struct UnfoldSetting {
     double pixel = 0.0005;  // metres, > 0: of the wall, the side of a pixel
-    double even = 0.005;    // metres, > 0: over which areas are made equal
-    double stiff = 0.003;   // metres, >= 0: over which numbers along and around the line are smoothed
+    double even = 0.005;    // metres, > 0, over which areas are made equal
+    double stiff = 0.003;   // metres, >= 0, over which numbers along and around the line are smoothed
 };
 
 class UnfoldedWall {
 public:
-    static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+    static constexpr std::uint32_t kNone = 0xFFFFFFFF;  // no vertex
 
     // All must outlive it. Column 0 is the rectum's end. The same on any number of threads. Throws Error (no
     // wall, no line, too large a picture), Cancelled.
     UnfoldedWall(const WallMesh& mesh, const WallNeighbours& neighbours, const Centreline& line,
                  const LineOfSight& sight, const UnfoldSetting& setting, Progress& progress);
 
-    int width() const { return mWidth; }
+    int width() const { return mWidth; }  // pixels
     int height() const { return mHeight; }
-    double pixel() const { return mSetting.pixel; }
-    // The vertex that is next to what a pixel shows; kNone beside the wall.
+    double pixel() const { return mSetting.pixel; }  // metres
+    // Returns the vertex that is next to what a pixel shows; kNone beside the wall.
     std::uint32_t vertexAt(int x, int y) const { return mVertex[static_cast<std::size_t>(y) * mWidth + x]; }
-    // World, metres, on the wall; nothing beside it, or outside the picture.
+    // Returns the place of the wall that a pixel shows: world, metres; nothing beside it, or outside the
+    // picture.
     std::optional<glm::dvec3> placeAt(int x, int y) const;
-    // Where a vertex lies in the picture, pixels, also where another one hides it.
+    // Returns where a vertex lies in the picture, pixels, also where another one hides it.
     glm::dvec2 pixelOf(std::uint32_t vertex) const;
     // Whether the picture shows wall further off than `within` metres at that place.
     bool hidden(std::uint32_t vertex, double within) const;
-    // Share of the wall's area that is hidden so.
+    // Returns the share of the wall's area that is hidden so, 0 to 1.
     double hiddenShare(double within) const;
 
-    // Metres along the line at a column, and back; the line goes on straight beyond its ends, where numbers
-    // are negative or larger than its length. Columns are evenly spaced along the line but where more wall
-    // lies than columns are high: at its ends.
+    // Returns metres along the line at a column, and back; the line goes on straight beyond its ends, where
+    // numbers are negative or larger than its length. Columns are evenly spaced along the line but where more
+    // wall lies than columns are high: at its ends.
     double alongAt(double column) const;
     double columnAt(double along) const;
 
-    // Under the lamp of a viewer on the centreline, white beside the wall. Below it a mark every centimetre
-    // of the line, a long one every ten, and the outline of a square of one centimetre's side.
+    // Vertices that are tinted.
     struct Mark {
         std::span<const std::uint32_t> vertices;  // ascending
-        glm::vec3 color{1};
+        glm::vec3 color{1};                       // linear RGB
     };
+    // Returns the wall under the lamp of a viewer on the centreline, white beside the wall. Below it a mark
+    // every centimetre of the line, a long one every ten, and the outline of a square of one centimetre's
+    // side.
     Plane<PackedColor> picture(const VolumeLook& look, std::span<const Mark> marks) const;
-    // How much of the picture a piece of wall takes, over squares of a centimetre: grey where it is its area,
-    // red twice as much and more, blue half and less.
+    // Returns how much of the picture a piece of wall takes, over squares of a centimetre: grey where it is
+    // its area, red twice as much and more, blue half and less.
     Plane<PackedColor> distortionMap() const;
 
-    // By how much the area of wall is off in squares of a centimetre that lie within the picture.
+    // The error of areas of wall in squares of a centimetre that lie within the picture, relative to the true
+    // ones.
     struct AreaError {
-        double mean = 0, most95 = 0;  // shares; 95 of 100 squares are off by no more
+        double mean = 0, most95 = 0;  // shares, 0: none; 95 of 100 squares are off by no more
         int squares = 0;
     };
     AreaError areaError() const;
 
-    // How a polyp is shown: the share of its head's area that is not hidden, the picture's area over its own,
-    // and in how many pieces (of a tenth of its pixels at least).
+    // How a polyp is shown: the share of its head's area that is not hidden, 0 to 1, the picture's area over
+    // its own, and in how many pieces (of a tenth of its pixels at least).
     struct Shown {
         double share = 0, area = 0;
         int pieces = 0;

@@ -16,8 +16,9 @@ class UnfoldingLine {
 public:
     static constexpr double kStep = 0.001;  // metres between frames
 
+    // A place of the line; tangent, across and over are unit and at right angles.
     struct Frame {
-        glm::dvec3 place{0.0}, tangent{0.0}, across{0.0}, over{0.0};
+        glm::dvec3 place{0.0}, tangent{0.0}, across{0.0}, over{0.0};  // world, metres; unit
     };
 
     // Throws Error for a line of less than 2 mm.
@@ -26,18 +27,19 @@ public:
     double first() const { return -mBefore; }  // metres along the line, <= 0
     double length() const { return mLength; }  // metres, of the centreline
     const std::vector<Frame>& frames() const { return mFrames; }
+    // Metres along the line.
     double alongOf(std::size_t frame) const { return static_cast<double>(frame) * kStep - mBefore; }
-    // Between frames; beyond them the last ones.
+    // Returns the frame at metres along the line, between two of them; beyond them the last ones.
     Frame at(double along) const;
 
 private:
-    double mBefore = 0, mLength = 0;
+    double mBefore = 0, mLength = 0;  // metres
     std::vector<Frame> mFrames;
 };
 
-// What minimises the sum of (f - value)^2 over the known vertices and `length`^2 |grad f|^2 over the wall,
-// for three values at once: a screened Poisson equation in linear elements, by Jacobi's rule. Vertices that
-// are not known take what is next to them. The same on any number of threads.
+// Returns the f that minimises the sum of (f - value)^2 over the known vertices and `length`^2 |grad f|^2
+// over the wall, for three values at once; length: metres. A screened Poisson equation in linear elements, by
+// Jacobi's rule. Vertices that are not known take what is next to them. The same on any number of threads.
 std::vector<glm::vec3> smoothOverWall(const WallMesh& mesh, const WallNeighbours& neighbours,
                                       std::vector<glm::vec3> values, std::vector<std::uint8_t> known,
                                       double length);

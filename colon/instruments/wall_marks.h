@@ -14,12 +14,12 @@ namespace stereonav {
 
 class WallMarks {
 public:
-    // frame: of the volume whose wall the mesh is. byVertex: one mark for each vertex, cut off to 0 to 1.
-    // Throws Error where there is not enough memory.
+    // frame: that of the volume whose wall the mesh is. byVertex: one mark for each vertex, cut off to 0 to
+    // 1. Throws Error where there is not enough memory.
     WallMarks(const WallMesh& mesh, const VolumeFrame& frame, const std::vector<float>& byVertex);
 
-    // Between the marks of the cells around a place (trilinear, of those that hold wall), world, metres; to
-    // 1/254. Less than 0 where there is no wall within a cell. From many threads.
+    // Returns the mark between those of the cells around a place (trilinear, of those that hold wall), world,
+    // metres; to 1/254. Less than 0 where there is no wall within a cell. From many threads.
     float at(const glm::dvec3& world) const;
 
 private:
@@ -33,7 +33,7 @@ private:
     std::vector<Brick> mBricks;
 };
 
-// The mean over each vertex and those next to it, `rounds` times, so that marks end softly.
+// Returns the mean over each vertex and those next to it, `rounds` times, so that marks end softly.
 std::vector<float> softened(const WallNeighbours& neighbours, std::vector<float> marks, int rounds);
 
 }  // namespace stereonav

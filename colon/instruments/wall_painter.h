@@ -23,13 +23,13 @@ private:
     glm::vec3 tinted(float mark, const glm::vec3& color) const;
 
     std::shared_ptr<const WallMarks> mMarks;
-    glm::vec3 mTint;
+    glm::vec3 mTint;  // linear RGB
 };
 
-// Tints of what was not seen, and of what was under fluid.
+// Tints of what was not seen, and of what was under fluid: linear RGB, factors on luminance.
 inline const glm::vec3 kUnseenTint(0.1f, 0.55f, 2.6f), kFluidTint(0.1f, 1.5f, 0.25f);
 
-// A painter of marks by vertex, softened at their borders.
+// Returns a painter of marks by vertex, 0 to 1, softened at their borders.
 std::shared_ptr<const EyePainter> wallPainter(const WallMesh& wall, const WallNeighbours& neighbours,
                                               const VolumeFrame& frame, std::vector<float> marks,
                                               const glm::vec3& tint);

@@ -14,7 +14,7 @@ namespace stereonav {
 // it.
 struct FoundColon {
     std::string format;
-    bool ofMask = false;
+    bool ofMask = false;     // the study was a mask
     VolumeFrame studyFrame;  // of the whole study; the lumen's is a part of it
     LumenField lumen;
     ValueSpan values;  // of the lumen's field as it was found, HU
@@ -23,7 +23,7 @@ struct FoundColon {
     std::vector<std::string> notes;
 };
 
-// Values of the field are kept at least this far from the lumen, voxels along each axis.
+// Voxels along each axis from the lumen within which values of the field are kept.
 constexpr int kKeptMargin = 8;
 
 // Makes the field what the cache would give back of it, and gives the memory of all other values back.
@@ -32,16 +32,17 @@ void dropFarValues(LumenField& lumen);
 // Returns a key of the built-in colon's voxels, which takes the place of studyKey() there.
 std::uint64_t builtInColonKey(const BuiltInColonSetting& setting);
 
-// A key of everything that finding depends on: the study (its content's key) and the settings.
+// Returns a key of everything that finding depends on: the study (its content's key) and the settings.
 std::uint64_t colonCacheKey(std::uint64_t study, const ColonOptions& options);
 
-// Where it lies.
+// Returns where the entry of a key lies.
 std::filesystem::path colonCacheFile(std::uint64_t key);
 
-// Nothing where there is none, or it is damaged or not of this key: `damaged` tells which.
+// Reads an entry: nothing where there is none, or it is damaged or not of this key; `damaged` tells which.
 std::optional<FoundColon> readColonCache(std::uint64_t key, bool& damaged);
 
-// The cache only saves time: where it can not be written this does nothing and gives false.
+// Writes an entry. The cache only saves time: where it can not be written this does nothing and returns
+// false.
 bool writeColonCache(std::uint64_t key, const FoundColon& found);
 
 }  // namespace stereonav

@@ -27,23 +27,22 @@ struct ColonOptions {
     SegmentationSetting segmentation;
     CentrelineSetting centreline;
     bool isosurface = false;         // show any volume from outside, without looking for a colon
-    std::optional<double> isovalue;  // of that surface; not given: chosen from the values
+    std::optional<double> isovalue;  // of the surface, the volume's values; not given: chosen from them
     std::filesystem::path transfer;  // a transfer function, by file or name: translucent
-    std::optional<double> opacity;   // translucent wall of this opacity a millimetre, in (0, 1]
+    std::optional<double> opacity;   // of a translucent wall, a millimetre, in (0, 1]
     double clearance = 0;            // metres; 0: chosen
-    std::optional<UpAxis> up;        // of a volume seen from outside; not given: z
+    std::optional<UpAxis> up;        // for a volume seen from outside; not given: z
     bool cache = true;
     bool keepsStudy = false;  // ColonScene::study is asked for
 };
 
 struct ColonScene {
     std::string name, format;
-    VolumeFrame
-        studyFrame;  // of the study as it was read; the volume's may be a part of it, or have a border
+    VolumeFrame studyFrame;  // the study's as read; the volume's may be a part of it, or have a border
     std::vector<std::string> notes;
     VolumeScene volume;
-    // The study's own grey values, of a colon, where they are asked for (keepsStudy): of which `volume` has
-    // neither the tagged fluid nor what is far from the wall. Empty of a mask, which has none.
+    // The study's own grey values, HU, for a colon, where they are asked for (keepsStudy): of which `volume`
+    // has neither the tagged fluid nor what is far from the wall. Empty for a mask, which has none.
     GreyVolume study;
     // The smallest and the largest value of a colon's box in the study, tagged fluid made air, when it was
     // found, HU. The cache keeps no values far from the lumen, but these two.
@@ -58,20 +57,20 @@ struct ColonScene {
     Lens lens;
     StereoSetting stereo;
     double clearance = 0.002;  // metres kept from the wall
-    double extent = 0.3;       // metres: what speeds are chosen from
+    double extent = 0.3;       // metres, from which speeds are chosen
 
     bool isColon() const { return !centreline.points.empty(); }
-    // Distance free of wall around a world point, metres; never above the true one. At most upTo.
+    // Returns the distance free of wall around a world point, metres; never above the true one. At most upTo.
     double freeDistanceAt(const glm::dvec3& world, double upTo) const;
 };
 
-// Reads or makes the study, finds the lumen or takes it from the cache, and builds what casting needs.
-// Throws Error, Cancelled.
+// Loads a colon or volume: reads or makes the study, finds the lumen or takes it from the cache, and builds
+// what casting needs. Throws Error, Cancelled.
 ColonScene loadColon(const ColonOptions& options, Progress& progress);
 
-// The same study with the isovalue (of a volume seen from outside; none: the present one), the transfer
-// function and the opacity of the options; the rest is the scene's own, in the same memory where it is large.
-// Places and paths stay where they are. Throws Error, Cancelled.
+// Returns the same study with the isovalue (for a volume seen from outside; none: the present one), the
+// transfer function and the opacity of the options; the rest is the scene's own, in the same memory where it
+// is large. Places and paths stay where they are. Throws Error, Cancelled.
 ColonScene changedScene(const ColonScene& scene, const ColonOptions& options, Progress& progress);
 
 }  // namespace stereonav

@@ -13,25 +13,27 @@
 
 namespace stereonav {
 
-// A key of everything that the lumen depends on: the study (its content's key) and the settings.
+// Returns a key of everything that the lumen depends on: the study (its content's key) and the settings.
 std::uint64_t savedLumenKey(std::uint64_t study, const SegmentationSetting& setting);
 
-// Adds nothing where nothing was chosen: keys of before stay.
+// Adds what was chosen to a hash; nothing where nothing was, so that older keys stay.
 void addChoices(const PieceChoices& choices, Hash& hash);
 
-// NAME_lumen.nrrd beside the study, a folder's beside the folder: where such a file is read from as well, but
-// never written to.
+// Returns NAME_lumen.nrrd beside the study, for a folder beside the folder: where such a file is read from as
+// well, but never written to.
 std::filesystem::path lumenBeside(const std::filesystem::path& study);
 
 // Keeps the segments' numbers (compressed NRRD, with the key, a hash of the voxels and the lumen's notes in
-// its header) in the cache, noted as the study's. Says in one line where, or that it could not be kept.
+// its header) in the cache, noted as the study's. Returns a line that says where, or that it could not be
+// kept.
 std::string saveLumen(const LumenField& found, std::uint64_t key, const std::filesystem::path& study = {});
 
 struct SavedLumen {
     std::optional<LumenField> lumen;
     std::vector<std::string> notes;  // where it was read from; files that are outdated or damaged
 };
-// Never throws for what the files hold. Throws Cancelled.
+// Reads a lumen that was kept, or lies beside the study. Never throws for what the files hold. Throws
+// Cancelled.
 SavedLumen readSavedLumen(const std::filesystem::path& study, const GreyVolume& grey,
                           const SegmentationSetting& setting, std::uint64_t key, Progress& progress);
 

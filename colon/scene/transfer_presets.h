@@ -14,12 +14,12 @@ struct TransferPreset {
     std::string_view name;  // of the file, without .txt
     std::string_view text;
 };
-// By name (a generated source, see cmake/embed.cmake).
+// Returns the presets, by name (a generated source, see cmake/embed.cmake).
 std::span<const TransferPreset> transferPresets();
 std::string transferPresetNames();  // "a, b, c"
 
-// From a curve's text (engine/volume/transfer_text.h), or a file; where there is none of that name, by the
-// name of a preset. Throws Error that lists the names.
+// Returns a transfer function from a curve's text (engine/volume/transfer_text.h), or a file; where there is
+// none of that name, the preset of that name. Throws Error that lists the names.
 TransferFunction findTransferFunction(const std::filesystem::path& fileOrName);
 
 }  // namespace stereonav

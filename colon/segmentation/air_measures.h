@@ -23,27 +23,29 @@ public:
     // Metres of tissue to the scan's sides: medians over the piece, without air and metal on the way.
     struct Tissue {
         double right = 0, left = 0, front = 0, back = 0;  // of the patient
+        // The least of the four, metres.
         double least() const;
-        // 0 where it lies at a side of the body, 0.5 in the middle.
+        // Returns 0 where it lies at a side of the body, 0.5 in the middle.
         double fromSide() const;
     };
     Tissue tissueAround(int piece) const;
 
-    // HU of voxels away from the piece's border, which is partly tissue; nothing where it is too thin to
-    // have any.
+    // HU of voxels away from the piece's border, which is partly tissue.
     struct Density {
         double median = 0, high = 0;  // high: a tenth of the voxels is denser
     };
+    // Nothing where the piece is too thin to have such voxels.
     std::optional<Density> density(int piece) const;
 
+    // The piece taken for a tube.
     struct Tube {
         double diameter = 0;     // metres, mean
         double slenderness = 0;  // length over diameter
     };
     Tube tube(int piece) const;
 
-    glm::dvec3 middle(int piece) const;   // world, of its box
-    glm::dvec3 placeIn(int piece) const;  // world: a voxel of it, near its middle
+    glm::dvec3 middle(int piece) const;   // world, metres, of its box
+    glm::dvec3 placeIn(int piece) const;  // world, metres: a voxel of it, near its middle
 
 private:
     const Component& part(int piece) const { return mAir.parts.list[static_cast<std::size_t>(piece)]; }

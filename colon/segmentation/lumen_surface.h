@@ -11,7 +11,7 @@ namespace stereonav {
 constexpr int kMaskInside = -1000, kMaskOutside = 0, kMaskWall = -500;
 
 struct MaskSmoothing {
-    // Standard deviation of the Gaussian that a round is made of, in the smallest spacing; > 0. Normals of
+    // Standard deviation of the Gaussian that a round is made of, smallest spacings; > 0. Normals of
     // voxelised spheres of 5, 12 and 25 voxels, of tubes of 8 and 20 and of planes rising 1:8 are off by 5.8,
     // 1.8, 1.2, 2.1, 1.5 and 2.9 degrees on average; with 1.5: 2.9, 2.2, 2.1, 3.2, 3.0, 6.5; with 3: 15, 3.6,
     // 1.5, 3.3, 1.4, 0.9. A plain Gaussian of 1.5: 6.3, 2.3, 1.8, 2.9, 2.4, 4.9.

@@ -15,7 +15,7 @@ namespace stereonav {
 
 struct SegmentationSetting {
     double air = -700;              // HU: below is air
-    double tagged = 200;            // HU: above, with a level surface under air, is tagged fluid
+    double tagged = 200;            // HU: above is tagged fluid, where it has a level surface under air
     double wall = -450;             // HU: the wall is this isosurface (half way between air and tissue)
     std::vector<glm::dvec3> seeds;  // world, metres: pieces that hold one are the colon; empty: chosen
     PieceChoices choices;           // pieces of air and pools that are, or are not, the colon's all the same
@@ -40,23 +40,24 @@ struct LumenField {
     std::vector<std::string> notes;  // what was found and left out, one line each
 };
 
-// From grey values. Tagged fluid becomes air in `field`, without a film between it and the air above, unless
-// it is left; it ties the air above it to the colon all the same. known: voxels below setting.air, where they
-// were looked for already.
-// Throws Error (no air, all air, seeds outside, nothing like a colon), Cancelled.
+// Finds the lumen in grey values. Tagged fluid becomes air in `field`, without a film between it and the air
+// above, unless it is left; it ties the air above it to the colon all the same. known: voxels below
+// setting.air, where they were looked for already. Throws Error (no air, all air, seeds outside, nothing like
+// a colon), Cancelled.
 LumenField segmentColon(const GreyVolume& study, const SegmentationSetting& setting, Progress& progress,
                         std::optional<VoxelRuns> known = {});
-// The same of a study that nobody asks for behind it: its values go slice by slice as the field's come.
+// Finds the same in a study that nobody needs afterwards: its values go slice by slice as the field's come.
 LumenField segmentColon(GreyVolume&& study, const SegmentationSetting& setting, Progress& progress,
                         std::optional<VoxelRuns> known = {});
 
-// The field and the segments of a lumen (numbered from 1) that was found in this study with this setting and
-// kept: what segmentColon gives, without judging any air again. Nothing where they do not fit together.
+// Returns the field and the segments of a lumen (numbered from 1) that was found in this study with this
+// setting and kept: what segmentColon gives, without judging any air again. Nothing where they do not fit
+// together.
 std::optional<LumenField> restoreLumen(const GreyVolume& study, MaskVolume lumen,
                                        const SegmentationSetting& setting);
 
-// From a ready mask: `field` is the mask smoothed so that the wall shows no stairs, scaled to HU-like
-// numbers. setting: seeds only. Throws Error on an empty or full mask; Cancelled.
+// Makes the lumen of a ready mask: `field` is the mask smoothed so that the wall shows no stairs, scaled to
+// HU-like numbers. Of the setting seeds alone count. Throws Error on an empty or full mask; Cancelled.
 LumenField lumenFromMask(const MaskVolume& mask, const SegmentationSetting& setting, Progress& progress);
 
 }  // namespace stereonav

@@ -14,9 +14,10 @@ struct FilmColumn {
     int air = 0;          // along the upright axis: the first clean air above it
 };
 
+// A pool of fluid, and the film over it.
 struct Pool {
-    std::size_t core = 0;  // component of FluidPools::cores
-    double hu = 0;         // median
+    std::size_t core = 0;  // number among FluidPools::cores
+    double hu = 0;         // median, HU
     std::vector<FilmColumn> film;
 };
 
@@ -27,12 +28,12 @@ struct FluidPools {
     std::vector<Pool> pools;
 };
 
-// Pools that belong to the colon; pieces of air that they touch become Colon in `air`. Pools that hold a
-// place that was given are taken, or left out, whatever their surface.
+// Finds the pools that belong to the colon; pieces of air that they touch become Colon in `air`. Pools that
+// hold a place that was given are taken, or left out, whatever their surface.
 FluidPools findFluid(const GreyVolume& study, const SegmentationSetting& setting, AirPieces& air);
 
-// The pools that lie in a lumen known from before (a voxel of the study: true inside). The kinds of `air` are
-// known too.
+// Returns the pools that lie in a lumen known from before (a voxel of the study: true inside). The kinds of
+// `air` are known too.
 FluidPools poolsInside(const GreyVolume& study, const SegmentationSetting& setting, const AirPieces& air,
                        const std::function<bool(const glm::ivec3&)>& inside);
 

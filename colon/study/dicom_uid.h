@@ -6,7 +6,7 @@
 
 namespace stereonav {
 
-// The same for the same text, and of another one another: the UUID (version 8) is a hash of it.
+// Returns the same UID for the same text, and another one for another: the UUID (version 8) is a hash of it.
 std::string uidOfText(std::string_view text);
 
 }  // namespace stereonav

@@ -12,7 +12,7 @@
 
 namespace stereonav {
 
-// Whole numbers in this machine's byte order.
+// Pixels as whole numbers in this machine's byte order.
 struct DecodedPixels {
     std::string bytes;
     int bits = 16;  // a pixel: 8, 16 or 32
@@ -23,19 +23,19 @@ struct PackedPicture {
     std::filesystem::path file;  // for messages
     std::string syntax;          // the transfer syntax, a UID
     int columns = 0, rows = 0;
-    int bits = 16, stored = 16, high = 15;  // PS3.5 8.1.1
+    int bits = 16, stored = 16, high = 15;  // allocated, stored, the highest (PS3.5 8.1.1)
     bool isSigned = false;
     std::vector<std::string_view> parts;
 };
 
-// What a helper answered for a picture of so many pixels; nothing where it is no such picture.
+// Returns the pixels that a helper answered for a picture of so many; nothing where it is no such picture.
 std::optional<DecodedPixels> pixelsOf(std::string answer, std::uint64_t count);
 
-// One for a study: its helpers see nothing else, and end with it.
+// Unpacks the pictures of one study: its helpers see nothing else, and end with it.
 class PictureDecoder {
 public:
     PictureDecoder();
-    // From any thread. Throws Error naming the picture's file, and Cancelled.
+    // Unpacks a picture. From any thread. Throws Error naming the picture's file, and Cancelled.
     DecodedPixels decode(const PackedPicture& picture);
 
 private:

@@ -17,19 +17,20 @@ using MmPlace = std::array<double, 3>;  // to the patient's left, back and head,
 struct ReportedFinding {
     std::string label;  // "1"
     std::string uid;    // that follows it from report to report
-    bool polyp = true;  // measured as one; else a place where none was found
+    bool polyp = true;  // measured as a polyp; else a place where none was found
     MmPlace place_mm{};
     double fromRectum_mm = 0;
-    std::optional<double> longest_mm, inSlice_mm, volume_mm3, huMean, huSigma;
+    std::optional<double> longest_mm, inSlice_mm, volume_mm3, huMean, huSigma;  // the last two in HU
     std::optional<std::array<MmPlace, 2>> longestEnds_mm;
     std::string segment;  // of the colon, as colonSegmentAt() names it; "": not told
     std::string note;     // "": none
 };
 
+// All that the report holds.
 struct StructuredReport {
     std::optional<StudySource> source;     // none: of a study that is not DICOM, whose patient is unknown
     std::string study;                     // UID, where the source has none
-    std::string series, document, device;  // UIDs: of the report's own series, of it, of the program
+    std::string series, document, device;  // UIDs: the report's own series, its own, the program's
     std::string software;                  // name and version
     std::string date, time;                // of the report: "20261125", "134500"
     std::string notice;                    // what is said above all
@@ -37,7 +38,7 @@ struct StructuredReport {
     std::vector<ReportedFinding> findings;
 };
 
-// The bytes of a DICOM file. DCMTK is loaded. Throws Error.
+// Returns the bytes of a DICOM file. Loads DCMTK. Throws Error.
 std::string structuredReportFile(const StructuredReport& report);
 
 }  // namespace stereonav

@@ -20,19 +20,20 @@
 namespace stereonav {
 
 struct StudyOptions {
-    std::string series;     // of a DICOM folder with several: its number in the list (1, 2, ...) or its UID
+    std::string series;     // of a DICOM folder with several: number in the list (1, 2, ...) or UID
     bool resample = false;  // mend uneven or tilted slices onto an even upright grid
     // The one label of a mask with several: its number, or its name where the header names it.
     std::optional<std::string> label;
     // Study::key where the caller has it, or does not ask for it: the files are not hashed then.
     std::optional<std::uint64_t> key;
-    // HU: where values are below it is looked for while other slices are read (Study::air).
+    // HU: values below it are looked for while other slices are read (Study::air).
     std::optional<double> airBelow;
-    // Bytes that the caller will take beside the values of so many voxels: what does not fit with them is not
-    // read. Empty: none.
+    // Returns the bytes that the caller will take beside the values of so many voxels: what does not fit with
+    // them is not read. Empty: none.
     std::function<double(double voxels)> working;
 };
 
+// A study as it was read.
 struct Study {
     std::string format;       // "DICOM", "NRRD", ... as shown to the user
     std::string description;  // patient-free: series description, modality, kernel; may be ""
@@ -62,20 +63,20 @@ struct SeriesLook {
 // and the like. Throws Error where the folder holds none.
 std::vector<SeriesLook> lookAtSeries(const std::filesystem::path& folder);
 
-// What headers alone say of a study: no sample is read.
+// What headers alone say; no sample is read.
 struct StudyGlance {
-    std::string format, description;  // as of Study; without notes
+    std::string format, description;  // Study's; without notes
     std::string type;                 // of a sample: "int16"; "" where it is not known
     std::vector<std::uint64_t> size;  // voxels along three axes; of a folder columns and rows alone
-    std::vector<double> spacing_mm;   // along as many; empty where the header does not say
-    std::size_t files = 0;            // that a folder holds
+    std::vector<double> spacing_mm;   // along these axes; empty where the header does not say
+    std::size_t files = 0;            // in a folder
     std::size_t series = 0;           // of a folder, among the files that were looked at: at least so many
 };
 // Reads headers; of a folder those of some files, spread over all. Throws Error, Cancelled.
 StudyGlance glanceAtStudy(const std::filesystem::path& path, Progress& progress);
 
-// Which folders below hold DICOM slices, as advice: "its folder ST1 holds DICOM slices: give that one"; ""
-// where none do. A bounded part of what is there is looked at.
+// Returns which folders below hold DICOM slices, as advice: "its folder ST1 holds DICOM slices: give that
+// one"; "" where none do. A bounded part of what is there is looked at.
 std::string studyFoldersAdvice(const std::filesystem::path& folder);
 
 // True where readStudy would try: a folder with DICOM files or a DICOMDIR, or a name ending in .nrrd .nhdr
@@ -83,17 +84,18 @@ std::string studyFoldersAdvice(const std::filesystem::path& folder);
 // beside them, which it refuses by naming that. No more is read than the folder's list and headers.
 bool looksLikeStudy(const std::filesystem::path& path);
 
-// The study's key without decoding its voxels, for looking into the cache first.
+// Returns the study's key without decoding its voxels, for looking into the cache first. Throws Error.
 std::uint64_t studyKey(const std::filesystem::path& path, const StudyOptions& options);
 
-// Throws Error (one line: what was expected, what was found, what to do), Cancelled. What reading and
-// options.working need is held against the memory that can be had before any is taken.
+// Reads a study. Throws Error (one line: what was expected, what was found, what to do), Cancelled. What
+// reading and options.working need is held against the memory that can be had before any is taken.
 Study readStudy(const std::filesystem::path& path, const StudyOptions& options, Progress& progress);
 
 // Names and texts that a NRRD header carries for those who know them ("key:=value").
 using HeaderFields = std::vector<std::pair<std::string, std::string>>;
 
-// A mask as gzip-compressed NRRD in LPS millimetres, written atomically; readStudy reads it back.
+// Writes a mask as gzip-compressed NRRD in LPS millimetres, atomically; readStudy reads it back. Throws
+// Error.
 void writeMask(const std::filesystem::path& file, const MaskVolume& mask, const std::string& comment,
                const HeaderFields& fields = {});
 

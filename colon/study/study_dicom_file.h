@@ -28,24 +28,26 @@ struct DicomItem {
         const auto at = values.find(tag);
         return at == values.end() ? nullptr : &at->second;
     }
-    // Without blanks around it; "" where there is none.
+    // Returns a text without blanks around it; "" where there is none.
     std::string text(std::uint32_t tag) const;
-    // "1.5\2.5" as numbers: as many as can be read, at most `count`.
+    // Returns "1.5\2.5" as numbers: as many as can be read, at most `count`.
     std::vector<double> numbers(std::uint32_t tag, std::size_t count) const;
 };
 
 class DicomFile {
 public:
+    // Where the pixels lie.
     struct Pixels {
         bool found = false, encapsulated = false;
         bool words = false;               // stands in words of 16 bits (OW), which big-endian files turn over
-        std::uint64_t at = 0, bytes = 0;  // of data()
+        std::uint64_t at = 0, bytes = 0;  // in data()
         std::uint64_t said = 0;           // bytes, by their length in the file; 0 where they are encapsulated
         std::vector<std::pair<std::uint64_t, std::uint64_t>>
             fragments;  // place and bytes; the first: offsets
     };
 
-    // Throws Error where the file can not be opened, or is DICOM with a head that is damaged.
+    // Takes a file apart. Throws Error where the file can not be opened, or is DICOM with a head that is
+    // damaged.
     explicit DicomFile(const std::filesystem::path& file);
 
     bool isDicom() const { return mIsDicom; }
@@ -55,12 +57,12 @@ public:
     const std::string& syntax() const { return mSyntax; }          // the transfer syntax, a UID
     const std::string& mediaClass() const { return mMediaClass; }  // the head's SOP class, a UID
     bool bigEndian() const { return mBig; }
-    // Where the elements are: the file, or what it unpacks to.
+    // Returns the bytes that elements lie in: the file, or what it unpacks to.
     const unsigned char* data() const { return mData; }
-    // A 16-bit number; `otherwise` where there is none.
+    // Returns a 16-bit number; `otherwise` where there is none.
     int word(std::uint32_t tag, int otherwise) const;
-    // A clause about what is wrong, that fits behind the file's name: "is cut off: ..."; "" where all is
-    // well.
+    // Returns a clause about what is wrong, that fits behind the file's name: "is cut off: ..."; "" where all
+    // is well.
     const std::string& damage() const { return mDamage; }
 
 private:

@@ -13,33 +13,35 @@
 
 namespace stereonav {
 
-// Facts of all samples. slices: those of the first slices, as far as they are known already.
+// Returns the facts of all samples. slices: those of the first slices, as far as they are known already.
 ValueFacts factsOf(const RawStudy& raw, std::vector<ValueFacts> slices);
 
 // Whether values are kept as these samples are, so that air may be looked for among them.
 bool showsAir(const RawStudy& raw);
-// Runs of samples below `limit`. slices: those of the first slices, as factsOf's.
+// Returns the runs of samples below `limit`, HU. slices: those of the first slices, as factsOf()'s.
 VoxelRuns airOf(const RawStudy& raw, double limit, std::vector<SliceRuns> slices);
 
 struct SliceLook {
     ValueFacts facts;
     std::optional<SliceRuns> air;  // nothing where it is not asked for
 };
-// many: it is known already that too many values differ to be labels, which ones they are does not matter
-// then. airBelow: nothing unless showsAir.
+// Looks at slice k. many: it is known already that too many values differ to be labels, which ones they are
+// does not matter then. airBelow: HU; nothing unless showsAir().
 SliceLook lookAtSlice(const RawStudy& raw, int k, bool many, const std::optional<double>& airBelow);
-void addLook(SliceLook look, SliceLooks& looks);  // of the next slice
+void addLook(SliceLook look, SliceLooks& looks);  // appends the next slice
 
 // Looks at slices on a thread of its own as their samples come, in order. Small studies, and programs of one
 // thread, start none.
 class FactsBeside {
 public:
-    // raw must outlive it and keep its samples where they are. airBelow: as lookAtSlice.
+    // raw must outlive it and keep its samples where they are. airBelow: lookAtSlice()'s.
     explicit FactsBeside(const RawStudy& raw, const std::optional<double>& airBelow = {});
     ~FactsBeside();
-    // So many bytes of samples have come; they do not change any more. Of the reading thread.
+    // Tells it that so many bytes of samples have come; they do not change any more. Called by the reading
+    // thread.
     void come(std::uint64_t bytes);
-    // What is known of the first slices. Those that came and were not looked at yet are left to all threads.
+    // Returns what is known of the first slices. Those that came and were not looked at yet are left to all
+    // threads.
     SliceLooks take();
 
 private:

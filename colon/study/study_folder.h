@@ -9,21 +9,21 @@
 
 namespace stereonav {
 
-// DICOM slices are called anything: with .dcm or .ima, without an extension, or by a UID, whose last part
-// looks like one.
+// Whether a file may be a DICOM slice by its name. They are called anything: with .dcm or .ima, without an
+// extension, or by a UID, whose last part looks like one.
 bool isSliceName(const std::filesystem::path& file);
-// A slice by its name, or by what it begins with.
+// Whether a file is a slice by its name, or by what it begins with.
 bool isDicomFile(const std::filesystem::path& file);
 
-// The folder that is meant: that of a DICOMDIR where one is named, else the place itself.
+// Returns the folder that is meant: that of a DICOMDIR where one is named, else the place itself.
 std::filesystem::path folderOfStudy(const std::filesystem::path& place);
 // Whether a DICOMDIR lies in it, which makes it the root of a disc.
 bool isRootOfDisc(const std::filesystem::path& folder);
 
-// Files in a folder, without hidden ones and a DICOMDIR, sorted; the place itself where it is a file. Throws
-// Error.
+// Returns the files in a folder, without hidden ones and a DICOMDIR, sorted; the place itself where it is a
+// file. Throws Error.
 std::vector<std::filesystem::path> filesIn(const std::filesystem::path& place);
-// Those in its folders too. Throws Error where there are too many.
+// Returns those in its folders too. Throws Error where there are too many.
 std::vector<std::filesystem::path> filesBelow(const std::filesystem::path& folder);
 
 }  // namespace stereonav

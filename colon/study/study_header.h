@@ -23,6 +23,7 @@ enum class SampleEncoding {
     Hex    // two digits a byte
 };
 
+// Where the samples are, and how they are packed.
 struct SamplePlace {
     std::vector<std::filesystem::path> files;  // in their order, each with an equal share
     std::uint64_t offset = 0;                  // bytes before the samples in each file
@@ -37,15 +38,15 @@ struct VolumeHeader {
     std::string format, description;
     std::vector<std::uint64_t> size;  // along the three axes of space
     SampleType type = SampleType::Int16;
-    glm::dmat3 steps{1.0};            // columns: from voxel to voxel along i, j, k; LPS millimetres
-    glm::dvec3 origin{0.0};           // of voxel (0, 0, 0)
+    glm::dmat3 steps{1.0};            // LPS millimetres: columns lead from voxel to voxel along i, j, k
+    glm::dvec3 origin{0.0};           // LPS millimetres, of voxel (0, 0, 0)
     double slope = 1, intercept = 0;  // value = stored * slope + intercept
     std::vector<std::filesystem::path> headers;  // files that the header itself was read from
     SamplePlace place;
     MaskLabels labels;
     std::vector<std::string> notes;
 
-    // Samples of a voxel, in bytes: of all layers.
+    // Returns the bytes of a voxel, of all layers.
     int voxelBytes() const { return bytesOf(type) * static_cast<int>(labels.layers.count); }
 };
 
@@ -53,20 +54,20 @@ struct VolumeHeader {
 VolumeHeader readNiftiHeader(const std::filesystem::path& file);  // study_nifti.cpp
 VolumeHeader readNrrdHeader(const std::filesystem::path& file);   // study_nrrd.cpp
 VolumeHeader readMetaHeader(const std::filesystem::path& file);   // study_meta.cpp
-// By the file's name.
+// Reads a header by the file's name.
 VolumeHeader readVolumeHeader(const std::filesystem::path& file);  // study_volume.cpp
 
 // --- study_samples.cpp
 // Throws Error when the files can not hold as many samples as the header says.
 void checkSampleFiles(const std::filesystem::path& file, const VolumeHeader& header);
-// All of them into `to`, in this machine's byte order. come(bytes): so many have come, in the file's order.
-// Throws Error, Cancelled.
+// Reads all samples into `to`, in this machine's byte order. come(bytes): so many have come, in the file's
+// order. Throws Error, Cancelled.
 void readSamples(const std::filesystem::path& file, const VolumeHeader& header, unsigned char* to,
                  Progress& progress, const std::function<void(std::uint64_t bytes)>& come);
 
 // True where the file's name is one of a pair of .hdr and .img (each also with .gz) whose header is NIfTI's.
 bool isNiftiPair(const std::filesystem::path& file);  // study_nifti.cpp
-// The axes of a volume: the sizes of all but those of 1 beyond the third. Throws Error unless they are three.
+// Returns the sizes of a volume: all but those of 1 beyond the third. Throws Error unless they are three.
 std::vector<std::uint64_t> threeSizes(const std::filesystem::path& file,
                                       std::vector<std::uint64_t> size);  // study_volume.cpp
 

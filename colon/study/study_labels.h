@@ -14,10 +14,11 @@ namespace stereonav {
 
 struct RawStudy;
 
+// A label of the header.
 struct NamedLabel {
     std::string name, id;
     std::uint64_t layer = 0;
-    std::int64_t value = 1;  // of the voxels in that layer
+    std::int64_t value = 1;  // its number in the voxels of that layer
 };
 
 // Several numbers a voxel, one a layer.
@@ -26,13 +27,14 @@ struct LabelLayers {
     std::uint64_t run = 1;  // samples of a layer that lie side by side before those of the next
 };
 
+// The labels of a mask, and the one that is meant.
 struct MaskLabels {
     std::vector<NamedLabel> named;
     LabelLayers layers;
     std::optional<NamedLabel> chosen;  // none: the values tell
 };
 
-// The number that --label gives, none where it gives a name.
+// Returns the number that --label gives, none where it gives a name.
 std::optional<std::int64_t> labelNumber(const std::string& label);
 
 // Whether keys of a header are about labels.
@@ -42,14 +44,14 @@ bool namesLabels(const HeaderFields& fields);
 std::vector<NamedLabel> namedLabelsOf(const std::string& file, const HeaderFields& fields,
                                       std::uint64_t layers);
 
-// `1 "ribs", 2 "colon"`
+// Returns `1 "ribs", 2 "colon"`.
 std::string labelListText(const std::vector<NamedLabel>& labels);
 
 // Sets `chosen` where the header is enough to tell. Throws Error where a label is not there, or is one of
 // several and none was asked for that only the header can tell apart.
 void chooseLabel(const std::string& file, const StudyOptions& options, MaskLabels& labels);
 
-// Leaves the samples of one layer.
+// Keeps the samples of one layer alone.
 void keepLayer(const LabelLayers& layers, std::uint64_t layer, RawStudy& raw);
 
 }  // namespace stereonav

@@ -29,7 +29,8 @@ public:
     MappedFile& operator=(const MappedFile&) = delete;
     const unsigned char* data() const { return static_cast<const unsigned char*>(mData); }
     std::size_t size() const { return mBytes; }
-    // These bytes, from a page's start on, are not needed soon: they count as this process's memory no more.
+    // Says that these bytes, from a page's start on, are not needed soon: they count as this process's memory
+    // no more.
     void release(std::size_t start, std::size_t bytes) const {
         madvise(static_cast<unsigned char*>(mData) + start, bytes, MADV_DONTNEED);
     }

@@ -19,13 +19,13 @@ namespace stereonav {
 class PictureDecoder;  // picture_decoder.h
 
 enum class SampleType { UInt8, Int8, UInt16, Int16, UInt32, Int32, UInt64, Int64, Float32, Float64 };
-int bytesOf(SampleType type);
+int bytesOf(SampleType type);  // of a sample
 
 // Samples of a regular grid, i fastest, in this machine's byte order.
 struct RawStudy {
     VolumeFrame frame;
     SampleType type = SampleType::Int16;
-    double slope = 1, intercept = 0;  // value = sample * slope + intercept
+    double slope = 1, intercept = 0;  // value = sample * slope + intercept; HU for CT
     LazyArray<unsigned char> bytes;
     bool isScaled() const { return slope != 1 || intercept != 0; }
 };
@@ -65,16 +65,16 @@ void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, 
 // Throws Error unless spacings are such that work on the volume ends: neither very small nor very large, none
 // of them far from the others, and the first voxel at a place that numbers tell from that of the next.
 void checkFrame(const std::string& file, const VolumeFrame& frame);
-// Bytes that are held at once: samples of so many bytes, which go as values come, or values with what the
-// caller takes beside those.
+// Returns the bytes that are held at once: samples of so many bytes, which go as values come, or values with
+// what the caller takes beside those.
 double bytesHeld(const std::vector<std::uint64_t>& size, int sampleBytes, const StudyOptions& options);
-// "512 x 512 x 20"
+// Returns "512 x 512 x 20".
 std::string sizeText(const std::vector<std::uint64_t>& size);
 
 // --- study_facts.cpp
 // What some of the samples are like.
 struct ValueFacts {
-    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;  // samples
     std::size_t notNumbers = 0, fractions = 0;
     std::size_t pairs = 0, equalPairs = 0;  // neighbours along i, not both 0
     bool many = false;                      // more distinct values than a map of labels has
@@ -88,6 +88,7 @@ struct SliceLooks {
 };
 
 // --- study_volume.cpp
+// A volume file as read.
 struct VolumeFile {
     RawStudy raw;
     std::string format, description;
@@ -95,7 +96,7 @@ struct VolumeFile {
     SliceLooks looks;
     MaskLabels labels;  // the samples are of one layer
 };
-// NRRD, NIfTI or MetaImage. Throws Error, Cancelled.
+// Reads NRRD, NIfTI or MetaImage. Throws Error, Cancelled.
 VolumeFile readVolumeFile(const std::filesystem::path& file, const StudyOptions& options, Progress& progress);
 
 // --- study_dicom_slices.cpp
@@ -106,21 +107,21 @@ struct DicomSlice {
     std::string name;  // the file's, for messages, and its frame
     std::string uid, description, modality, kernel;
     int columns = 0, rows = 0, frames = 1, samples = 1;
-    glm::dvec3 position{0.0};   // LPS millimetres, of the first pixel's centre
-    glm::dvec3 along{1, 0, 0};  // unit, LPS: where columns grow
-    glm::dvec3 down{0, 1, 0};   // unit, LPS: where rows grow
-    glm::dvec2 spacing{0.0};    // millimetres between columns, between rows
-    double slope = 1, intercept = 0;
+    glm::dvec3 position{0.0};         // LPS millimetres, of the first pixel's centre
+    glm::dvec3 along{1, 0, 0};        // unit, LPS: where columns grow
+    glm::dvec3 down{0, 1, 0};         // unit, LPS: where rows grow
+    glm::dvec2 spacing{0.0};          // millimetres between columns, between rows
+    double slope = 1, intercept = 0;  // value = stored * slope + intercept, HU for CT
     bool hasPlace = false, hasSpacing = false, hasPadding = false;
     std::int64_t padding = 0, paddingLimit = 0;  // stored numbers
     // Values of stored numbers from tableFirst on, the last one's from there on; null: slope and intercept.
     std::shared_ptr<const std::vector<std::uint16_t>> table;
     std::int64_t tableFirst = 0;
-    std::string placedBy;  // of frames without places of their own; "" else
+    std::string placedBy;  // for frames without places of their own; "" else
     std::string damage;    // a clause that fits behind the name; "" where there is none
-    std::string aside;     // what it is where it is no slice of a volume: "localizer"; "" else
+    std::string aside;     // "localizer": what it is where it is no slice of a volume; "" else
 };
-// The slices of a DICOM file, none where it is not an image. Throws Error.
+// Reads the slices of a DICOM file, none where it is not an image. Throws Error.
 std::vector<DicomSlice> readSlices(const std::filesystem::path& file, bool& isDicom);
 
 // --- study_dicom.cpp
@@ -131,13 +132,14 @@ struct DicomSeries {
     std::vector<std::string> notes;
     std::string strangers;  // files that are not DICOM, a few by name; "" where there are none
 };
-// place: a folder, or one file.
+// Reads the series of a folder, or of one file. Throws Error.
 std::vector<DicomSeries> scanFolder(const std::filesystem::path& place);
-// The one asked for; throws Error that lists them otherwise.
+// Returns the series asked for; throws Error that lists them otherwise.
 DicomSeries chooseSeries(const std::filesystem::path& place, const std::string& wanted);
-// By its table, where numbers below the first count as it and those beyond the last as that (PS3.3
-// C.11.1.1.1), or by slope and intercept.
+// Returns the value of a stored number, HU for CT: by its table, where numbers below the first count as it
+// and those beyond the last as that (PS3.3 C.11.1.1.1), or by slope and intercept.
 double valueOf(const DicomSlice& slice, double stored);
+// Reads a series. Throws Error, Cancelled.
 VolumeFile readDicom(const std::filesystem::path& place, const StudyOptions& options, Progress& progress);
 
 // --- study_slices.cpp
@@ -145,19 +147,19 @@ VolumeFile readDicom(const std::filesystem::path& place, const StudyOptions& opt
 // relative to the first slice; ordered along the normal.
 struct SlicePlaces {
     VolumeFrame frame;                // spacing.z: the even step; size.z: the slices
-    std::vector<glm::dvec3> offsets;  // along frame.axes
+    std::vector<glm::dvec3> offsets;  // metres, along frame.axes
     bool upright = true;              // nothing to mend
     double largestGap = 0;            // metres
     double tilt = 0;                  // radians
 };
-// Sorts along the normal and checks; throws Error that names the slices unless all is even and upright or
-// `resample` is set, which mends gaps, uneven steps and tilt. Repeated slices and mixed sizes never pass.
-// strangers: files of the folder that may be what is missing; "" where there are none.
+// Sorts slices along the normal and checks them; throws Error that names the slices unless all is even and
+// upright or `resample` is set, which mends gaps, uneven steps and tilt. Repeated slices and mixed sizes
+// never pass. strangers: files of the folder that may be what is missing; "" where there are none.
 SlicePlaces placeSlices(const std::filesystem::path& folder, std::vector<DicomSlice>& slices, bool resample,
                         const std::string& strangers = "");
 
 // --- study_glance.cpp
-// Of DICOM: a folder, or one file. Throws Error, Cancelled.
+// Looks at the headers of DICOM: a folder, or one file. Throws Error, Cancelled.
 StudyGlance glanceAtSlices(const std::filesystem::path& place, Progress& progress);
 
 // --- study_pixels.cpp
@@ -166,8 +168,8 @@ void decodeSlices(const std::vector<const DicomSlice*>& slices, PictureDecoder& 
                   const std::function<void(const DicomSlice&, const double*)>& use);
 
 // --- study_resample.cpp
-// Onto an even, upright grid over all of the slices, by linear interpolation; places that no slice covers
-// get the least value. Throws Error when the new grid does not fit into memory.
+// Resamples onto an even, upright grid over all of the slices, by linear interpolation; places that no slice
+// covers get the least value. Throws Error when the new grid does not fit into memory.
 RawStudy resampleSlices(const RawStudy& raw, const SlicePlaces& places, const std::string& file);
 
 // --- study_values.cpp

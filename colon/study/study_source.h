@@ -22,7 +22,7 @@ struct StudySource {
     std::vector<std::pair<std::string, std::string>> pictures;  // SOP class and instance, by file
 };
 
-// Reads heads of files alone. Nothing where the study is not DICOM. Throws Error.
+// Reads the source from heads of files alone. Nothing where the study is not DICOM. Throws Error.
 std::optional<StudySource> sourceOf(const std::filesystem::path& path, const StudyOptions& options);
 
 }  // namespace stereonav

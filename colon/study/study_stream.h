@@ -13,15 +13,16 @@ namespace stereonav {
 class ByteStream {
 public:
     virtual ~ByteStream() = default;
-    // Up to `count` bytes, fewer only at the end. Throws Error where they are damaged.
+    // Reads up to `count` bytes, fewer only at the end, and returns how many. Throws Error where they are
+    // damaged.
     virtual std::size_t read(unsigned char* to, std::size_t count) = 0;
-    // After the last byte that is wanted: throws Error where the stream's own checksum, if it stands just
-    // behind, says that they are wrong.
+    // Called after the last byte that is wanted: throws Error where the stream's own checksum, if it stands
+    // just behind, says that they are wrong.
     virtual void finish() {}
 };
 
-// `offset`: bytes of the file to leave out. Text and Hex come as they are. Throws Error where `data` can not
-// be opened, or is no file.
+// Opens a stream. offset: bytes of the file to leave out. Text and Hex come as they are. Throws Error where
+// `data` can not be opened, or is no file.
 std::unique_ptr<ByteStream> openStream(const std::filesystem::path& data, std::uint64_t offset,
                                        SampleEncoding encoding);
 

@@ -15,16 +15,16 @@ public:
     // of that surface or of more.
     LineOfSight(const GreyVolume& field, const SurfaceCells& cells, double isovalue);
 
-    // No wall on the way, both ends included, however thin. World, metres. Where either end is outside the
-    // volume, the answer is no.
+    // Whether no wall is on the way, both ends included, however thin. World, metres. False where either end
+    // is outside the volume.
     bool clear(const glm::dvec3& from, const glm::dvec3& to) const;
 
-    // How far a line from `from` (in the lumen) gets towards `direction` (unit) before it meets wall, metres;
-    // `upTo` where it meets none before; 0 where it starts in the wall.
+    // Returns how far a line from `from` (in the lumen) gets towards `direction` (unit) before it meets wall,
+    // metres; `upTo` where it meets none before; 0 where it starts in the wall.
     double reach(const glm::dvec3& from, const glm::dvec3& direction, double upTo) const;
 
     double smallestSpacing() const { return mSmallest; }  // metres
-    // The trilinear value at a place, stored numbers; beyond the volume the isovalue, which is wall.
+    // Returns the trilinear value at a place, stored numbers; beyond the volume the isovalue, which is wall.
     double valueAt(const glm::dvec3& world) const;
 
 private:
@@ -33,7 +33,7 @@ private:
 
     const GreyVolume& mField;
     const SurfaceCells& mCells;
-    double mIsovalue, mSmallest;
+    double mIsovalue, mSmallest;  // stored number; metres
 };
 
 }  // namespace stereonav

@@ -18,15 +18,15 @@ struct WallMesh {
     std::vector<glm::vec3> places;                        // world, metres
     std::vector<glm::vec3> normals;                       // unit, into the lumen
     std::vector<float> areas;                             // square metres: a third of the triangles around it
-    std::vector<glm::ivec3> cells;                        // that it lies in, of the volume
+    std::vector<glm::ivec3> cells;                        // of the volume, that it lies in
     std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise as seen from the lumen
 
     double area() const;  // square metres
 };
 
-// The surface between voxels of `lumen` and others, where `field` reaches the isovalue of `cells` between
-// them. All three are of one frame; `cells` are those of that surface, or of more (findSurfaceCells). A
-// vertex is the mean of the places where the wall crosses its cell's edges, and a quadrilateral, cut along
+// Makes the surface between voxels of `lumen` and others, where `field` reaches the isovalue of `cells`
+// between them. All three are of one frame; `cells` are those of that surface, or of more (findSurfaceCells).
+// A vertex is the mean of the places where the wall crosses its cell's edges, and a quadrilateral, cut along
 // its shorter diagonal, joins the four cells around each such edge (Gibson, "Constrained elastic surface
 // nets", MICCAI 1998; without her relaxation: the places come from grey values). Flat walls are exact; round
 // ones are cut off by about an eighth of a voxel's square over the radius. The wall is open where the lumen
