@@ -14,17 +14,18 @@ namespace stereonav {
 // Throws Error where there is something else than a file: a folder, or a pipe or device, of which nobody
 // knows whether anything comes out of it. What is not there passes: the reader says so.
 void checkFileToRead(const std::filesystem::path& path);
-// "a folder", "a pipe"..., for messages.
+// Returns what a place is in a word for messages: "a folder", "a pipe"...
 std::string kindOfFile(const std::filesystem::path& path);
 
 // Whether its name begins with a dot. In a folder such files are other programs' own, as macOS's ._NAME
 // beside NAME: no reader of folders takes them for data.
 bool isHiddenFile(const std::filesystem::path& path);
 
-// Throws Error naming the path when it can not be read, is no file, or is more than there is memory.
+// Returns the whole content, byte for byte. Throws Error naming the path when it can not be read, is no file,
+// or is more than there is memory.
 std::string readTextFile(const std::filesystem::path& path);
 
-// "-", or a name that the system has for it, as /dev/stdout.
+// Whether the path is "-", or a name that the system has for standard output, as /dev/stdout.
 bool isStandardOutput(const std::filesystem::path& path);
 
 // Throws Error naming the path, the folder that is missing or can not be written, or what else is in the way.
@@ -83,6 +84,7 @@ void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path&)>& write,
                          Over over = Over::NothingRead);
 
+// Writes content as writeFileAtomically() does, and throws as it does.
 void writeTextFile(const std::filesystem::path& path, const std::string& content, Flush flush = Flush::ToDisk,
                    Over over = Over::NothingRead);
 

@@ -7,13 +7,14 @@
 
 namespace stereonav {
 
-// An open file was opened to be read. Counts regular files alone. From any thread.
+// Notes a file descriptor that was opened to be read. Counts regular files alone. From any thread.
 void noteFileRead(int file);
 
-// Whether it is one of those, under whatever name: links are followed. False where nothing is there.
+// Whether the file is one of those, under whatever name: links are followed. False where nothing is there.
 bool wasFileRead(const std::filesystem::path& path);
 
-// What the program itself has written may be written again, though it was looked at in between.
+// Takes the file from the list: what the program itself has written may be written again, though it was
+// looked at in between.
 void forgetFileRead(const std::filesystem::path& path);
 
 }  // namespace stereonav

@@ -3,8 +3,8 @@
 
 namespace stereonav {
 
-// Gives it back to the system. The C library keeps most of it else, for each thread its own, for what is
-// asked for next.
+// Gives freed memory back to the system. The C library otherwise keeps most of it, for each thread its own,
+// for what is asked for next.
 void giveBackFreeMemory();
 
 }  // namespace stereonav

@@ -10,6 +10,8 @@ namespace stereonav {
 
 class Hash {
 public:
+    // Hashes these bytes after all that came before. The other overloads add the bytes of text or of the
+    // number.
     Hash& add(const void* data, std::size_t bytes);
     Hash& add(std::string_view text) { return add(text.data(), text.size()); }
     Hash& add(double value) { return add(&value, sizeof value); }

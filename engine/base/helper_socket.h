@@ -21,11 +21,13 @@ struct HelperAnswer {
     std::string text;
 };
 
+// What stands before the bytes of a message.
 struct HelperHead {
-    std::uint64_t bytes = 0;
-    std::uint64_t kind = 0;  // of answers: HelperAnswer::Kind, but Ended
+    std::uint64_t bytes = 0;  // that follow
+    std::uint64_t kind = 0;   // of answers: HelperAnswer::Kind, but Ended
 };
 
+// The program's end of the connection to a helper.
 class HelperSocket {
 public:
     using Time = std::chrono::steady_clock::time_point;
@@ -41,8 +43,8 @@ public:
     HelperSocket(const HelperSocket&) = delete;
     HelperSocket& operator=(const HelperSocket&) = delete;
 
-    // Sends a request and takes its answer, of at most mostBytes; `answer` counts where it is Whole. All
-    // three: a wish to stop (stop.h) is heard within a tenth of a second and throws Cancelled.
+    // Sends a request and takes its answer, of at most mostBytes; `answer` counts where the result is Whole.
+    // This, send() and receive() hear a wish to stop (stop.h) within a tenth of a second and throw Cancelled.
     Fate ask(std::string_view request, std::uint64_t mostBytes, Time until, HelperAnswer& answer);
     Fate send(std::string_view bytes, Time until);
     Fate receive(void* to, std::size_t count, Time until);

@@ -23,7 +23,7 @@ public:
     static constexpr std::size_t kPadding = 64;
 
     LazyArray() = default;
-    // All zero. Throws std::bad_alloc when the address space does not hold it.
+    // An array of `count` zeros. Throws std::bad_alloc when the address space does not hold it.
     explicit LazyArray(std::size_t count) : mCount(count) {
         if (count == 0) return;
         void* p = mmap(nullptr, bytes(), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE,

@@ -16,7 +16,7 @@ double availableMemory(const std::filesystem::path& root = "/");
 // gives.
 void limitMemory(double bytes);
 
-// The same, where `bytes` are about to be taken. For tests: where the environment variable
+// Returns availableMemory(), where `bytes` are about to be taken. For tests: where the environment variable
 // STEREONAV_MEMORY_ASKED is the number of a file that is open to be added to (as by 9>>FILE), it gets a line
 // for each such question: the bytes that the process has taken, and those asked for. It names no file:
 // nothing is made or opened.
@@ -26,7 +26,7 @@ double availableMemoryFor(double bytes);
 // what: a file, an option, or ""; advice: what would need less.
 void checkMemory(const std::string& what, double bytes, const std::string& advice);
 
-// "1.5 GB", "12 MB"
+// Returns bytes for messages: "1.5 GB", "12 MB".
 std::string memoryText(double bytes);
 
 }  // namespace stereonav

@@ -5,9 +5,9 @@
 
 namespace stereonav {
 
-// Bytes; 0: none.
+// The limit in bytes; 0: none.
 std::atomic<double>& memoryLimit();
-// A module has this code a second time (module.h): it follows the program's limit.
+// Lets a module, which has this code a second time (module.h), follow the program's limit.
 void shareMemoryLimit(std::atomic<double>& program);
 
 }  // namespace stereonav

@@ -24,7 +24,7 @@ private:
     static constexpr double kAskEach = 4e6;  // bytes
 
     std::string mWhat, mAdvice;
-    double mUnasked = 0;
+    double mUnasked = 0;  // bytes taken since memory was last asked for
 };
 
 }  // namespace stereonav

@@ -27,8 +27,11 @@ struct ModuleEntry {
 extern "C" {
 [[gnu::visibility("default")]] extern const ModuleEntry stereonavModule;
 }
+// Returns what tells this build from others.
 const char* moduleBuild();
+// Lets the module's loops run on the program's threads (parallel.h).
 void shareLoopsOf(void* program);
+// Returns the entry of a module whose table of functions is `functions`.
 template <typename Functions>
 ModuleEntry moduleEntry(const Functions& functions) {
     return {moduleBuild(), sizeof functions, &functions, shareLoopsOf};
@@ -37,6 +40,7 @@ ModuleEntry moduleEntry(const Functions& functions) {
 // The table of the module stereonav_<name>, which stays loaded. purpose completes "it is needed ...". Throws
 // Error naming the file where the module, or a library that it needs, is missing, or it is of another build.
 const void* moduleTable(const std::string& name, const std::string& purpose, std::size_t size);
+// Returns the same table by its type.
 template <typename Functions>
 const Functions& moduleFunctions(const std::string& name, const std::string& purpose) {
     return *static_cast<const Functions*>(moduleTable(name, purpose, sizeof(Functions)));

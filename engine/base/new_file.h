@@ -6,8 +6,8 @@
 
 namespace stereonav {
 
-// The place itself where nothing is, else with the first number that is free before its extension:
-// flight_0002.mp4 beside flight.mp4. A pipe or a device stays what it is: it is written into.
+// Returns the wanted place where nothing is there, else the first free one with a number before its
+// extension: flight_0002.mp4 beside flight.mp4. A pipe or a device stays what it is: it is written into.
 std::filesystem::path freePlace(const std::filesystem::path& wanted);
 
 // A free place for what another process writes later: an empty file, or an empty folder, lies there until

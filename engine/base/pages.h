@@ -7,7 +7,8 @@
 
 namespace stereonav {
 
-// Bytes of the pages in use, of memory that begins with a page; all of them where that can not be told.
+// Returns the bytes of the pages in use, for memory that begins with a page; `bytes` where that can not be
+// told.
 std::size_t residentBytes(const void* start, std::size_t bytes);
 
 template <typename T>
@@ -19,7 +20,7 @@ std::size_t residentBytes(const LazyArray<T>& array) {
 // systems take a page for what was only read. Nobody may write to it meanwhile; reading is fine.
 void releaseZeroPages(const void* start, std::size_t bytes);
 
-// The same for some elements.
+// Does the same for `count` elements from `first` on.
 template <typename T>
 void releaseZeroPages(const LazyArray<T>& array, std::size_t first, std::size_t count) {
     releaseZeroPages(array.data() + first, count * sizeof(T));

@@ -22,11 +22,12 @@ int threadCount();
 // the program's first thread it throws Cancelled once a stop is wished (stop.h).
 void parallelFor(int count, const std::function<void(int)>& body, Schedule schedule = Schedule::Dynamic);
 
-// Loops that this thread starts from now on throw Cancelled once the flag is set, until null is given: for
-// work that is not worth its time any more. The flag outlives that.
+// Lets loops that this thread starts from now on throw Cancelled once the flag is set, until null is given:
+// for work that is not worth its time any more. The flag outlives them.
 void interruptLoopsBy(const std::atomic<bool>* stop);
 
-// A module (module.h) has this code a second time: it takes over the program's threads before its first loop.
+// For a module (module.h), which has this code a second time: it takes over the program's threads before its
+// first loop.
 void* loopsOfThisProgram();
 void shareLoops(void* program);
 

@@ -23,12 +23,13 @@ public:
     PlacedFile& operator=(PlacedFile&& other) noexcept;
 
     int error() const { return mError; }  // of opening, as errno; 0: it is open
-    // 0 where all of these bytes were read, or the error as errno; ENODATA where the file ends before.
+    // Reads `bytes` bytes from byte `at` on. Returns 0, or the error as errno; ENODATA where the file ends
+    // before.
     int read(std::uint64_t at, void* to, std::size_t bytes) const;
-    // 0, or the error as errno.
+    // Writes `bytes` bytes from byte `at` on. Returns 0, or the error as errno.
     int write(std::uint64_t at, const void* from, std::size_t bytes) const;
-    // Gives it that size, and all of its room at once: a full disk shows before the work is done. 0, or the
-    // error as errno.
+    // Gives the file that size, and all of its room at once: a full disk shows before the work is done.
+    // Returns 0, or the error as errno.
     int reserve(std::uint64_t bytes) const;
     int toDisk() const;  // waits until what was written is there; 0, or the error as errno
 

@@ -20,12 +20,12 @@ namespace stereonav {
 
 class Progress {
 public:
-    using Listener = std::function<void(double fraction, const std::string& what)>;
+    using Listener = std::function<void(double fraction, const std::string& what)>;  // fraction: 0 to 1
     using Reader = std::function<void(const std::string& note)>;
     Progress() = default;
     explicit Progress(Listener listener, Reader reader = {})
         : mListener(std::move(listener)), mReader(std::move(reader)) {}
-    // The part of another between two of its fractions. The other outlives it.
+    // The part of another Progress between two of its fractions, 0 to 1. The other outlives it.
     Progress(Progress& whole, double from, double to)
         : mListener([&whole, from, to](double fraction, const std::string& what) {
               whole.report(std::lerp(from, to, fraction), what);
@@ -59,13 +59,14 @@ private:
 // that, two threads could tell theirs the wrong way round.
 class ProgressSteps {
 public:
+    // Reports the first step's beginning. Throws as Progress::report() does.
     ProgressSteps(Progress& progress, std::size_t count, std::string what)
         : mProgress(progress), mCount(count), mWhat(std::move(what)) {
         mProgress.report(0, mWhat);
         if (mCount == 0) mProgress.report(1, mWhat);
     }
 
-    // Once a step, after it.
+    // Reports one more step, after it was done. Throws as Progress::report() does.
     void done() {
         const std::lock_guard lock(mMutex);
         ++mDone;

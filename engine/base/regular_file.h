@@ -21,10 +21,10 @@ public:
     int descriptor() const { return mFile; }
     std::uint64_t size() const { return mSize; }  // bytes, when it was opened
 
-    // From where the last one ended. Returns the bytes that were read, fewer than asked for at the end alone.
-    // Throws DiskError.
+    // Reads from where the last read() or seek() ended. Returns the bytes that were read, fewer than asked
+    // for at the end alone. Throws DiskError.
     std::size_t read(void* to, std::size_t bytes);
-    void seek(std::uint64_t byte);
+    void seek(std::uint64_t byte);  // from the file's beginning; throws DiskError
 
 private:
     std::filesystem::path mName;
@@ -32,7 +32,7 @@ private:
     std::uint64_t mSize = 0;
 };
 
-// The first bytes of a file, at most so many. Throws as a RegularFile does.
+// Returns the first bytes of a file, at most so many. Throws Error as RegularFile() does, and DiskError.
 std::string firstBytes(const std::filesystem::path& file, std::size_t bytes);
 
 }  // namespace stereonav

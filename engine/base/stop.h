@@ -7,18 +7,18 @@
 
 namespace stereonav {
 
-// From the first signal to the end, but for what is being finished.
+// Milliseconds from the first signal to the end, but for what is being finished.
 constexpr int kMostStopping_ms = 700;
-// For a run that holds so many bytes: less by what the system takes to take them back, so that the whole ends
-// within a second. 7.9 GB took 0.26 s.
+// Returns kMostStopping_ms for a run that holds so many bytes, less what the system takes to take them back,
+// so that the whole ends within a second. 7.9 GB took 0.26 s.
 int stoppingTime_ms(double bytes);
 
-// From here on SIGINT, SIGTERM and SIGHUP are such wishes, unless whoever started the program had them
+// From here on SIGINT, SIGTERM and SIGHUP are wishes to stop, unless whoever started the program had them
 // ignored. A second one ends the run at once. Beyond a limit on the size of files (SIGXFSZ) writing fails.
 void catchStopSignals();
 
 bool stopWished();
-// Throws Cancelled where one is wished, unless something is being finished.
+// Throws Cancelled where a stop is wished, unless something is being finished.
 void throwIfStopped();
 
 // While one lives, what was done so far is being finished or kept: nothing is cut off.
@@ -42,7 +42,7 @@ private:
     int mSlot;
 };
 
-// A module has this code a second time (module.h): it follows the program's wish.
+// For a module (module.h), which has this code a second time: it follows the program's wish.
 void* stopOfThisProgram();
 void shareStop(void* program);
 

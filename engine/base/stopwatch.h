@@ -1,4 +1,4 @@
-// Wall-clock time of a stage, in milliseconds.
+// Measures wall-clock time in milliseconds, from its construction on.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@ public:
     double elapsed_ms() const {
         return std::chrono::duration<double, std::milli>(Clock::now() - mStart).count();
     }
-    // Time since the start or the last lap, and starts the next lap.
+    // Returns the time since the start or the last lap, and starts the next lap.
     double lap_ms() {
         const auto now = Clock::now();
         const double ms = std::chrono::duration<double, std::milli>(now - mStart).count();

@@ -9,8 +9,8 @@ namespace stereonav {
 // Does nothing where the system has no priorities of threads.
 void stepBehindTheWindow();
 
-// So does a process that was just started, and further: what it computes may take hours, and the flight goes
-// on.
+// Puts a process that was just started behind too, and further: what it computes may take hours, and the
+// flight goes on.
 void putBehindTheWindow(int process);
 
 }  // namespace stereonav

@@ -7,7 +7,7 @@
 namespace stereonav {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kRadians = std::numbers::pi / 180;  // of one degree
+constexpr double kRadians = std::numbers::pi / 180;  // one degree in radians
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace stereonav

@@ -27,13 +27,13 @@ struct Body {
                (meanRadius > (1 - kAlike) * kEarthRadius && meanRadius < (1 + kAlike) * kEarthRadius);
     }
     constexpr double radius() const { return isEarth() ? kEarthRadius : meanRadius; }
-    // Where nothing is said: of air we know the Earth's alone.
+    // The refraction where none is said, 0 to 1: air is known of the Earth alone.
     constexpr double usualRefraction() const { return isEarth() ? kUsualRefraction : 0; }
 };
 
-// What the ground sinks by at a distance d: fall * d^2, metres.
-// refraction: the share of the curvature that light follows, 0 to 1; with 1 nothing sinks. A parabola in the
-// place of the sphere: 100 km away the two are 8 cm apart.
+// Returns `fall`, 1 / metres: at a distance of d metres the ground sinks by fall * d^2 metres. refraction:
+// the share of the curvature that light follows, 0 to 1; with 1 nothing sinks. A parabola in the place of the
+// sphere: 100 km away the two are 8 cm apart.
 constexpr double curvatureFall(double refraction, const Body& body = {}) {
     return (1 - refraction) / (2 * body.radius());
 }
@@ -42,20 +42,21 @@ struct EarthBend {
     glm::dvec2 middle{0.0};  // world: below the head, so that both eyes see one surface
     double fall = 0;         // 1 / metres, >= 0; 0: the Earth is level
 
+    // Metres by which the ground sinks there.
     double sinkAt(const glm::dvec2& place) const {
         const glm::dvec2 way = place - middle;
         return fall * glm::dot(way, way);
     }
-    // Where a place of the world is seen.
+    // Returns where a place of the world is seen.
     glm::dvec3 apparent(const glm::dvec3& place) const {
         return {place.x, place.y, place.z - sinkAt(glm::dvec2(place))};
     }
-    // The place of the world that is seen there.
+    // Returns the place of the world that is seen there.
     glm::dvec3 placeOf(const glm::dvec3& apparent) const {
         return {apparent.x, apparent.y, apparent.z + sinkAt(glm::dvec2(apparent))};
     }
-    // From an eye towards the place of the world that it sees at eye + t * direction: also at that t, which
-    // is not 0.
+    // Returns the direction from an eye towards the place of the world that it sees at eye + t * direction:
+    // also at that t, which is not 0.
     glm::dvec3 wayToPlace(const glm::dvec3& eye, const glm::dvec3& direction, double t) const {
         return {direction.x, direction.y, direction.z + sinkAt(glm::dvec2(eye + t * direction)) / t};
     }

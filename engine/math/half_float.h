@@ -9,7 +9,7 @@ namespace stereonav {
 
 constexpr float kLargestHalf = 65504.0f;
 
-// Round to nearest, ties to even. Beyond 65504 (infinities too): 65504. NaN: 65504 as well, never NaN.
+// Rounds to nearest, ties to even. Beyond 65504 (infinities too): 65504. NaN: 65504 as well, never NaN.
 inline std::uint16_t halfFromFloat(float v) {
     const std::uint32_t sign = std::bit_cast<std::uint32_t>(v) >> 16 & 0x8000u;
     const float positive = std::bit_cast<float>(std::bit_cast<std::uint32_t>(v) & 0x7fffffffu);
@@ -21,7 +21,8 @@ inline std::uint16_t halfFromFloat(float v) {
     return static_cast<std::uint16_t>(sign | (size < 0x1p-14f ? tiny : normal));
 }
 
-// What would be infinite or NaN is never written here; it becomes finite, 65536 and more.
+// Returns the half as a float. Infinities and NaN, which are never written here, become finite: 65536 and
+// more.
 inline float floatFromHalf(std::uint16_t half) {
     const std::uint32_t size = half & 0x7fffu;
     const float tiny = static_cast<float>(static_cast<std::int32_t>(size)) * 0x1p-24f;

@@ -5,7 +5,7 @@
 
 namespace stereonav {
 
-// 1, 2 or 5 times a power of ten: the least of them of which at most six fit into `range` (> 0).
+// Returns 1, 2 or 5 times a power of ten: the least of them of which at most six fit into `range` (> 0).
 inline double niceStep(double range) {
     const double raw = range / 6, power = std::pow(10.0, std::floor(std::log10(raw)));
     for (const double factor : {1.0, 2.0, 5.0})

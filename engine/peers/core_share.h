@@ -15,7 +15,7 @@ struct ProcessPlace {
 };
 ProcessPlace placeOfThisProcess();
 
-// Threads for each, 1 or more.
+// Returns how many threads each process gets, 1 or more.
 std::vector<int> coreShares(const std::vector<ProcessPlace>& places);
 
 }  // namespace stereonav

@@ -9,10 +9,11 @@ namespace stereonav {
 
 struct Launch {
     bool several = false;     // processes of one run
-    int rank = 0, count = 1;  // count 0: only that there are several is known
+    int rank = 0, count = 1;  // count 0: not known, but more than one
 };
 
-// variable: as std::getenv, null for what is not set.
+// Returns how a process with these environment variables was launched; variable: as std::getenv, null for
+// what is not set.
 Launch launchOf(const std::function<const char*(const char*)>& variable);
 // How this process was launched.
 Launch launchOfThisProcess();

@@ -9,6 +9,7 @@ namespace stereonav {
 
 class Naps {
 public:
+    // Sleeps for 20 microseconds, after each call twice as long, up to 2 ms.
     // busy: bytes are moving, and move only while they are looked after.
     void nap(bool busy) {
         if (busy) return std::this_thread::yield();

@@ -22,14 +22,14 @@ public:
     ByteWriter& put(const T& value) {
         return putAll(std::span<const T>(&value, 1));
     }
-    // The values alone: whoever reads them knows how many there are.
+    // Puts the values alone: whoever reads them knows how many there are.
     template <typename T>
     ByteWriter& putAll(std::span<const T> values) {
         static_assert(std::is_trivially_copyable_v<T>);
         append(std::as_bytes(values));
         return *this;
     }
-    // With their number before them.
+    // Puts the values with their number before them.
     template <typename T>
     ByteWriter& putArray(std::span<const T> values) {
         return put(values.size()).putAll(values);
@@ -43,11 +43,13 @@ private:
     PeerBytes mBytes;
 };
 
+// Takes out what ByteWriter put in, in the same order.
 // Throws Error where there are fewer bytes than asked for. The bytes must outlive it.
 class ByteReader {
 public:
     explicit ByteReader(std::span<const std::byte> bytes) : mLeft(bytes) {}
 
+    // The four throw Error where fewer bytes are left than they take.
     template <typename T>
     T get() {
         T value{};

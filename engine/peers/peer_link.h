@@ -25,11 +25,11 @@ public:
     virtual int count() const = 0;
     // Begins to send. Messages from one to another arrive in their order.
     virtual void send(int to, PeerKind kind, PeerBytes bytes) = 0;
-    // What came, if anything has.
+    // Returns what came, if anything has.
     virtual std::optional<PeerMessage> next() = 0;
     // Whether something is on its way to or from here, so that next() is worth calling without a pause.
     virtual bool busy() = 0;
-    // By all: the last call.
+    // Ends the link, as the last call of every process.
     virtual void leave() = 0;
     // Ends the run, this process among it.
     [[noreturn]] virtual void abort() = 0;

@@ -19,7 +19,7 @@ namespace stereonav {
 
 class PieceDesk;
 
-// What another process could not do: its whole line.
+// The failure of another process: its whole line.
 class PeerFailure : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -28,7 +28,8 @@ public:
 class Peers {
 public:
     Peers();  // one process: nothing is loaded, no thread started
-    // By all at once. greeting: the same for all, or check() throws.
+    // Joins the others; called by all processes at once. greeting: the same for all, or check() throws.
+    // Throws Error where a message is not the one expected, and Cancelled.
     Peers(std::unique_ptr<PeerLink> link, const std::string& greeting);
     ~Peers();
     Peers(const Peers&) = delete;
@@ -48,18 +49,20 @@ public:
     // does, and Cancelled.
     using Make = std::function<PeerBytes(std::size_t piece, std::span<const std::byte> order)>;
     void serve(const Make& make);
-    // What the first one told all, in its order. Throws Cancelled.
+    // Returns what the first one told all, in the order that it was told in. Throws Cancelled, and Error for
+    // another message.
     PeerBytes hear();
-    // For the first: tells what all others hear. Returns when it has been sent.
+    // For the first: tells what all others hear. Returns when it has been sent. Throws PeerFailure and
+    // Cancelled.
     void tellAll(const PeerBytes& bytes);
 
-    // First: whether another one has failed. Throws PeerFailure.
+    // For the first: throws PeerFailure where another one has failed.
     void throwIfFailed() const;
     bool failed() const;
-    // A good end, by all: waits for the first one.
+    // Ends the run well, called by all: the others wait for the first one. Throws PeerFailure and Cancelled.
     void leave();
-    // For several: an end of one, which ends all. Tells the line, on standard error and once for the run; a
-    // run that was stopped has none but the first one's.
+    // Ends all processes of the run. Tells the line, on standard error and once for the run; a run that was
+    // stopped has none but the first one's.
     [[noreturn]] void fail(const std::string& line);
 
     PieceDesk* desk() { return mDesk.get(); }
@@ -79,7 +82,7 @@ private:
 
 // The peers of this process, which is alone until joinRun() has found otherwise.
 Peers& peersOfThisRun();
-// What the first process finds, as all of them go on with it. T: of bytes alone.
+// Returns what the first process found, so that all of them go on with it. T: trivially copyable.
 template <typename T>
 T asTheFirst(Peers& peers, const T& found) {
     if (peers.alone()) return found;
@@ -87,7 +90,8 @@ T asTheFirst(Peers& peers, const T& found) {
     peers.tellAll(ByteWriter().put(found).take());
     return found;
 }
-// Joins those that were started with this one, if any. greeting: as of Peers. Throws Error.
+// Joins those that were started with this one, if any. greeting: as for Peers. Throws Error where they can
+// not be reached, or were started with other words.
 void joinRun(const std::string& greeting);
 
 }  // namespace stereonav

@@ -12,12 +12,12 @@ namespace stereonav {
 
 struct PieceWork {
     std::size_t count = 0;
-    // What a process has to know for the piece; may be empty. On another thread than `make` and `take`, at a
-    // time when this piece is with nobody.
+    // Returns what a process has to know for the piece; may be empty. On another thread than `make` and
+    // `take`, at a time when this piece is with nobody.
     std::function<PeerBytes(std::size_t piece)> order;
-    // The piece, here, as others do in serve().
+    // Makes a piece in this process, as others do in serve().
     Peers::Make make;
-    // What it came to. Where `inOrder` by ascending pieces, else as they come.
+    // Takes what a piece came to. Where `inOrder` by ascending pieces, else as they come.
     std::function<void(std::size_t piece, std::span<const std::byte> result)> take;
     bool inOrder = false;
     // In order: how far pieces may be begun beyond the first that is not taken yet, which bounds what waits.
@@ -26,7 +26,7 @@ struct PieceWork {
     std::function<bool()> ended;
 };
 
-// While it lives the others may be in serve(); by the first process.
+// Deals work from the first process. While it lives the others may be in serve().
 class PieceDealer {
 public:
     explicit PieceDealer(Peers& peers);
@@ -34,7 +34,8 @@ public:
     PieceDealer(const PieceDealer&) = delete;
     PieceDealer& operator=(const PieceDealer&) = delete;
 
-    // All pieces, `make` and `take` on this thread. Throws what they do, PeerFailure where another process
+    // Deals all pieces, `make` and `take` on this thread. Throws what they do, PeerFailure where another
+    // process failed, and Cancelled.
     // failed, and Cancelled.
     void deal(const PieceWork& work);
 

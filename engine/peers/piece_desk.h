@@ -18,17 +18,21 @@ class PieceDesk {
 public:
     explicit PieceDesk(PeerLink& link) : mLink(link) {}
     ~PieceDesk() { stop(); }
+    // Starts and ends the desk's thread.
     void start();
     void stop();
 
-    void open();   // a phase
-    void close();  // it: who asks for more is told that there is none
+    void open();   // lets the others ask for pieces of the next phase
+    void close();  // ends the phase: who asks for more is told that there is none
+    // Does the work as PieceDealer::deal() says.
     void deal(const PieceWork& work);
 
+    // The line of the first process that failed, if one has.
     std::optional<std::string> failure() const;
     bool hasFailed() const { return mFailed; }
+    // Sends to all others and returns when it has gone. Throws PeerFailure and Cancelled.
     void tellAll(const PeerBytes& bytes);
-    // Until all others are done with everything.
+    // Waits until all others have left. Throws PeerFailure and Cancelled.
     void waitForAll();
 
 private:
