@@ -14,10 +14,10 @@ struct EyeView {
     glm::dvec3 eye{0.0};                                        // world, metres
     glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  // world, orthonormal
     glm::dvec3 head{0.0};                                       // world: midway between the eyes
-    double xMin = -1, xMax = 1, yMin = -1, yMax = 1;            // the window at view depth 1
+    double xMin = -1, xMax = 1, yMin = -1, yMax = 1;            // the window at view depth 1, without unit
     int width = 0, height = 0;                                  // pixels
     double nearDepth = 0.1;                                     // metres, > 0: nothing nearer is seen
-    double fall = 0;                                            // of EarthBend, for who casts ground
+    double fall = 0;  // 1 / metres, as EarthBend's; 0 where the Earth is level
 
     double pixelWidth() const { return (xMax - xMin) / width; }    // at view depth 1
     double pixelHeight() const { return (yMax - yMin) / height; }  // at view depth 1
@@ -35,11 +35,11 @@ struct EyeView {
         return eye + viewDepth * rayDirection(x, y);
     }
 
-    // (x, y) in continuous image coordinates and the view depth. Points with view depth <= 0 lie
+    // Returns (x, y) in continuous image coordinates and the view depth. Points with view depth <= 0 lie
     // behind the eye and their x, y mean nothing.
     glm::dvec3 project(const glm::dvec3& world) const;
 
-    // The same view with `factor` x `factor` pixels for each: for supersampled truths.
+    // Returns the same view with `factor` x `factor` pixels for each: for supersampled truths.
     EyeView supersampled(int factor) const;
 };
 

@@ -18,8 +18,8 @@ using Keyframes = std::vector<PathSample>;
 std::size_t insertKeyframe(Keyframes& keyframes, const PathSample& keyframe);
 void removeKeyframe(Keyframes& keyframes, std::size_t place);
 
-// Poses with times from 0 on: each step takes what its way takes at that speed, or its turn at half a radian
-// a second, at least a tenth of a second. metresPerSecond: above 0. Throws Error.
+// Returns the poses with times from 0 on: each step takes what its way takes at that speed, or its turn at
+// half a radian a second, at least a tenth of a second. metresPerSecond: above 0. Throws Error.
 Keyframes timedKeyframes(const std::vector<Pose>& poses, double metresPerSecond);
 
 // The flight through them (KeyframeCurve), 60 samples a second and the keyframes themselves; fewer where that

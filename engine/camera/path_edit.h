@@ -9,8 +9,8 @@
 
 namespace stereonav {
 
-// The part from `from` to `to`, seconds since the path's start, cut to its ends. Throws Error unless both are
-// finite and from < to with something of the path between them.
+// Returns the part from `from` to `to`, seconds since the path's start, cut to its ends. Throws Error unless
+// both are finite and from < to with something of the path between them.
 RecordedPath trimmed(const RecordedPath& path, double from, double to);
 
 // Positions and rotations averaged over time by a Gaussian of this standard deviation, made of four extended
@@ -20,10 +20,10 @@ RecordedPath trimmed(const RecordedPath& path, double from, double to);
 // below, or NaN.
 RecordedPath smoothed(const RecordedPath& path, double seconds);
 
-// The same way at an even speed: pauses are gone, and so are places where it was flown slower or faster. Who
-// turns standing keeps the time of that; who turns while moving turns no faster than a radian a second, or
-// than before. metresPerSecond: none keeps the duration. A path that does not move is as it was. Throws Error
-// for a speed that is not above 0 or not finite.
+// Returns the same way at an even speed: pauses are gone, and so are places where it was flown slower or
+// faster. Who turns standing keeps the time of that; who turns while moving turns no faster than a radian a
+// second, or than before. metresPerSecond: none keeps the duration. A path that does not move is as it was.
+// Throws Error for a speed that is not above 0 or not finite.
 RecordedPath evenlyPaced(const RecordedPath& path, std::optional<double> metresPerSecond = std::nullopt);
 
 }  // namespace stereonav

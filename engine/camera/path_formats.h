@@ -7,20 +7,21 @@
 
 namespace stereonav {
 
-// OpenSceneGraph's text, as osgviewer records it (key z) and plays it (-p): a line a sample,
-// `t x y z qx qy qz qw`, in full precision. Read too: comments (#, //), the AnimationPath { ... }
-// block of .osg files around the lines, and a scale of three numbers after the rotation (ignored).
+// Reads OpenSceneGraph's text, as osgviewer records it (key z) and plays it (-p): a line a sample, `t x y z
+// qx qy qz qw`, in full precision. Reads comments (#, //), the AnimationPath { ... } block of .osg files
+// around the lines, and a scale of three numbers after the rotation (ignored), too. Throws Error with file
+// and line.
 RecordedPath readOsgPath(const std::filesystem::path& file);
 // Writes such text. Throws Error.
 void writeOsgPath(const std::filesystem::path& file, const RecordedPath& path);
 
-// glTF: the first camera node of the default scene that an animation moves, itself or through the
-// nodes above it. Times, positions and rotations are 32-bit floats in this format: a time or a
-// coordinate is kept to 6e-8 of its size, a millimetre at 16 km. Cubic splines and moving parents are
-// turned into samples with straight lines between them, to 1e-5 of the path's extent and 1e-4 rad; a
-// STEP becomes a change within a millisecond before its keyframe.
+// Reads from glTF the first camera node of the default scene that an animation moves, itself or through the
+// nodes above it. Times, positions and rotations are 32-bit floats in this format: a time or a coordinate is
+// kept to 6e-8 of its size, a millimetre at 16 km. Cubic splines and moving parents are turned into samples
+// with straight lines between them, to 1e-5 of the path's extent and 1e-4 rad; a STEP becomes a change within
+// a millisecond before its keyframe. Throws Error with file and place.
 RecordedPath readGltfPath(const std::filesystem::path& file);
-// Throws Error where a 32-bit float can not tell two times apart, and for times before 0.
+// Writes glTF. Throws Error where a 32-bit float can not tell two times apart, and for times before 0.
 void writeGltfPath(const std::filesystem::path& file, const RecordedPath& path);
 
 }  // namespace stereonav

@@ -7,10 +7,10 @@
 
 namespace stereonav {
 
-// "" when `sample` may follow `before` (null: it is the first); else what was expected and found.
+// Returns "" when `sample` may follow `before` (null: it is the first); else what was expected and found.
 std::string sampleProblem(const PathSample* before, const PathSample& sample);
 
-// The advice that goes with it.
+// The advice that goes with a problem of sampleProblem().
 inline constexpr const char* kSampleAdvice =
     "give each pose finite numbers, a later time and a rotation that is not zero";
 

@@ -22,7 +22,7 @@ struct PathTrack {
     glm::dvec4 at(double time, bool left) const;
 };
 
-// Throws Error naming animation, channel and keyframe.
+// Reads an animation's channel. Throws Error naming animation, channel and keyframe.
 PathTrack readPathTrack(const GltfFile& file, int animation, int channel);
 
 }  // namespace stereonav

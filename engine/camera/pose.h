@@ -19,8 +19,8 @@ struct Pose {
     glm::dvec3 forward() const { return orientation * glm::dvec3(0, 0, -1); }
 };
 
-// heading: clockwise from north seen from above; pitch: upwards from the horizon; roll: clockwise as
-// the viewer sees it (the right side goes down). All radians, any finite value.
+// Returns the pose with these angles. heading: clockwise from north seen from above; pitch: upwards from the
+// horizon; roll: clockwise as the viewer sees it (the right side goes down). All radians, any finite value.
 Pose poseFromAngles(const glm::dvec3& position, double heading, double pitch, double roll);
 
 // A pose's orientation by angles, as poseFromAngles() takes them.

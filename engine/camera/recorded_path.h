@@ -35,15 +35,16 @@ public:
     // The poses of `count` frames evenly spread over the whole path, first and last included
     // (count 1: the first).
     std::vector<Pose> frames(int count) const;
-    // The poses of frames at a fixed rate, from the start time while within the duration.
+    // The poses of frames at a fixed rate, from the start time while within the duration. Throws Error unless
+    // the rate is above 0, and for more frames than can be.
     std::vector<Pose> framesAtRate(double framesPerSecond) const;
 
 private:
     std::vector<PathSample> mSamples;
 };
 
-// By extension: .gltf and .glb (an animated camera node; y up is turned to z up), .path
-// (OpenSceneGraph text: t x y z qx qy qz qw a line). Throws Error with file and place.
+// Reads or writes a path by its extension: .gltf and .glb (an animated camera node; y up is turned to z up),
+// .path (OpenSceneGraph text: t x y z qx qy qz qw a line). Throws Error with file and place.
 RecordedPath readPath(const std::filesystem::path& file);
 void writePath(const std::filesystem::path& file, const RecordedPath& path);
 

@@ -15,7 +15,7 @@ struct Lens {
     double verticalFov = 0.8;   // radians, in (0, pi)
     double pixelAspect = 1.0;   // width / height of a pixel
     double nearDepth = 0.1;     // metres
-    double fall = 0;            // of EarthBend: 0 where the Earth is level
+    double fall = 0;            // 1 / metres, as EarthBend's: 0 where the Earth is level
     bool operator==(const Lens&) const = default;
 };
 
@@ -45,7 +45,7 @@ struct StereoViews {
 // are not finite or out of range.
 StereoViews makeStereoViews(const Pose& head, const Lens& lens, const StereoSetting& setting);
 
-// The single eye of the head itself, with a symmetric window.
+// The single eye of the head itself, with a symmetric window. Throws Error as makeStereoViews() does.
 EyeView makeEyeView(const Pose& head, const Lens& lens);
 
 }  // namespace stereonav

@@ -13,7 +13,8 @@ struct TimedPose {
     double time = 0;  // seconds since the path's start
 };
 
-// The poses of RecordedPath::frames and framesAtRate, with their times.
+// Returns the poses of RecordedPath::frames with their times. This and timedFramesAtRate(), which is of
+// framesAtRate, throw as those do.
 std::vector<TimedPose> timedFrames(const RecordedPath& path, int count);
 // Beside each of `frames`, which are timedFrames of the path, the pose `seconds` later, or earlier where the
 // path is at its end: as the path is flown. Empty where it is shorter than that.

@@ -23,6 +23,7 @@ inline glm::dvec3 gltfFromWorld(const glm::dvec3& p) {
     return {p.x, p.z, -p.y};
 }
 
+// A glTF file that was read.
 struct GltfFile {
     std::string name;  // for messages
     tinygltf::Model model;
@@ -38,25 +39,26 @@ GltfFile readGltf(const std::filesystem::path& file);
 // Whether a name ends like a glTF file's: .gltf or .glb, in any case.
 bool hasGltfExtension(const std::filesystem::path& file);
 
-// Elements of an accessor as numbers, `components` a piece; normalised integers become [0, 1] or
-// [-1, 1]. Sparse ones too; what a file has no data for is 0. Throws Error with `place` unless the
-// accessor exists, has that many components, lies inside its buffer, and every value is finite.
+// Returns an accessor's elements as numbers, `components` a piece; normalised integers become [0, 1] or [-1,
+// 1]. Sparse ones too; what a file has no data for is 0. Throws Error with `place` unless the accessor
+// exists, has that many components, lies inside its buffer, and every value is finite.
 std::vector<double> accessorValues(const GltfFile& file, int accessor, int components,
                                    const std::string& place);
-// Components of an accessor's elements (3 for VEC3); throws Error when there is no such accessor.
+// Returns the components of an accessor's elements (3 for VEC3); throws Error when there is no such accessor.
 int accessorComponents(const GltfFile& file, int accessor, const std::string& place);
-// Elements that accessorValues() may give: no more than the accessor's buffer has bytes for, 0 where
-// there is no such accessor.
+// Returns how many elements accessorValues() may give: no more than the accessor's buffer has bytes for, 0
+// where there is no such accessor.
 std::size_t accessorCountWithin(const GltfFile& file, int accessor);
 
+// Returns the bytes of a buffer view; throws Error with `place` where it is not in its buffer.
 std::span<const unsigned char> bufferViewBytes(const GltfFile& file, int bufferView,
                                                const std::string& place);
 
 // Translation, rotation and scale of a node; a matrix is used as it is when given.
 struct NodePlacement {
-    glm::dvec3 translation{0.0};
+    glm::dvec3 translation{0.0};  // metres, from the parent
     glm::dquat rotation = glm::dquat(1, 0, 0, 0);
-    glm::dvec3 scale{1.0};
+    glm::dvec3 scale{1.0};  // factors along the node's axes
     bool hasMatrix = false;
     glm::dmat4 matrix{1.0};
 
@@ -69,19 +71,21 @@ struct MetNode {
     int node = 0;
     int above = -1;  // place in the list of the one that it hangs on; -1: it is a root
 };
-// The nodes of the default scene (of all roots when there is none), parents before children. Throws Error on
-// loops and indices out of range.
+// Returns the nodes of the default scene (of all roots when there is none), parents before children. Throws
+// Error on loops and indices out of range.
 std::vector<MetNode> nodesOfScene(const GltfFile& file);
 
 // Appends data to buffer 0 as a new accessor and returns its index. elements: components * count
 // floats; bounds: write min and max (needed for positions and animation times).
 int addFloats(tinygltf::Model& model, std::span<const float> elements, int components, bool bounds,
               int target = 0);
+// Appends indices to buffer 0 as a new accessor and returns its index.
 int addIndices(tinygltf::Model& model, std::span<const std::uint32_t> indices);
 // Appends raw bytes to buffer 0 and returns the new buffer view.
 int addBytes(tinygltf::Model& model, std::span<const unsigned char> bytes, int target = 0);
 
-// By extension: .glb binary, .gltf text with the buffers embedded. Written beside and renamed.
+// Writes by extension: .glb binary, .gltf text with the buffers embedded. Throws Error naming the file where
+// it can not be written, or would be larger than 4 GiB.
 void writeGltf(const std::filesystem::path& file, const tinygltf::Model& model);
 
 }  // namespace stereonav

@@ -27,7 +27,7 @@ public:
             : mTexels(texels), mWidth(width), mHeight(height) {}
         int width() const { return mWidth; }
         int height() const { return mHeight; }
-        int stride() const { return mWidth + 1; }
+        int stride() const { return mWidth + 1; }  // texels from a row to the next
         const PackedColor* row(int y) const { return mTexels + static_cast<std::ptrdiff_t>(y) * stride(); }
         const PackedColor& at(int x, int y) const { return row(y)[x]; }
         std::size_t byteCount() const {
@@ -48,9 +48,9 @@ public:
     // memory stays where it is. No one may read meanwhile.
     void refill(const std::function<void(int y, PackedColor* row)>& fillRow);
 
-    // Linear, at a grid coordinate; beyond the edge its texels count on. level: 0 the finest, clamped to
-    // those there are. Bilinear in texels as they are stored, and from level to level over the middle half
-    // between them: the plain statement of what kernels and shaders read.
+    // Returns the linear RGB, 0 to 1, at a grid coordinate; beyond the edge its texels count on. level: 0 the
+    // finest, clamped to those there are. Bilinear in texels as they are stored, and from level to level over
+    // the middle half between them: the plain statement of what kernels and shaders read.
     glm::vec3 at(const glm::dvec2& grid, double level) const;
     // The texture as kernels read it by places, which lie at the grid coordinates (place - origin) / spacing.
     // It must outlive what is given.
@@ -58,7 +58,7 @@ public:
 
     int levelCount() const { return static_cast<int>(mOffsets.size()); }
     Level level(int k) const { return {mTexels.data() + mOffsets[k], widthOf(k), heightOf(k)}; }
-    std::int32_t offset(int k) const { return mOffsets[k]; }
+    std::int32_t offset(int k) const { return mOffsets[k]; }  // of level k, in texels from data()
     const PackedColor* data() const { return mTexels.data(); }
     // Level-0 texel coordinates (continuous, centre of texel 0 at 0.5) = (grid - origin) / perTexel.
     glm::dvec2 gridOrigin() const { return mGridOrigin; }

@@ -14,7 +14,7 @@ namespace stereonav {
 struct DecodedPicture {
     int width = 0, height = 0;
     int sampleBytes = 1;  // 1 or 2 of whole numbers, sRGB; 4 of floats, linear
-    std::string samples;
+    std::string samples;  // width * height * 3 numbers of sampleBytes bytes
 
     template <typename Sample>
     const Sample* pixels() const {
@@ -22,13 +22,13 @@ struct DecodedPicture {
     }
 };
 
-// What the helper answered for a picture with that head, which may lie on its side; nothing where it is no
-// such picture.
+// Returns what the helper answered for a picture with that head, which may lie on its side; nothing where it
+// is no such picture.
 std::optional<DecodedPicture> decodedPictureOf(std::string answer, const PictureHead& head);
 
-// format: what the content's first bytes say, and not Radiance. pixelBytes: what the caller makes of a pixel.
-// Sizes are bounded, and memory asked for in both processes, before anything is unpacked. Throws Error with
-// file and place, and Cancelled.
+// Unpacks a picture. format: what the content's first bytes say, and not Radiance. pixelBytes: what the
+// caller makes of a pixel. Sizes are bounded, and memory asked for in both processes, before anything is
+// unpacked. Throws Error with file and place, and Cancelled.
 DecodedPicture decodePicture(PictureFormat format, std::string_view content, std::size_t pixelBytes,
                              const std::string& file, const std::string& place);
 

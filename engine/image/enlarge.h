@@ -5,10 +5,11 @@
 
 namespace stereonav {
 
-// The same picture in width x height pixels, both >= 1: colours bilinear between the centres of pixels, in
-// the packed channels (square roots of linear light), and those of the border beyond the outermost centres;
-// depths of the nearest pixel, since what lies between two depths is seen nowhere. Planes for shading again
-// are left out. image: at least 1x1, not `large`, whose memory is used again where its size is the same.
+// Makes of a picture the same one in width x height pixels, both >= 1: colours bilinear between the centres
+// of pixels, in the packed channels (square roots of linear light), and those of the border beyond the
+// outermost centres; depths from the nearest pixel, since what lies between two depths is seen nowhere.
+// Planes for shading again are left out. image: at least 1x1, not `large`, whose memory is used again where
+// its size is the same.
 void enlarge(const EyeImage& image, int width, int height, EyeImage& large);
 
 }  // namespace stereonav

@@ -18,7 +18,7 @@ enum class ViewDependence {
     Depths      // it is gathered from several depths, that shift apart: how far is kept
 };
 
-constexpr float kMissDepth = std::numeric_limits<float>::infinity();
+constexpr float kMissDepth = std::numeric_limits<float>::infinity();  // view depth where nothing is hit
 
 struct EyeImage {
     Plane<PackedColor> color;
@@ -37,6 +37,7 @@ struct EyeImage {
     int width() const { return color.width(); }
     int height() const { return color.height(); }
 
+    // Gives the image the planes that `dependence` asks for, all of width x height pixels.
     void resize(int width, int height, ViewDependence dependence = ViewDependence::None) {
         const bool base = dependence == ViewDependence::Highlight;
         const bool any = base || dependence == ViewDependence::Normal;

@@ -16,24 +16,25 @@
 
 namespace stereonav {
 
-// PNG, JPEG, TIFF, BMP, WebP or Radiance by their first bytes, whatever their name is: 8 or 16 bits, gray or
-// colour, taken as sRGB; floats are linear. Row 0 is the top. Throws Error.
+// Reads PNG, JPEG, TIFF, BMP, WebP or Radiance, told by their first bytes, whatever their name is: 8 or 16
+// bits, gray or colour, taken as sRGB; floats are linear. Row 0 is the top. Throws Error.
 Plane<PackedColor> readColorImage(const std::filesystem::path& file);
 
-// The same from a picture's bytes held in memory; file and place are named in errors.
+// Reads a picture from its bytes in memory; file and place are named in errors. Throws Error.
 Plane<PackedColor> decodeColorImage(std::span<const unsigned char> bytes, const std::string& file,
                                     const std::string& place);
-// The bytes of a picture file, 8-bit sRGB; extension: ".png" or ".jpg". Throws Error.
+// Returns the bytes of a picture file, 8-bit sRGB; extension: ".png" or ".jpg". Throws Error.
 std::vector<unsigned char> encodeColorImage(const Plane<PackedColor>& image, const std::string& extension);
 
-// The same in linear RGB, row 0 at the top.
+// A picture in linear RGB, row 0 at the top.
 struct LinearImage {
     int width = 0, height = 0;
-    std::vector<glm::vec3> pixels;
+    std::vector<glm::vec3> pixels;  // width * height of them
 };
+// Reads what readColorImage() does. Throws Error.
 LinearImage readLinearImage(const std::filesystem::path& file);
 
-// By extension (.png, .jpg, ...), 8-bit sRGB; "-" is PNG to standard output. Written as all files are
+// Writes by extension (.png, .jpg, ...), 8-bit sRGB; "-" is PNG to standard output. Written as all files are
 // (engine/base/file.h). Throws Error.
 void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image,
                      Flush flush = Flush::ToDisk);

@@ -8,7 +8,8 @@
 
 namespace stereonav {
 
-// "data:image/png;base64,...", to stand as the address of a picture in HTML. image: at least 1 x 1.
+// Returns "data:image/png;base64,...", to stand as the address of a picture in HTML. Throws as pngBytes()
+// does.
 std::string inlinePicture(const Plane<PackedColor>& image);
 
 }  // namespace stereonav

@@ -13,6 +13,7 @@ struct ColorHalves {
     I redBlue, green;
 };
 
+// Opens packed colours into halves, and closes halves into packed colours, rounding to nearest.
 STEREONAV_INLINE ColorHalves openColor(I packed) {
     return {(shiftLeft<4>(packed) & I(0x3FF0)) | (packed & I(0x3FF00000)), shiftRight<6>(packed) & I(0x3FF0)};
 }
@@ -23,16 +24,19 @@ STEREONAV_INLINE I closeColor(ColorHalves c) {
            (shiftLeft<6>(green) & I(0xFFC00));
 }
 
+// Mixes a and b; weight: halvesOfWeight() of b's share.
 STEREONAV_INLINE ColorHalves mix(ColorHalves a, ColorHalves b, I weight) {
     return {lerpHalves(a.redBlue, b.redBlue, weight), lerpHalves(a.green, b.green, weight)};
 }
 
-// A weight in [0, 1] as 15-bit fixed point in both halves of a lane.
+// Returns weights in [0, 1] as 15-bit fixed point in both halves of a lane.
 STEREONAV_INLINE I halvesOfWeight(F w) {
     const I fixed = truncateToInt(w * F(32767.0f));
     return fixed | shiftLeft<16>(fixed);
 }
 
+// Mixes the texel at `index`, its neighbour and the two in the row above; fractions: 0 to 1. m: lanes to
+// read.
 STEREONAV_INLINE ColorHalves bilinearColor(const std::uint32_t* texels, I index, I stride, F fractionX,
                                            F fractionY, M m) {
     const float* base = reinterpret_cast<const float*>(texels);
@@ -42,7 +46,7 @@ STEREONAV_INLINE ColorHalves bilinearColor(const std::uint32_t* texels, I index,
                mix(openColor(asInt(north.first)), openColor(asInt(north.second)), x), y);
 }
 
-// x, y: level-0 texel coordinates, texel centres at halves.
+// Returns the colours of a level, 0 to levels - 1. x, y: level-0 texel coordinates, texel centres at halves.
 STEREONAV_INLINE ColorHalves colorInLevel(const TextureData& texture, F x, F y, I level, M m) {
     const I one = shiftLeft(I(1), level);
     const I width = shiftRight(I(texture.width - 1) + one, level);
@@ -55,7 +59,7 @@ STEREONAV_INLINE ColorHalves colorInLevel(const TextureData& texture, F x, F y, 
     return bilinearColor(texture.texels, lookup16(texture.offset, level) + j * stride + i, stride, fx, fy, m);
 }
 
-// Places as TextureData's; level: 0 to levels - 1.
+// Returns the colours at places in TextureData's coordinates; level: 0 to levels - 1, with fractions.
 STEREONAV_INLINE ColorHalves textureColor(const TextureData& texture, F placeX, F placeY, F level, M m) {
     const F x = mulAdd(placeX, F(texture.scaleX), F(texture.shiftX));
     const F y = mulAdd(placeY, F(texture.scaleY), F(texture.shiftY));

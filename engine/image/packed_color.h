@@ -22,6 +22,7 @@ inline PackedColor packColor(const glm::vec3& linear) {
     return channel(linear.x) | channel(linear.y) << 10 | channel(linear.z) << 20;
 }
 
+// Returns linear RGB, each in [0, 1].
 inline glm::vec3 unpackColor(PackedColor c) {
     constexpr float kScale = 1.0f / 1023.0f;
     const glm::vec3 root(static_cast<float>(c & 1023u) * kScale, static_cast<float>(c >> 10 & 1023u) * kScale,
@@ -29,13 +30,13 @@ inline glm::vec3 unpackColor(PackedColor c) {
     return root * root;
 }
 
-// IEC 61966-2-1, both in [0, 1].
+// Transfer functions of IEC 61966-2-1, from and to [0, 1].
 float linearFromSrgb(float encoded);
 float srgbFromLinear(float linear);
 
-// sRGB bytes of a packed channel (0..1023), rounded to nearest; for files and displays.
+// The sRGB byte of each packed channel (0..1023), rounded to nearest; for files and displays.
 const std::array<std::uint8_t, 1024>& srgbByteFromPacked();
-// Packed channel (0..1023) of an sRGB byte.
+// The packed channel (0..1023) of each sRGB byte.
 const std::array<std::uint16_t, 256>& packedFromSrgbByte();
 
 }  // namespace stereonav

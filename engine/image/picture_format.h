@@ -10,13 +10,13 @@ namespace stereonav {
 
 enum class PictureFormat : std::int32_t { Png, Jpeg, Tiff, Bmp, WebP, Radiance };
 
-// Nothing where it is none of these. content: the file's bytes.
+// Returns nothing where it is none of these. content: the file's bytes.
 std::optional<PictureFormat> pictureFormatOf(std::string_view content);
 
-// For messages: "give a PNG, ... file".
+// Advice for messages.
 inline constexpr const char* kGiveAPicture = "give a PNG, JPEG, TIFF, BMP, WebP or Radiance .hdr file";
 
-// Larger pictures are not read.
+// Sides and pixels of the largest pictures that are read.
 inline constexpr int kMostPictureSide = 65536;
 inline constexpr long long kMostPicturePixels = 1ll << 28;
 bool isPictureSize(long long width, long long height);
@@ -24,10 +24,10 @@ bool isPictureSize(long long width, long long height);
 // What a file says of its picture before anything is unpacked.
 struct PictureHead {
     long long width = 0, height = 0;
-    int sampleBytes = 1;  // of a channel: 1, 2, or 4 of floats
+    int sampleBytes = 1;  // bytes of a channel: 1, 2, or 4 of floats
 };
-// The head of the first picture in the file; nothing where it is cut off or makes no sense. Sizes are as the
-// file has them, however large. All formats but Radiance, whose reader is our own.
+// Returns the head of the first picture in the file; nothing where it is cut off or makes no sense. Sizes are
+// as the file has them, however large. Takes all formats but Radiance, whose reader is our own.
 std::optional<PictureHead> pictureHeadOf(PictureFormat format, std::string_view content);
 
 }  // namespace stereonav

@@ -36,7 +36,8 @@ public:
         return *this;
     }
 
-    // Keeps the memory when the size is the same; new memory is zero.
+    // Changes the size in pixels. Keeps the memory when it is the same; new memory is zero. Throws
+    // std::bad_alloc.
     void resize(int width, int height) {
         if (width == mWidth && height == mHeight) return;
         mWidth = width;

@@ -8,7 +8,8 @@
 
 namespace stereonav {
 
-// The bytes of a PNG file (ISO/IEC 15948): 8-bit sRGB, row 0 at the top. image: at least 1 x 1.
+// Returns the bytes of a PNG file (ISO/IEC 15948): 8-bit sRGB, row 0 at the top. Throws Error where the image
+// is not at least 1 x 1, and where memory is short.
 std::vector<unsigned char> pngBytes(const Plane<PackedColor>& image);
 
 }  // namespace stereonav

@@ -9,8 +9,8 @@
 
 namespace stereonav {
 
-// Linear RGB, row 0 at the top, of a file's bytes. Format 32-bit_rle_rgbe, rows from the top and columns from
-// the left; flat, old and new run lengths. Throws Error with file and place.
+// Returns a file's picture from its bytes: linear RGB, row 0 at the top. Format 32-bit_rle_rgbe, rows from
+// the top and columns from the left; flat, old and new run lengths. Throws Error with file and place.
 LinearImage radianceImageOf(std::string_view content, const std::string& file, const std::string& place);
 
 }  // namespace stereonav

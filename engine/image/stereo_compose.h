@@ -16,7 +16,7 @@
 
 namespace stereonav {
 
-// In the order in which a viewer steps through them.
+// Modes in the order in which a viewer steps through them.
 enum class OutputMode {
     Left,
     Right,
@@ -54,6 +54,7 @@ enum class OutputMode {
     QuadBuffer,  // both eyes to the graphics driver, which brings each to its eye
 };
 
+// Where the two eyes lie.
 enum class OutputLayout {
     OneEye,
     SideBySide,
@@ -67,18 +68,19 @@ enum class OutputLayout {
     QuadBuffer
 };
 
+// A mode's names and layout.
 struct OutputModeInfo {
     OutputMode mode;
     std::string_view shortName;  // FFmpeg's, "arcd"
     std::string_view longName;   // "red-cyan-dubois"
     OutputLayout layout;
     bool half;        // each eye squeezed along the layout's axis
-    bool rightFirst;  // the right eye comes first (or, of one eye, is the one)
+    bool rightFirst;  // the right eye comes first (or, where one eye is shown, is the one)
 };
 
 struct ComposeSetting {
     OutputMode mode = OutputMode::SideBySide;
-    bool swapEyes = false;
+    bool swapEyes = false;  // each eye is shown in the place of the other
     // Anaglyph matrices act on sRGB-encoded values by default, as FFmpeg and most players do (the
     // coefficients of Dubois are mostly quoted for that); true: on linear light, then encoded.
     bool linearAnaglyph = false;
@@ -86,46 +88,48 @@ struct ComposeSetting {
     bool operator==(const ComposeSetting&) const = default;
 };
 
-// Rows give the output's R, G, B; columns weigh left r, g, b, right r, g, b. Clamped to [0, 1] after.
+// Weights of sRGB or linear channels, 0 to 1: rows give the output's R, G, B; columns weigh left r, g, b,
+// right r, g, b. Clamped to [0, 1] after.
 using AnaglyphMatrix = std::array<std::array<float, 6>, 3>;
 
+// All modes, in their order.
 std::span<const OutputModeInfo> outputModes();
 const OutputModeInfo& infoOf(OutputMode mode);
 // Whether one picture can hold both eyes in this mode; else it is of windows alone.
 bool fitsInPicture(OutputMode mode);
-// FFmpeg's short names (tbl and abl alike) and the long ones; nullopt for any other.
+// Returns the mode of FFmpeg's short names (tbl and abl alike) or of the long ones; nullopt for any other.
 std::optional<OutputMode> outputModeFromName(std::string_view name);
-// All short names, "ml, mr, sbsl, ...": for messages. windows: those of windows alone, too.
+// Returns all short names, "ml, mr, sbsl, ...": for messages. windows: those of windows alone, too.
 std::string outputModeNames(bool windows);
 
-// For anaglyph modes only. Colour: each channel from the eye whose glass passes it. Gray: luma
-// .299 .587 .114 of that eye; channels of no glass stay dark. Half-colour: colour, but luma for the eye that
-// has one channel only. Dubois: E. Dubois, "A projection method to generate anaglyph stereo images", ICASSP
-// 2001, the coefficients published for LCDs.
+// Returns the weights of an anaglyph mode. Colour: each channel from the eye whose glass passes it. Gray:
+// luma .299 .587 .114 of that eye; channels of no glass stay dark. Half-colour: colour, but luma for the eye
+// that has one channel only. Dubois: E. Dubois, "A projection method to generate anaglyph stereo images",
+// ICASSP 2001, the coefficients published for LCDs.
 const AnaglyphMatrix& anaglyphMatrix(OutputMode mode);
 
-// Pixels of the picture composed from two eyes of width x height. Squeezed eyes have half the size,
-// rounded up.
+// Returns the width and height in pixels of the picture composed from two eyes of width x height. Squeezed
+// eyes have half the size, rounded up.
 std::pair<int, int> composedSize(OutputMode mode, int width, int height);
-// The other way round: the size of one eye for a picture of at most width x height; at least 1 x 1.
+// Returns the size of one eye for a picture of at most width x height; at least 1 x 1.
 std::pair<int, int> eyeSizeFor(OutputMode mode, int width, int height);
 
 // Share of a frame-packed picture's height that each eye takes: 1080 rows of 2205.
 constexpr float kPackedEye = 24.0f / 49.0f;
 
-// Pixels, (0, 0) top left.
+// A rectangle of pixels, (0, 0) top left.
 struct EyeArea {
     int x = 0, y = 0, width = 0, height = 0;
 
     bool operator==(const EyeArea&) const = default;
 };
-// Where the eye that comes first and the other one lie in a picture of this mode and size; the same place
-// twice where they share it. Empty where the picture is too small for two.
+// Returns where the eye that comes first and the other one lie in a picture of this mode and size; the same
+// place twice where they share it. Empty where the picture is too small for two.
 std::array<EyeArea, 2> eyeAreas(OutputMode mode, int width, int height);
 
-// Squeezed modes average pairs of pixels in linear light; interleaved modes take each pixel from the
-// eye whose turn it is, at its own place. Throws Error when the two sizes differ or are empty, and for
-// modes that do not fit in a picture.
+// Composes the picture of two eyes. Squeezed modes average pairs of pixels in linear light; interleaved modes
+// take each pixel from the eye whose turn it is, at its own place. Throws Error when the two sizes differ or
+// are empty, and for modes that do not fit in a picture.
 Plane<PackedColor> composeStereo(const Plane<PackedColor>& left, const Plane<PackedColor>& right,
                                  const ComposeSetting& setting);
 

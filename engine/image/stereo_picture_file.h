@@ -21,17 +21,18 @@ struct EyePlacement {
 bool isJps(const std::filesystem::path& file);
 bool isMpo(const std::filesystem::path& file);
 
-// One JPEG of both eyes beside each other, the right one on the left, with the segment that says so (APP3
-// "_JPSJPS_": Siragusa and others, General purpose stereoscopic data descriptor, VRex 1997).
-// pair: composed as OutputMode::CrossEyed. Throws Error.
+// Returns one JPEG of both eyes beside each other, the right one on the left, with the segment that says so
+// (APP3 "_JPSJPS_": Siragusa and others, General purpose stereoscopic data descriptor, VRex 1997). pair:
+// composed as OutputMode::CrossEyed. Throws Error.
 std::vector<unsigned char> jpsBytes(const Plane<PackedColor>& pair);
 
-// Two JPEGs one behind the other, the left eye first, with an index (CIPA DC-007, Multi-Picture Format).
-// Eyes of one size. Throws Error.
+// Returns two JPEGs one behind the other, the left eye first, with an index (CIPA DC-007, Multi-Picture
+// Format). Eyes of one size. Throws Error.
 std::vector<unsigned char> mpoBytes(const Plane<PackedColor>& left, const Plane<PackedColor>& right,
                                     const EyePlacement& placement);
 
-// The same of JPEG files that are there already, for jpsBytes and mpoBytes.
+// Return the same from JPEG files that are there already, for jpsBytes and mpoBytes. width, height: pixels of
+// one eye. Throw Error where a file is no whole JPEG.
 std::vector<unsigned char> jpsFromJpeg(std::span<const unsigned char> pair);
 std::vector<unsigned char> mpoFromJpegs(std::span<const unsigned char> left,
                                         std::span<const unsigned char> right, int width, int height,

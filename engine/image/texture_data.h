@@ -7,11 +7,11 @@
 namespace stereonav {
 
 struct TextureData {
-    const std::uint32_t* texels = nullptr;  // null: none
-    std::int32_t offset[16] = {};
-    int levels = 0, width = 0, height = 0;
+    const std::uint32_t* texels = nullptr;                 // null: none
+    std::int32_t offset[16] = {};                          // of a level's first texel, in texels
+    int levels = 0, width = 0, height = 0;                 // of level 0
     float scaleX = 1, scaleY = 1, shiftX = 0, shiftY = 0;  // texel = place * scale + shift
-    float texelsPerMetre = 1;
+    float texelsPerMetre = 1;                              // of level 0
 };
 
 }  // namespace stereonav

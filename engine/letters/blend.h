@@ -5,7 +5,8 @@
 
 namespace stereonav {
 
-// The share of `over`, 0 to 255. Between packed values, whose steps look alike, in whole numbers.
+// Returns a mixture of two colours. share: of `over`, 0 to 255. Mixed between packed values, whose steps look
+// alike, in whole numbers.
 inline PackedColor blended(PackedColor under, PackedColor over, unsigned share) {
     const auto channel = [&](unsigned shift) -> PackedColor {
         const unsigned below = under >> shift & 1023u, above = over >> shift & 1023u;

@@ -16,16 +16,17 @@ namespace stereonav {
 class Letters {
 public:
     static constexpr int kLeastHeight = 5, kMostHeight = 400;
-    // Pixels from the top of the highest letter to the foot of the lowest one, within these bounds.
+    // The height in pixels from the top of the highest letter to the foot of the lowest one, within these
+    // bounds.
     explicit Letters(int height);
     ~Letters();
     Letters(Letters&&) noexcept;
     Letters& operator=(Letters&&) noexcept;
 
     int height() const;
-    // A line of text, pixels.
+    // Returns the width and height of a line of text, pixels.
     glm::dvec2 sizeOf(const std::string& text) const;
-    // With its top left corner there; what lies beside the picture is left out.
+    // Draws a line with its top left corner there; what lies beside the picture is left out.
     void draw(const std::string& text, const glm::ivec2& corner, PackedColor ink,
               Plane<PackedColor>& image) const;
 
@@ -34,7 +35,8 @@ private:
     std::unique_ptr<Font> mFont;
 };
 
-// A dark plate with round corners, for letters to stand on: pixels of the picture. share: of black, 0 to 255.
+// Darkens a plate with round corners, for letters to stand on. low, high, radius: pixels of the picture.
+// share: of black, 0 to 255.
 void drawPlate(const glm::ivec2& low, const glm::ivec2& high, double radius, unsigned share,
                Plane<PackedColor>& image);
 

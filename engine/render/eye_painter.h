@@ -16,8 +16,8 @@ public:
     // Changes image.color where image.viewDepth, of this view, hits a surface. The work inside runs on all
     // threads. Not while what it paints is being changed.
     virtual void paint(const EyeView& view, EyeImage& image) const = 0;
-    // This colour, linear RGB, at a place of the surface, world, metres, for pictures that no eye sees. What
-    // is drawn by the size of pixels is not there. From many threads.
+    // Returns `color`, linear RGB, as it is painted at a place of the surface, world, metres, for pictures
+    // that no eye sees. What is drawn by the size of pixels is not there. From many threads.
     virtual glm::vec3 paintPlace(const glm::dvec3& /*world*/, const glm::vec3& color) const { return color; }
 };
 

@@ -11,6 +11,7 @@
 
 namespace stereonav {
 
+// Pixels of a picture, (0, 0) top left.
 struct PixelRect {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // x0 <= x < x1, y0 <= y < y1
     int width() const { return x1 - x0; }
@@ -21,6 +22,7 @@ struct PixelIndex {
     std::uint16_t x, y;
 };
 
+// A scene as rays see it. View depths are metres.
 class EyeRenderer {
 public:
     virtual ~EyeRenderer() = default;
@@ -28,7 +30,7 @@ public:
     // Pictures from these two eyes come next: what is chosen by where they are (the level of detail) is
     // chosen now, and stays for both. Not while a picture is cast.
     virtual void lookFrom(const EyeView& /*left*/, const EyeView& /*right*/) const {}
-    // The same for pictures from one.
+    // Does the same for pictures from one eye.
     void lookFrom(const EyeView& eye) const { lookFrom(eye, eye); }
 
     // The scene chooses how a picture is cut into tiles (bands of columns for terrain). Together the

@@ -20,21 +20,21 @@ struct Legend {
 
 // A place that is marked on the surface: world, metres.
 struct PaintedPlace {
-    std::string name;  // "" where it has none
-    glm::dvec3 world{0.0};
+    std::string name;       // "" where it has none
+    glm::dvec3 world{0.0};  // metres
 };
 
 // A line that is drawn on the surface, or an area's border, whose first place is not repeated.
 struct PaintedLine {
     std::string name;  // "" where it has none
     bool closed = false;
-    std::vector<glm::dvec2> world;  // x, y; those beside the surface among them
+    std::vector<glm::dvec2> world;  // x, y in metres; places beside the surface are among them
 };
 
-// A capability of scenes (engine/scene/capabilities.h).
+// The legends, notes, places and lines of a scene: a capability (engine/scene/capabilities.h).
 struct PaintLegend {
     std::vector<Legend> legends;
-    std::vector<std::string> notes;  // of what could not be painted, a sentence each
+    std::vector<std::string> notes;  // what could not be painted, a sentence each
     std::vector<PaintedPlace> places;
     std::vector<PaintedLine> lines;
 };

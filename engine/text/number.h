@@ -9,14 +9,15 @@ namespace stereonav {
 
 enum class Plus { Refused, Allowed };  // before a number
 
-// The number that the text begins with, which `rest` then begins behind; also "inf" and "nan". What no double
-// holds is 0 or infinite. None, and `rest` as it was, where it begins with something else.
+// Takes the number that the text begins with, which `rest` then begins behind; also "inf" and "nan". What no
+// double holds is 0 or infinite. Returns none, and leaves `rest` as it was, where it begins with something
+// else.
 std::optional<double> takeNumber(std::string_view& rest, Plus plus = Plus::Refused);
-// The whole text as a number; also "inf" and "nan", and 0 where no double is so small. None where it is
-// something else or beyond all doubles.
+// Returns the whole text as a number; also "inf" and "nan", and 0 where no double is so small. None where it
+// is something else or beyond all doubles.
 std::optional<double> numberOf(std::string_view text, Plus plus = Plus::Refused);
 
-// The whole number that the text begins with, as takeNumber.
+// Takes the whole number that the text begins with, as takeNumber() does.
 template <typename Whole>
 std::optional<Whole> takeWhole(std::string_view& rest, Plus plus = Plus::Refused) {
     const std::string_view digits = rest.substr(plus == Plus::Allowed && rest.starts_with('+') ? 1 : 0);
@@ -26,7 +27,7 @@ std::optional<Whole> takeWhole(std::string_view& rest, Plus plus = Plus::Refused
     rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
     return value;
 }
-// The whole text as a whole number; none where it is something else, or the type does not hold it.
+// Returns the whole text as a whole number; none where it is something else, or the type does not hold it.
 template <typename Whole>
 std::optional<Whole> wholeOf(std::string_view text, Plus plus = Plus::Refused) {
     const std::optional<Whole> value = takeWhole<Whole>(text, plus);

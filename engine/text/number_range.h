@@ -7,16 +7,17 @@
 
 namespace stereonav {
 
-// Open ends are not taken themselves.
+// Numbers from low to high in `unit`. Open ends are not taken themselves.
 struct NumberRange {
     double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
     bool openLow = false, openHigh = false;
     const char* unit = "";  // "degrees", "metres"; "": none
 
-    // Never of NaN and what is infinite.
+    // False for NaN and what is infinite.
     bool holds(double number) const;
 };
 
+// Returns a range with both of its ends; above() one without `low`.
 constexpr NumberRange within(double low, double high, const char* unit = "") {
     return {low, high, false, false, unit};
 }
@@ -24,9 +25,9 @@ constexpr NumberRange above(double low, double high, const char* unit = "") {
     return {low, high, true, false, unit};
 }
 
-// The number as a person writes it: "170", "1e6", "0.001".
+// Returns the number as a person writes it: "170", "1e6", "0.001".
 std::string shortNumber(double number);
-// "1 to 170 degrees", "more than 0 and at most 1e6 mm", "any number"
+// Returns a range in words: "1 to 170 degrees", "more than 0 and at most 1e6 mm", "any number".
 std::string rangeText(const NumberRange& range);
 
 }  // namespace stereonav

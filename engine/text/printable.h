@@ -17,10 +17,11 @@ bool isPrintable(char32_t letter);
 // Ends of lines (\n) and tabs: shown as other control characters are, or left as they are.
 enum class Breaks { Shown, Kept };
 
-// Each byte of what is not printable or is no UTF-8 becomes \xNN; of more bytes than `most` the middle is
-// left out. Printable text stays as it is, so that doing it twice changes nothing.
+// Returns words as they may be shown: each byte of what is not printable or is no UTF-8 becomes \xNN; of more
+// bytes than `most` the middle is left out. Printable text stays as it is, so that doing it twice changes
+// nothing.
 std::string printable(std::string_view text, std::size_t most = kLongestWords, Breaks breaks = Breaks::Shown);
-// The same of any length, with its ends of lines and tabs.
+// Returns the same at any length, with its ends of lines and tabs.
 std::string printableLines(std::string_view text);
 
 }  // namespace stereonav

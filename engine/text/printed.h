@@ -7,15 +7,15 @@
 
 namespace stereonav {
 
-// One line; its end is added.
+// Prints one line; its end is added.
 void printLine(std::FILE* to, std::string_view line);
-// Lines that the program has laid out. A word from a file that stands in them is printable() before: a line
-// that it breaks would look as one of the program's own.
+// Prints lines that the program has laid out. A word from a file that stands in them is printable() before: a
+// line that it breaks would look as one of the program's own.
 void printLines(std::FILE* to, std::string_view lines);
-// A document that is text in a form of its own, which lets nothing else through (json_text.h); its end is
-// added.
+// Prints a document that is text in a form of its own, which lets nothing else through (json_text.h); its end
+// is added.
 void printDocument(std::string_view document);
-// "stereonav: note" on standard error.
+// Prints "stereonav: note" on standard error.
 void printNote(std::string_view note);
 
 }  // namespace stereonav

@@ -6,11 +6,11 @@
 
 namespace stereonav {
 
-// Fewest letters put in, left out, replaced, or two neighbours exchanged ("siez" is 1 from "size"), each
-// place touched once: the optimal string alignment distance. Bytes, not characters.
+// Returns the fewest letters put in, left out, replaced, or two neighbours exchanged ("siez" is 1 from
+// "size"), each place touched once: the optimal string alignment distance. Bytes, not characters.
 int editDistance(std::string_view a, std::string_view b);
 
-// The nearest of some words, of equally near ones the first; "" where there are none.
+// Returns the nearest of some words, of equally near ones the first; "" where there are none.
 template <typename Words>
 std::string nearestWord(std::string_view word, const Words& words) {
     std::string nearest;

@@ -23,17 +23,17 @@ public:
     TomlDocument(const TomlDocument&) = delete;
     TomlDocument& operator=(const TomlDocument&) = delete;
 
-    // The table [name]; an empty one when the file has none.
+    // Returns the table [name]; an empty one when the file has none.
     TomlSection section(const std::string& name);
-    // A text before the first section; "" where there is none.
+    // Returns a text before the first section; "" where there is none.
     std::string rootText(const std::string& key);
-    // The tables [[name]], in the order of the file.
+    // Returns the tables [[name]], in the order of the file.
     std::vector<TomlSection> sections(const std::string& name);
 
     // Throws one Error: for all keys that were never asked for, each with its line and the nearest
     // known one; else for the first wrong value.
     void finish() const;
-    // The same for one section alone.
+    // Does the same for one section alone. Throws Error.
     void finishSection(const std::string& name) const;
 
 private:
@@ -50,17 +50,18 @@ public:
     void read(const std::string& key, bool& value);
     void read(const std::string& key, std::string& value);  // not empty
     void read(const std::string& key, double& value, const NumberRange& range);
+    // all of them or none
     void read(const std::string& key, std::span<double> values, const NumberRange& range);
     void read(const std::string& key, std::int64_t& value, std::int64_t low, std::int64_t high);
     // Degrees in the file, radians in `value`.
     void readDegrees(const std::string& key, double& value, const NumberRange& rangeDegrees);
 
-    // A value as an option of the command line has it: a list of numbers is one text, with commas between
-    // them; a list of anything else one text for each. Empty where the key is absent.
+    // Returns a value as an option of the command line has it: a list of numbers is one text, with commas
+    // between them; a list of anything else one text for each. Empty where the key is absent.
     std::vector<std::string> texts(const std::string& key);
     // Whether the value is true or false.
     bool isFlag(const std::string& key) const;
-    // 0 where the key is absent.
+    // Returns the key's line, from 1; 0 where the key is absent.
     int line(const std::string& key) const;
     // Leaves this table's keys to somebody else who knows them.
     void leave();

@@ -11,13 +11,13 @@ constexpr char32_t kNoLetter = 0xfffd;  // U+FFFD stands for what is none
 
 struct Letter {
     char32_t code = kNoLetter;
-    std::size_t bytes = 0;  // it takes so many; 0 at the end of the text
+    std::size_t bytes = 0;  // how many it takes; 0 at the end of the text
 };
 
-// The one that starts at a byte of the text. A byte that starts none, a form longer than need be, a surrogate
-// and what lies beyond U+10FFFF are kNoLetter, of one byte.
+// Returns the letter that starts at a byte of the text. A byte that starts none, a form longer than need be,
+// a surrogate and what lies beyond U+10FFFF are kNoLetter, of one byte.
 Letter letterAt(std::string_view text, std::size_t at);
-// Whether a byte of the text started none: U+FFFD itself takes three.
+// Whether a byte of the text started no letter: U+FFFD itself takes three.
 inline bool isNoLetter(const Letter& letter) {
     return letter.code == kNoLetter && letter.bytes < 3;
 }
@@ -26,10 +26,10 @@ inline bool isInsideLetter(char byte) {
     return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
 }
 
-// The text up to so many bytes, cut between two letters.
+// Returns the text up to so many bytes, cut between two letters.
 std::string_view firstBytes(std::string_view text, std::size_t most);
 
-// The text up to so many letters, with an ellipsis in the place of those that were cut off.
+// Returns the text up to so many letters, with an ellipsis in the place of those that were cut off.
 std::string firstLetters(const std::string& text, std::size_t most);
 
 }  // namespace stereonav
