@@ -15,7 +15,7 @@ public:
     explicit CastFrames(const EyeRenderer& renderer, std::optional<RightEyeMethod> uncompared = {})
         : mRenderer(renderer), mUncompared(uncompared) {}
 
-    // Whatever is cast.
+    // The methods of whatever is cast.
     static std::span<const std::string_view> allMethods();
     std::span<const std::string_view> methods() const override { return allMethods(); }
     std::string_view defaultMethod() const override;

@@ -22,21 +22,21 @@ namespace stereonav {
 // How the eyes are to be made.
 struct FrameWay {
     std::string_view method;  // one of FrameMaker::methods(); "": the default
-    WarpSetting warp{};       // of methods that warp: all but which one it is
-    EdgeSetting edges{};      // of scenes whose rays are cast
+    WarpSetting warp{};       // for methods that warp: all but which one it is
+    EdgeSetting edges{};      // for scenes whose rays are cast
 };
 
-// The way of a setting, its method too.
+// Returns the way of a setting, its method too.
 inline FrameWay wayOf(const WarpSetting& setting) {
     return {nameOf(setting.method), setting};
 }
 
 // What the parts of a frame took.
 struct FrameTimings {
-    double both_ms = 0;                     // of the whole frame
-    double left_ms = 0, right_ms = 0;       // of each eye; 0 where they are made together
-    std::optional<RightEyeTimings> warped;  // of a right eye that came from the left one
-    EdgeTimings edges;                      // of both eyes; its time is part of theirs
+    double both_ms = 0;                     // the whole frame
+    double left_ms = 0, right_ms = 0;       // each eye; 0 where they are made together
+    std::optional<RightEyeTimings> warped;  // where the right eye came from the left one
+    EdgeTimings edges;                      // both eyes; its time is part of theirs
 };
 
 // The two pictures of a frame.
@@ -45,8 +45,8 @@ struct EyePair {
     FrameTimings timings;
 };
 
-// What is held between frames beside the pictures, bytes.
-struct HeldBytes {
+// Memory that is held between frames beside the pictures.
+struct HeldBytes {  // in words for the window's figures
     const char* what;
     std::size_t bytes;
 };
@@ -82,25 +82,25 @@ public:
     virtual std::span<const std::string_view> methods() const = 0;
     // The method that "" stands for.
     virtual std::string_view defaultMethod() const = 0;
-    // Each eye by itself: what the others are measured against.
+    // The method that makes each eye by itself: what the others are measured against.
     virtual std::string_view exactMethod() const = 0;
-    // Those that a comparison runs when none are named, in the order of methods().
+    // The methods that a comparison runs when none are named, in the order of methods().
     virtual std::vector<std::string_view> compared() const { return {methods().begin(), methods().end()}; }
     // What these methods make, as in "right eye": the rest is the same for all.
     virtual std::string_view whatMethodsMake() const = 0;
 
-    // Both eyes; sizes the images. time: seconds, of what moves by itself. Throws Error for a method that is
-    // not among methods().
+    // Makes both eyes; sizes the images. time: seconds, for what moves by itself. Throws Error for a method
+    // that is not among methods().
     virtual void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) = 0;
-    // One eye, into frame.left.
+    // Makes one eye, into frame.left.
     virtual void makeOne(const EyeView& view, double time, EyePair& frame) = 0;
-    // Null where methods make both eyes together, or one each its own way.
+    // What makes the right eye alone; null where methods make both eyes together, or one each its own way.
     virtual RightFromLeft* rightFromLeft() { return nullptr; }
 
-    // Which method is worth its time on frames like these (all of one size, at least one), by measuring;
-    // nothing where there is nothing to weigh.
+    // Returns by measuring which method is worth its time on frames like these (all of one size, at least
+    // one); nothing where there is nothing to weigh.
     virtual std::optional<FramePlan> measure(std::span<const StereoViews>) { return std::nullopt; }
-    // The way that meets a wish for quality at the least cost, measured on frames like these
+    // Returns the way that meets a wish for quality at the least cost, measured on frames like these
     // (quality_plan.h). method: to be kept, or "" for any. Nothing where methods have no such dial. Throws
     // Error.
     virtual std::optional<QualityPlan> meet(const QualityWish&, std::string_view /*method*/,
@@ -108,7 +108,7 @@ public:
         return std::nullopt;
     }
 
-    // What is held now, a row for each kind.
+    // Returns what is held now, a row for each kind.
     virtual std::vector<HeldBytes> held() const { return {}; }
 };
 

@@ -1,6 +1,6 @@
 // A picture that becomes the truth: frames of one pose, each with its rays at other places in the pixels,
-// averaged in linear light; of a medium its slices at other places too. Of whatever a FrameMaker makes; each
-// frame is made as one of one ray a pixel is, at its cost.
+// averaged in linear light; of a medium its slices at other places too. Whatever a FrameMaker makes can be
+// refined; each frame is made as one of one ray a pixel is, at its cost.
 #pragma once
 
 #include "engine/frame/frame_maker.h"
@@ -19,17 +19,17 @@ public:
     // Makes another frame of the same views, time and way, and puts it into the mean. Throws Error as
     // FrameMaker::make does; what was gathered before stays then.
     void add(FrameMaker& frames, const StereoViews& views, double time, const FrameWay& way);
-    // The same of one eye, by FrameMaker::makeOne.
+    // Adds the same of one eye, by FrameMaker::makeOne.
     void addOne(FrameMaker& frames, const EyeView& view, double time);
 
-    // In place of the first frame: one that was made of these views, with its rays through the centres.
+    // Takes in place of the first frame one that was made of these views, with its rays through the centres.
     void begin(const EyePair& made);
 
     // The mean colours of all frames since the last restart, at least one. All other planes, and who made
     // them how, are those of the first, whose rays go through the centres of pixels. Times are those of the
     // last. Worked out when asked.
     EyePair& mean();
-    const FrameTimings& timings() const { return mMean.timings; }  // of the last
+    const FrameTimings& timings() const { return mMean.timings; }  // the last frame's
     int count() const { return mCount; }                           // frames, which is rays a pixel
 
     // How far the mean is expected to be from that of very many rays: the root mean square over channels and
@@ -39,7 +39,7 @@ public:
     // were seen. Without any, 0.1 of a step and less, it says less than there is, since frames are rounded.
     // Infinite before the second frame.
     double error_levels() const;
-    // The same as a PSNR; 0 before the second frame, kMostPsnr_db at most.
+    // The same error as a PSNR; 0 before the second frame, kMostPsnr_db at most.
     double error_db() const;
 
 private:

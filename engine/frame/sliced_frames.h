@@ -11,8 +11,8 @@ public:
     // Share of a slab by which the slices of the next frames lie elsewhere: 0 is how they are made alone;
     // from there on to below 1.
     virtual void setTurn(double turn) = 0;
-    // Factor on the number of slices of the next frames, and its root on the light's texels a side: 1 is what
-    // the scene asks for.
+    // Sets the factor on the number of slices of the next frames, whose root is the one on the light's texels
+    // a side: 1 is what the scene asks for.
     virtual void setEffort(double share) = 0;
 };
 

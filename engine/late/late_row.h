@@ -10,10 +10,10 @@ namespace stereonav {
 constexpr int kLateTileWidth = 16, kLateTileHeight = 8;  // pixels
 constexpr int kMostLateSteps = 32;                       // of a search along a ray
 
-// Inverse depths, 1 / metres: 0 is infinitely far.
+// Inverse depths of a tile, 1 / metres: 0 is infinitely far.
 struct LateTile {
     float farthest = 0, nearest = 0;
-    float jump = 0;  // the largest difference of neighbours, also across its right and its lower border
+    float jump = 0;  // the largest difference of neighbours, also across the tile's right and lower border
 };
 
 // A picture that was cast. Behind each row lies room for a vector (Plane).

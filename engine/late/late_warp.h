@@ -15,32 +15,33 @@
 
 namespace stereonav {
 
-// The place of a pixel of `to` in the picture of `from`.
+// Returns where a pixel of `to` lies in the picture of `from`.
 LateMove lateMove(const EyeView& from, const EyeView& to);
 
 // What is worked out once for each picture that was cast.
 class LateEye {
 public:
-    // depth: metres along the viewing axis; infinite is the sky; what is 0 or no number is not known. Pixels
-    // beside much nearer ones are taken for as near: smooth edges have colours of both.
-    // soft: of what is seen through, whose colours have more than one depth: depths without edges, and what
-    // is infinitely far beside them goes with them, so that nothing tears.
+    // Works out what warp() needs of a picture. depth: metres along the viewing axis; infinite is the sky;
+    // what is 0 or no number is not known. Pixels beside much nearer ones are taken for as near: smooth edges
+    // have colours of both. soft: for what is seen through, whose colours have more than one depth: depths
+    // without edges, and what is infinitely far beside them goes with them, so that nothing tears.
     void prepare(const Plane<float>& depth, const EyeView& view, SimdTarget simd = SimdTarget::Auto,
                  bool soft = false);
-    // Nothing is there any more; the memory stays.
+    // Makes ready() false; the memory stays.
     void forget() { mReady = false; }
     bool ready() const { return mReady; }          // something is prepared
     const EyeView& view() const { return mView; }  // that it was cast from
-    // What depths lie around a place of the picture, or of its border where that is beside it. ready() holds.
+    // Returns what depths lie around a place of the picture, or of its border where that is beside it.
+    // ready() holds.
     const LateTile& tileAt(double x, double y) const;
 
-    // The picture `color`, of the prepared size, as `to` sees it, in as many pixels as `to` has. uncovered:
-    // 255 where nothing was seen before, or null. On this thread alone: with parallel, on all.
+    // Makes the picture `color`, of the prepared size, as `to` sees it, in as many pixels as `to` has.
+    // uncovered: 255 where nothing was seen before, or null. On this thread alone; with parallel, on all.
     void warp(const Plane<PackedColor>& color, const EyeView& to, Plane<PackedColor>& image,
               Plane<std::uint8_t>* uncovered = nullptr, bool parallel = false) const;
 
-    // For who warps it elsewhere: inverse depths, and how each tile of the new picture is to be looked up,
-    // row by row. ready() holds.
+    // Inverse depths, 1 / metres, and how each tile of the new picture is to be looked up, row by row, for
+    // who warps elsewhere. ready() holds.
     const Plane<float>& inverse() const { return mInverse; }
     LateMove planAll(const EyeView& to, std::vector<LatePlan>& plans) const;
 
@@ -54,8 +55,8 @@ private:
     EyeView mView;
     Plane<float> mInverse;
     std::vector<LateTile> mTiles;
-    int mAcross = 0, mDown = 0;  // tiles
-    float mFarthest = 0, mNearest = 0;
+    int mAcross = 0, mDown = 0;         // tiles
+    float mFarthest = 0, mNearest = 0;  // inverse depths, 1 / metres
 };
 
 }  // namespace stereonav

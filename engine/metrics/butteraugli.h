@@ -11,13 +11,14 @@
 
 namespace stereonav {
 
-// cd/m^2 of white: the reference display of sRGB (IEC 61966-2-1), which is also what libjxl takes unasked. A
-// brighter screen shows errors in the dark a little better.
+// White in cd/m^2: that of sRGB's reference display (IEC 61966-2-1), which is also what libjxl takes unasked.
+// A brighter screen shows errors in the dark a little better.
 constexpr float kButteraugliWhite_nits = 80;
 
+// Distances, 0 and more, without unit.
 struct ButteraugliMap {
-    double norm3 = 0;  // over the picture, as libjxl has it: the mean of the 3-, 6- and 12-norms
-    double max = 0;    // of its places
+    double norm3 = 0;  // distance of the whole picture, as libjxl has it: the mean of the 3-, 6- and 12-norms
+    double max = 0;    // the largest distance of a place
     Plane<float> distances;
 };
 
@@ -29,9 +30,10 @@ ButteraugliMap butteraugliOf(const Plane<PackedColor>& truth, const Plane<Packed
 struct ButteraugliParts {
     double inside = 0, outside = 0;
 };
+// distances: a map's; the mask is inside where it is not 0. Throws Error where their sizes differ.
 ButteraugliParts partsOf(const Plane<float>& distances, const Plane<std::uint8_t>& mask);
 
-// For the eye: grey, black at 0, half bright (in sRGB) at 1, white from 2.
+// Returns a picture for the eye: grey, black at 0, half bright (in sRGB) at 1, white from 2.
 Plane<PackedColor> pictureOf(const Plane<float>& distances);
 
 }  // namespace stereonav

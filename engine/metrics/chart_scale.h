@@ -19,14 +19,15 @@ public:
     ChartScale(const std::vector<double>& values, Kind kind);
 
     bool logarithmic() const { return mLogarithmic; }
-    // 0 at the low end, 1 at the high end; values beyond the ends are put there, NaN at the low end.
+    // Returns a value's place: 0 at the low end, 1 at the high end; values beyond the ends are put there, NaN
+    // at the low end.
     double place(double value) const;
 
     struct Tick {
-        double value;
+        double value;  // in the unit of the axis
         std::string text;
     };
-    // Two to about seven, all within the scale.
+    // Returns two to about seven ticks, all within the scale.
     std::vector<Tick> ticks() const;
 
 private:

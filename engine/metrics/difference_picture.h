@@ -7,10 +7,11 @@
 
 namespace stereonav {
 
-// The picture with red where the mask is set.
+// Returns the picture with red where the mask is set. Throws Error where their sizes differ.
 Plane<PackedColor> holesInRed(const Plane<PackedColor>& image, const Plane<std::uint8_t>& holeMask);
 
-// |image - truth| a channel on sRGB bytes, times `factor`, black where they agree.
+// Returns |image - truth| a channel on sRGB bytes, times `factor`, black where they agree. Throws Error where
+// their sizes differ.
 Plane<PackedColor> differenceTimes(const Plane<PackedColor>& truth, const Plane<PackedColor>& image,
                                    int factor);
 

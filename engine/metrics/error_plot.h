@@ -21,12 +21,12 @@ struct PlotPanel {
     std::vector<PlotPoint> points;
 };
 
-// Indices of the points that no other point beats (smaller or equal in both, smaller in one), by
+// Returns the indices of the points that no other point beats (smaller or equal in both, smaller in one), by
 // rising time.
 std::vector<std::size_t> paretoFront(const std::vector<PlotPoint>& points);
 
-// panels: at least one with at least one point each. caption: a line under the panels. 760 x 620
-// pixels a panel. Throws Error.
+// Draws panels: at least one with at least one point each. caption: a line under the panels. 760 x 620 pixels
+// a panel. Throws Error.
 Plane<PackedColor> drawErrorPlot(const std::vector<PlotPanel>& panels, const std::string& caption);
 
 }  // namespace stereonav

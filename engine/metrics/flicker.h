@@ -15,10 +15,10 @@ struct Moments {
     const Plane<PackedColor>&before, &now;
 };
 
-// The PSNR of (image.now - image.before) - (truth.now - truth.before), pixel by pixel, in sRGB levels over
-// the three channels together; kIdenticalPsnr_db (image_difference.h) at most. An error that is the same in
-// both frames costs nothing; errors that have nothing to do with each other cost 3 dB more than each alone.
-// All of one size, not empty. Throws Error otherwise.
+// Returns the PSNR, dB, of (image.now - image.before) - (truth.now - truth.before), pixel by pixel, in sRGB
+// levels over the three channels together; kIdenticalPsnr_db (image_difference.h) at most. An error that is
+// the same in both frames costs nothing; errors that have nothing to do with each other cost 3 dB more than
+// each alone. All of one size, not empty. Throws Error otherwise.
 double flickerPsnr(const Moments& truth, const Moments& image);
 
 }  // namespace stereonav

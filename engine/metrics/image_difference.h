@@ -9,24 +9,26 @@
 
 namespace stereonav {
 
-// What identical pictures get for a PSNR, and the largest value given: the true one is infinite.
+// The PSNR of identical pictures, and the largest value given: the true one is infinite.
 constexpr double kIdenticalPsnr_db = 100.0;
 
 struct ImageDifference {
     double psnr_db = kIdenticalPsnr_db;             // over the three channels together
-    double ssim = 1.0;                              // mean of the channels, 11 x 11 Gaussian window
+    double ssim = 1.0;                              // -1 to 1: mean of the channels, 11 x 11 Gaussian window
     double rgb_mean = 0, rgb_p99 = 0, rgb_max = 0;  // Euclidean distance in RGB, 0..441.7
     double edge_psnr_db = kIdenticalPsnr_db;        // inside the mask only; an empty mask: identical
 };
 
-// All three of one size, at least 1 x 1; the mask is set where it is not 0. Throws Error otherwise.
+// Compares three planes of one size, at least 1 x 1; the mask is set where it is not 0. Throws Error
+// otherwise.
 ImageDifference differenceOf(const Plane<PackedColor>& truth, const Plane<PackedColor>& image,
                              const Plane<std::uint8_t>& edgeMask);
 
+// Returns ImageDifference::psnr_db alone. Throws Error where sizes differ.
 double psnrOf(const Plane<PackedColor>& truth, const Plane<PackedColor>& image);
 
-// Where a warp can go wrong: the holes, and both sides of every depth edge (neighbours whose
-// parallax, parallaxScale / viewDepth, differs by more than a pixel), all grown by `radius` pixels.
+// Returns 255 where a warp can go wrong, else 0: the holes, and both sides of every depth edge (neighbours
+// whose parallax, parallaxScale / viewDepth, differs by more than a pixel), all grown by `radius` pixels.
 Plane<std::uint8_t> edgeMask(const Plane<std::uint8_t>& holeMask, const Plane<float>& viewDepth,
                              double parallaxScale, int radius);
 

@@ -13,9 +13,10 @@
 namespace stereonav {
 
 struct MeanSquare {
-    double sum = 0;  // over the three channels
+    double sum = 0;  // squared sRGB levels (0 to 255) over the three channels
     long long pixels = 0;
 
+    // levels: the difference of two pixels, -255 to 255 a channel.
     void add(const glm::vec3& levels) {
         sum += glm::dot(levels, levels);
         ++pixels;
@@ -24,7 +25,7 @@ struct MeanSquare {
         sum += other.sum;
         pixels += other.pixels;
     }
-    // kIdenticalPsnr_db at most; NaN of no pixels.
+    // Returns kIdenticalPsnr_db at most; NaN without pixels.
     double psnr_db() const {
         if (pixels == 0) return std::numeric_limits<double>::quiet_NaN();
         const double mean = sum / (3.0 * static_cast<double>(pixels));
@@ -33,6 +34,7 @@ struct MeanSquare {
     }
 };
 
+// Adds up all rows.
 inline MeanSquare sumOf(const std::vector<MeanSquare>& rows) {
     MeanSquare all;
     for (const MeanSquare& row : rows) all.add(row);

@@ -19,19 +19,19 @@ namespace stereonav {
 struct ComparisonSetting {
     std::vector<std::string_view> methods;  // of FrameMaker::methods()
     int repeats = 3;                        // timed runs of a frame, >= 1; the fastest counts
-    int truthFactor = 8;                    // finer truths have truthFactor^2 rays a pixel
+    int truthFactor = 8;                    // at least 1: finer truths have truthFactor^2 rays a pixel
     int edgeRadius = 2;                     // pixels by which the edge mask is grown
     std::vector<StereoSetting> eyes;        // one a pose; empty: the same at all
     // The neighbour of each pose in the flight (timedBeside), for flicker; empty: there is no such figure.
     std::vector<TimedPose> beside;
-    EdgeSetting edges;         // of both eyes, by every method, where rays are cast; times are with them
-    bool butteraugli = false;  // too, which takes longer than most methods
+    EdgeSetting edges;         // for both eyes, by every method, where rays are cast; times are with them
+    bool butteraugli = false;  // Butteraugli too, which takes longer than most methods
 };
 
-// Where a FrameMaker's methods differ in the right eye alone (FrameMaker::rightFromLeft) the left one is made
-// once, and errors are those of the right one. Elsewhere they are those of both eyes together; there is no
-// finer truth and nothing is warped: what is only then there is NaN below. Times in ms and errors of one
-// method: of one frame, or medians over frames.
+// Times in ms and errors of one method: of one frame, or medians over frames. Where a FrameMaker's methods
+// differ in the right eye alone (FrameMaker::rightFromLeft) the left one is made once, and errors are those
+// of the right one. Elsewhere they are those of both eyes together; there is no finer truth and nothing is
+// warped: what is only then there is NaN below.
 struct MethodFigures {
     std::string name;
     double left_ms = 0;  // one eye by itself, which every method needs
@@ -39,7 +39,7 @@ struct MethodFigures {
     double warp_ms = 0, fill_ms = 0, right_ms = 0;
     double full_right_ms = 0;    // the right eye by itself, in the same run
     double pair_ms = 0;          // both eyes, from the first ray to the last pixel
-    double hole_percent = 0;     // pixels cast again, or swept without a known start, of all
+    double hole_percent = 0;     // pixels cast again, or swept without a known start: share of all
     ImageDifference difference;  // from each eye by itself
     // PSNR of the right eye and of the left one, as the method uses it, from truths with many rays a pixel;
     // NaN: there are none.
@@ -67,6 +67,7 @@ struct MethodPicture {
     // Map of what errors are counted in: the right eye, or the left one over it; empty: not asked for.
     const Plane<float>& butteraugli;
 };
+// One frame as every method made it.
 struct ComparedFrame {
     int index = 0;
     const EyeImage &left, &right;  // each by itself
@@ -84,8 +85,8 @@ std::vector<MethodFigures> compareMethods(FrameMaker& frames, const std::vector<
                                           const ComparisonSetting& setting, Progress& progress,
                                           const ComparedFrameListener& listener);
 
-// The median of each field (the mean of the middle two for an even count), of frames that have it: NaN where
-// none has. frames: not empty.
+// Returns the median of each field (the mean of the middle two for an even count) over frames that have it:
+// NaN where none has. frames: not empty. Throws Error otherwise.
 MethodFigures medianOf(const std::vector<MethodFigures>& frames);
 
 }  // namespace stereonav

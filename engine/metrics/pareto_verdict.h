@@ -10,15 +10,16 @@
 
 namespace stereonav {
 
+// A way as it was measured.
 struct Way {
     std::string name;
-    Spread time;       // >= 0
-    double error = 0;  // >= 0
+    Spread time;       // >= 0, in any unit
+    double error = 0;  // >= 0, in any unit
     bool isDefault = false;
 };
 
-// Indices of the ways that none beats (smaller or equal in both, smaller in one), by rising time. Ways that
-// were not measured are never among them.
+// Returns the indices of the ways that none beats (smaller or equal in both, smaller in one), by rising time.
+// Ways that were not measured are never among them.
 std::vector<std::size_t> frontOf(const std::vector<Way>& ways);
 
 // How a way stands to the front.
@@ -26,17 +27,17 @@ struct ParetoVerdict {
     bool onFront = false;
     // Not on the front, but nothing beats it by more than the spread of its time and kSameError of its error.
     bool withinNoise = false;
-    // Those that beat it: the fastest, and the share of time it saves; the one with the least error, and the
-    // share of error it saves. "" where none does.
+    // The ways that beat it: the fastest, and the share of time it saves; the one with the least error, and
+    // the share of error it saves. "" where none does.
     std::string faster, better;
-    double timeSaved = 0, errorSaved = 0;
+    double timeSaved = 0, errorSaved = 0;  // 0 to 1
 };
 constexpr double kSameError = 0.01;  // errors nearer to each other than this share count as the same
 
-// ways[which] is one of them.
+// Judges ways[which].
 ParetoVerdict verdictOf(const std::vector<Way>& ways, std::size_t which);
 
-// One sentence about the front, and one about each default.
+// Returns one sentence about the front, and one about each default.
 std::string frontText(const std::vector<Way>& ways);
 
 }  // namespace stereonav

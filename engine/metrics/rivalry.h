@@ -17,10 +17,10 @@ struct TwoEyes {
     const Plane<PackedColor>&left, &right;
 };
 
-// Where the right eye sees what the centre of each pixel of the left eye sees: the column of a pixel in the
-// same row, 0 for the first pixel's centre; -1 where it does not see it. depths: the view depths of both
-// eyes, each cast by itself. Seen are pixels whose two neighbours in the right eye lie within a pixel of
-// parallax of the left one's depth. Throws Error where sizes differ.
+// Returns where the right eye sees what the centre of each pixel of the left eye sees: the column of a pixel
+// in the same row, 0 for the first pixel's centre; -1 where it does not see it. depths: the view depths of
+// both eyes, each cast by itself, metres. Seen are pixels whose two neighbours in the right eye lie within a
+// pixel of parallax of the left one's depth. Throws Error where sizes differ.
 Plane<float> columnsInRightEye(const StereoViews& views, const Plane<float>& leftDepth,
                                const Plane<float>& rightDepth);
 
@@ -29,12 +29,12 @@ struct Rivalry {
     // the right eye's interpolated between two pixels; kIdenticalPsnr_db (image_difference.h) at most, NaN
     // where both see nothing.
     double psnr_db = 0;
-    double edge_psnr_db = 0;  // of those alone with a pixel of the mask in the right eye
+    double edge_psnr_db = 0;  // the same for those alone with a pixel of the mask in the right eye
     double seen_percent = 0;  // pixels that both eyes see, of the left eye's
 };
 
-// columns: by columnsInRightEye; rightMask: holes and edges of the right eye (edgeMask). All of one size, not
-// empty. Throws Error otherwise.
+// Compares the pairs. columns: by columnsInRightEye; rightMask: holes and edges of the right eye (edgeMask).
+// All of one size, not empty. Throws Error otherwise.
 Rivalry rivalryOf(const Plane<float>& columns, const TwoEyes& truth, const TwoEyes& image,
                   const Plane<std::uint8_t>& rightMask);
 

@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// Levels, 0 to 255, of a packed channel (0..1023).
+// The level, 0 to 255, of each packed channel (0..1023).
 const std::array<float, 1024>& srgbLevelFromPacked();
 
 inline glm::vec3 srgbLevels(PackedColor color) {

@@ -11,7 +11,7 @@ namespace stereonav {
 
 struct SurfaceDifference {
     long long surfacePixels = 0;  // that show the scene in the full cast
-    long long holePixels = 0;     // of them: cast again, or left open
+    long long holePixels = 0;     // those of them that were cast again, or left open
     // "The ratio between the number of hole pixels and the warped ones", of pixels that show the scene.
     // NaN where none of them is warped.
     double holesOfWarped_percent = 0;
@@ -20,13 +20,14 @@ struct SurfaceDifference {
     double psnr_db = 0;
 };
 
-// full: the right eye cast in full; right: what a method made; holeMask: 255 where it cast again, or left
-// open (leavesHoles), 0 where it warped. All of one size. Throws Error otherwise.
+// Compares a right eye with its truth. full: the right eye cast in full; right: what a method made; holeMask:
+// 255 where it cast again, or left open (leavesHoles), 0 where it warped. All of one size. Throws Error
+// otherwise.
 SurfaceDifference surfaceDifference(const EyeImage& full, const EyeImage& right,
                                     const Plane<std::uint8_t>& holeMask, bool leavesHoles);
 
-// Where a row's holes lie (Table 1 of the paper): right of all that was warped, left of it, or between. Of
-// pixels that show the scene; sums to holePixels of surfaceDifference.
+// Counts of holes by where they lie in a row (Table 1 of the paper): right of all that was warped, left of
+// it, or between. Only pixels that show the scene; the sum is holePixels of surfaceDifference.
 struct GapPixels {
     long long rightEnd = 0, middle = 0, leftEnd = 0;
 };

@@ -14,7 +14,7 @@ namespace stereonav {
 
 struct ChartPoint {
     std::string name;
-    Spread x, y;
+    Spread x, y;             // in the units that the axes' labels say
     bool isDefault = false;  // of the program: drawn with a ring
 };
 
@@ -34,14 +34,14 @@ struct Chart {
 // Pixels of the drawing, which scales with the page.
 constexpr double kChartWidth = 420, kChartHeight = 320;
 
-// An <svg> element. Points with a value that is not finite, or not measured, are left out. On a logarithmic
-// axis zeros lie on a line of their own, "0", below the rest.
+// Returns an <svg> element. Points with a value that is not finite, or not measured, are left out. On a
+// logarithmic axis zeros lie on a line of their own, "0", below the rest.
 std::string svgOf(const Chart& chart);
 
-// Printable (engine/text/printable.h), with <, >, & and quotes made harmless in XML and HTML.
+// Returns printable text (engine/text/printable.h), with <, >, & and quotes made harmless in XML and HTML.
 std::string escapedXml(std::string_view text);
 
-// What labels stand beside: for tests, and for svgOf.
+// A rectangle that labels stand in, in pixels, y downwards: for tests, and for svgOf.
 struct LabelBox {
     double x = 0, y = 0, width = 0, height = 0;
     bool overlaps(const LabelBox& other) const {
@@ -51,10 +51,10 @@ struct LabelBox {
 };
 struct LabelWish {
     std::string text;
-    double x = 0, y = 0;  // of the point
+    double x = 0, y = 0;  // the point's, pixels
 };
-// For each wish, in their order, a box near its point that is inside the frame and clear of all points and
-// boxes before; width 0 where there is no such place.
+// Returns for each wish, in their order, a box near its point that is inside the frame and clear of all
+// points and boxes before; width 0 where there is no such place.
 std::vector<LabelBox> placeLabels(const std::vector<LabelWish>& wishes, const LabelBox& frame);
 
 }  // namespace stereonav

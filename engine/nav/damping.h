@@ -5,7 +5,7 @@
 
 namespace stereonav {
 
-// `rate` (a number or a vector, a second) goes to `wanted`, 63 % of the way in `time` seconds; returns what
+// Brings `rate` (a number or a vector, a second) to `wanted`, 63 % of the way in `time` seconds; returns what
 // it adds up to over dt seconds.
 template <typename T>
 T damped(T& rate, const T& wanted, double time, double dt) {

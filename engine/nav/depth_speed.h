@@ -5,19 +5,19 @@
 
 namespace stereonav {
 
-// What is ahead is reached in so many seconds at full input.
+// Seconds in which what is ahead is reached at full input.
 constexpr double kReachSeconds = 4.0;
-// Shares of the base speed that it stays within.
+// Bounds of the speed, as shares of the base speed.
 constexpr double kSlowestShare = 0.02, kFastestShare = 4.0;
 
-// depthAhead: view depth in the middle of the picture, metres; base: metres a second, > 0. Metres a second,
-// from kSlowestShare to kFastestShare of the base; the base itself where the depth tells nothing: the sky,
-// NaN.
+// Returns metres a second, from kSlowestShare to kFastestShare of the base; the base itself where the depth
+// tells nothing: the sky, NaN. depthAhead: view depth in the middle of the picture, metres; base: metres a
+// second, > 0.
 double speedFor(double depthAhead, double base);
 
-// The speed of now on its way to the wanted one, dt seconds later: by their logarithms, 63 % of the way in
-// kSpeedSeconds, in closed form, so that edges that pass through the picture's middle are no jolts. Where one
-// of them is not above 0 and finite the other counts; dt below 0 or NaN is nothing.
+// Returns the speed, metres a second, on its way to the wanted one, dt seconds later: by their logarithms, 63
+// % of the way in kSpeedSeconds, in closed form, so that edges that pass through the picture's middle are no
+// jolts. Where one of them is not above 0 and finite the other counts; dt below 0 or NaN is nothing.
 constexpr double kSpeedSeconds = 0.5;
 double dampedSpeed(double now, double wanted, double dt);
 

@@ -30,9 +30,10 @@ public:
     virtual Pose pose() const = 0;
     // Places the viewer at rest, moved to where it may be.
     virtual void setPose(const Pose& pose) = 0;
-    virtual void goHome() = 0;
+    virtual void goHome() = 0;  // setPose() with the pose that the flight began with
 
-    // The ways this flight knows ("free", "over ground", "guided", ...), and the one in use.
+    // The ways this flight knows ("free", "over ground", "guided", ...), numbered from 0, and the one in use.
+    // Other numbers change nothing.
     virtual int modeCount() const = 0;
     virtual int mode() const = 0;
     virtual void setMode(int mode) = 0;

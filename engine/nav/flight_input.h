@@ -8,12 +8,12 @@
 
 namespace stereonav {
 
-// NaN counts as 0.
+// Returns the value within low to high; NaN counts as 0.
 inline double clampedInput(double value, double low, double high) {
     return std::isnan(value) ? 0.0 : std::clamp(value, low, high);
 }
 
-// fastestTurn: radians a second, both ways.
+// Returns the wish with every value in its range. fastestTurn: radians a second, both ways.
 inline FlightInput cleaned(const FlightInput& in, double fastestTurn, double mostMultiplier) {
     return {clampedInput(in.forward, -1, 1),
             clampedInput(in.right, -1, 1),

@@ -10,18 +10,18 @@
 
 namespace stereonav {
 
-// Seconds that it takes.
+// Seconds that a flight takes.
 constexpr double kShortestFlightTo = 0.5, kLongestFlightTo = 6.0;
 
 class FlightTo {
 public:
     enum class State { Flying, Arrived, Blocked };  // Blocked: as near as there was room
 
-    // To a pose. Where the flight knows a line and the straight way is not clear, along the line first.
-    // Throws Error when the goal is not finite, or more than 1e9 metres away from the origin.
+    // Plans a flight to a pose. Where the flight knows a line and the straight way is not clear, along the
+    // line first. Throws Error when the goal is not finite, or more than 1e9 metres away from the origin.
     static FlightTo pose(const Flight& flight, const Pose& goal);
-    // To a place on the flight's line, metres from its start; turns round where it lies behind. Cut to the
-    // line's ends. Throws Error when the flight knows no line, or the place is NaN.
+    // Plans a flight to a place on the flight's line, metres from its start; turns round where it lies
+    // behind. Cut to the line's ends. Throws Error when the flight knows no line, or the place is NaN.
     static FlightTo along(const Flight& flight, double along);
 
     // dt seconds pass, in which the flight takes no other steps. Negative and NaN is nothing. The mode of
@@ -47,20 +47,20 @@ private:
     std::optional<Pose> mGoal;
     Pose mFrom;
     FlightWay mWay;
-    double mDirectSeconds = 0, mDirectStart = 0;
+    double mDirectSeconds = 0, mDirectStart = 0;  // seconds
     int mModeBefore = 0;
-    double mTime = 0;
+    double mTime = 0;  // seconds since it began
     bool mBegun = false;
     State mState = State::Flying;
 };
 
-// A pose that looks at a point from a distance, metres, > 0, from the side that `from` is on, as upright as
-// it can be. Where `from` is at the point it looks as `from` does. Throws Error for numbers that are not
-// finite or a distance that is not above 0.
+// Returns a pose that looks at a point from a distance, metres, > 0, from the side that `from` is on, as
+// upright as it can be. Where `from` is at the point it looks as `from` does. Throws Error for numbers that
+// are not finite or a distance that is not above 0.
 Pose poseLookingAt(const glm::dvec3& point, double distance, const Pose& from);
 
-// Between two poses, t from 0 to 1: positions straight. Heads that are level and do not look straight up or
-// down turn by heading and pitch, so that they stay level; others by the shortest arc.
+// Returns a pose between two, t from 0 to 1: positions straight. Heads that are level and do not look
+// straight up or down turn by heading and pitch, so that they stay level; others by the shortest arc.
 Pose poseBetween(const Pose& a, const Pose& b, double t);
 
 }  // namespace stereonav

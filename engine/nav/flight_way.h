@@ -13,7 +13,7 @@ namespace stereonav {
 class FlightWay {
 public:
     FlightWay() = default;
-    // At least one, all finite.
+    // The way through these places, at least one, all finite, metres.
     explicit FlightWay(std::vector<glm::dvec3> places);
 
     double length() const { return mAlong.empty() ? 0 : mAlong.back(); }  // metres
@@ -21,14 +21,14 @@ public:
     glm::dvec3 at(double share) const;
 
 private:
-    std::vector<glm::dvec3> mPlaces;
-    std::vector<double> mAlong;  // metres from the first
+    std::vector<glm::dvec3> mPlaces;  // world, metres
+    std::vector<double> mAlong;       // metres from the first
 };
 
-// From one place to another as `flight` may fly it. Over ground: the straight way, raised to where the viewer
-// is let, smoothly: the highest ground nearby is flown over, less near the ends, which stay as they are (both
-// must be clear). Between walls: straight, or the tightest of some bends that are clear; the straight one
-// where none is, so that the flight ends at the wall.
+// Returns the way from one place to another as `flight` may fly it. Over ground: the straight way, raised to
+// where the viewer is let, smoothly: the highest ground nearby is flown over, less near the ends, which stay
+// as they are (both must be clear). Between walls: straight, or the tightest of some bends that are clear;
+// the straight one where none is, so that the flight ends at the wall.
 FlightWay wayBetween(const Flight& flight, const glm::dvec3& from, const glm::dvec3& to);
 
 }  // namespace stereonav

@@ -9,9 +9,10 @@ class MotionAhead {
 public:
     static constexpr double kFarthest = 0.15;  // seconds: what a hand does next nobody knows
 
-    // The eyes went from one pose to another in dt seconds.
+    // Notes that the eyes went from one pose to another in dt seconds.
     void step(const Pose& before, const Pose& after, double dt);
-    // seconds later, at most kFarthest. free: metres to what is around; half of them are used at most.
+    // Returns the pose `seconds` later, at most kFarthest. free: metres to what is around; half of them are
+    // used at most.
     Pose from(const Pose& now, double seconds, double free) const;
 
 private:

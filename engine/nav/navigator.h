@@ -51,7 +51,7 @@ public:
     // FollowGround takes up the present height above the ground, but not below followHeight.
     void setMode(FlightMode mode);
 
-    // By number, as every flight's: 0 free, 1 over ground. Other numbers change nothing.
+    // Modes by number, as every flight's: 0 free, 1 over ground. Other numbers change nothing.
     int modeCount() const override { return 2; }
     int mode() const override { return static_cast<int>(mMode); }
     void setMode(int mode) override;
@@ -79,7 +79,7 @@ private:
     Pose mHome;
     FlightSetting mSetting;
     FlightMode mMode = FlightMode::Free;
-    glm::dvec3 mPosition{0.0}, mVelocity{0.0};
+    glm::dvec3 mPosition{0.0}, mVelocity{0.0};           // world: metres, metres a second
     double mHeading = 0, mPitch = 0, mRoll = 0;          // radians
     double mYawRate = 0, mPitchRate = 0, mRollRate = 0;  // radians a second
     double mFollowHeight = 0;                            // metres

@@ -14,20 +14,20 @@ public:
 
     // Starts anew with this pose at time 0.
     void start(const Pose& pose);
-    // dt seconds later the viewer is here. Nothing happens unless recording() and dt > 0.
+    // Notes that the viewer is here dt seconds later. Nothing happens unless recording() and dt > 0.
     void step(double dt, const Pose& pose);
     // Ends the recording. Throws Error when nothing was recorded after the start.
     RecordedPath finish();
 
     bool recording() const { return mRecording; }
     double duration() const { return mTime; }  // seconds since the start
-    // What finish() would make a path of now.
+    // The samples that finish() would make a path of now.
     const std::vector<PathSample>& samples() const { return mSamples; }
 
 private:
-    double mInterval;
+    double mInterval;  // seconds
     bool mRecording = false;
-    double mTime = 0;
+    double mTime = 0;                  // seconds since the start
     std::vector<PathSample> mSamples;  // the last one is the newest pose, kept or not
     double mLastKept = 0;              // time of the last sample that stays
 };

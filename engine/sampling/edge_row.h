@@ -12,7 +12,7 @@ namespace stereonav {
 struct EdgeRow {
     const std::uint32_t *above, *row, *below;  // packed colours
     const float *depthAbove, *depth,
-        *depthBelow;      // view depths: infinite where nothing was hit, 0 where it is not known
+        *depthBelow;      // view depths, metres: infinite where nothing was hit, 0 where it is not known
     std::uint8_t* edges;  // out: 255 or 0 for each pixel; 0 where its depth is not known
     int width;            // >= 1
     // A pixel is an edge where a channel (of 1023) differs from one of its four known neighbours by contrast
@@ -21,7 +21,7 @@ struct EdgeRow {
     // strongContrast or more, whatever the depths. On a plane 1 / depth is linear over the picture, however
     // steeply one looks at it.
     std::int32_t contrast, jumpContrast, strongContrast;  // 1 to 1023
-    float depthBreak, depthJump;
+    float depthBreak, depthJump;                          // shares, 0 to 1
 };
 
 using EdgeFunction = void (*)(const EdgeRow& row);

@@ -10,8 +10,7 @@
 
 namespace stereonav {
 
-// Makes holes (mask 255, colour and view depth 0) of the tiles that may show such a thing. Runs on all
-// threads.
+// Makes holes (mask 255, colour and view depth 0) where tiles may show such a thing. Runs on all threads.
 void markBorderOccluders(const EyeRenderer& renderer, const StereoViews& views, Plane<std::uint8_t>& mask,
                          EyeImage& right);
 

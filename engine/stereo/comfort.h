@@ -7,7 +7,8 @@
 
 namespace stereonav {
 
-// Where all may lie all the time, as shares of the picture's width; farther out are short excursions.
+// Bounds of parallax within which all may lie all the time, as shares of the picture's width; farther out are
+// short excursions.
 constexpr double kUsualNearest = -0.01, kUsualFarthest = 0.02;
 
 // How long a picture's parallax can be looked at.
@@ -16,13 +17,14 @@ enum class ComfortState {
     Excursion,    // within what is comfortable for a short time
     TooMuch,      // beyond the budget, or beyond excursions
 };
-// NaN is too much.
+// Judges a range of parallax; NaN is too much.
 ComfortState comfortOf(const ParallaxRange& parallax);
 
-// The setting, changed as little as it takes for the same picture to lie within what is usual, and a
+// Returns the setting, changed as little as it takes for the same picture to lie within what is usual, and a
 // twentieth less: eyes come together where the range from nearest to farthest is too wide, which no screen
-// distance mends; what is then still too near or too far is mended by the distance of the screen. As it is
-// where it is comfortable or has no parallax. atInfinity: the parallax of what is infinitely far.
+// distance mends; what is then still too near or too far is mended by the distance of the screen. The setting
+// stays as it is where it is comfortable or has no parallax. atInfinity: the parallax of what is infinitely
+// far, a share of the picture's width.
 StereoSetting comfortableEyes(const StereoSetting& setting, const ParallaxRange& parallax, double atInfinity);
 
 }  // namespace stereonav

@@ -21,7 +21,7 @@ struct ContrastRow {
 
 // Finds the classes of one row.
 using ContrastFunction = void (*)(const ContrastRow&);
-// For the processor at hand.
+// Returns the function for the processor at hand.
 ContrastFunction fastestContrast();
 
 }  // namespace stereonav

@@ -16,18 +16,18 @@ namespace stereonav {
 // Counts of pixels by their class.
 using ContrastCounts = std::array<long long, kContrastClasses>;
 
-// Expected squared error of a warped pixel by the contrast around it: of sRGB bytes, mean of the three
-// channels.
+// Expected squared error of a warped pixel by the contrast around it: in squared levels (0 to 255) of sRGB
+// bytes, mean of the three channels.
 struct ErrorCalibration {
     std::array<double, kContrastClasses> meanSquare{};
-    // What is expected of a frame whose classes from c on are cast, times margin[c], is not exceeded by 95 of
-    // 100 frames.
+    // Factors above what is expected: what is expected of a frame whose classes from c on are cast, times
+    // margin[c], is not exceeded by 95 of 100 frames.
     std::array<double, kContrastClasses + 1> margin{};
 
-    // Expected for a frame of so many pixels, whose classes from `cast` on are exact; squared sRGB byte
-    // steps.
+    // Returns what is expected for a frame of so many pixels, whose classes from `cast` on are exact; squared
+    // sRGB byte steps.
     double expectedMeanSquare(const ContrastCounts& counts, double pixels, int cast = kContrastClasses) const;
-    // The PSNR that 95 % of frames exceed; kMostPsnr_db where nothing is expected.
+    // Returns the PSNR that 95 % of frames exceed; kMostPsnr_db where nothing is expected.
     double boundPsnr_db(const ContrastCounts& counts, double pixels, int cast = kContrastClasses) const;
 };
 // The PSNR that stands for no error at all.
@@ -39,24 +39,26 @@ class ErrorCalibrator {
 public:
     // Adds a frame; all three of one size.
     void add(const EyeImage& warped, const Plane<std::uint8_t>& holes, const EyeImage& full);
-    // A class never expects less than the ones below it. Throws Error where no frame was added.
+    // Returns the calibration, in which a class never expects less than the ones below it. Throws Error where
+    // no frame was added.
     ErrorCalibration result() const;
 
 private:
     struct Frame {
         ContrastCounts counts{};
-        std::array<double, kContrastClasses> squares{};
+        std::array<double, kContrastClasses> squares{};  // sums of squared errors, as in ErrorCalibration
     };
     double marginOf(const ErrorCalibration& calibration, int cast) const;
 
     std::vector<Frame> mFrames;
 };
 
-// The classes of a whole picture, all threads. classes is resized; counts those that are not holes.
+// Finds the classes of a whole picture, on all threads. classes is resized; counts those that are not holes.
 ContrastCounts findContrast(const Plane<std::uint32_t>& color, const Plane<std::uint8_t>& holes,
                             Plane<std::uint8_t>& classes);
 
-// The lowest class to be cast so that what is wanted holds; kContrastClasses: none.
+// Returns the lowest class to be cast so that what is wanted holds; kContrastClasses: none. pixels: of the
+// whole picture.
 int classToCast(const Refinement& refinement, const ContrastCounts& counts, double pixels);
 
 }  // namespace stereonav

@@ -27,7 +27,7 @@ struct FramePlan {
     ViewDependence dependence = ViewDependence::None;
     bool viewDependent = false;                      // planes are stored from which colours are shaded again
     RightEyeMethod method = kDefaultRightEyeMethod;  // Full where casting is cheaper
-    double castRight_ms = 0, warpRight_ms = 0;       // predicted, of the right eye alone
+    double castRight_ms = 0, warpRight_ms = 0;       // predicted for the right eye alone
     FrameCosts costs;
     std::size_t bytes = 0;  // held for both eyes and the hole mask
     std::string reason;     // one sentence with the figures
@@ -36,17 +36,18 @@ struct FramePlan {
     bool warps() const { return method != RightEyeMethod::Full; }
 };
 
-// Which is cheaper for this many pixels. warp: the method used where it wins.
+// Decides which is cheaper for this many pixels. warp: the method used where it wins.
 FramePlan planFromCosts(const FrameCosts& costs, int width, int height, ViewDependence dependence,
                         RightEyeMethod warp = kDefaultRightEyeMethod);
 
 // Measures a few calibration frames (all views of one size, at least one), in their order, and decides. Takes
 // about `budget_ms`, but three frames at least, where there are so many; the first is made once before it is
-// timed. warp: the method that is weighed against the full cast; none: defaultMethodFor(renderer).
+// timed. warp: the method that is weighed against the full cast; none: defaultMethodFor(renderer). Throws
+// Error without views.
 FramePlan planFrame(const EyeRenderer& renderer, std::span<const StereoViews> views,
                     std::optional<RightEyeMethod> warp = std::nullopt, double budget_ms = 300.0);
 
-// Bytes that a frame of this size holds: both eyes' planes and the hole mask.
+// Returns the bytes that a frame of this size holds: both eyes' planes and the hole mask.
 std::size_t frameBytes(int width, int height, ViewDependence dependence);
 
 }  // namespace stereonav

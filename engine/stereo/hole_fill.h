@@ -21,13 +21,13 @@ public:
     static constexpr int kTaskHoles = 1024;  // a band with more holes is cut
     static constexpr int kTaskRows = 128;    // into pieces of so many rows
 
-    // Lists every pixel whose mask is 255 (the others' is 0) and gives their number. Dynamic takes the
+    // Lists every pixel whose mask is 255 (the others' is 0) and returns their number. Dynamic takes the
     // fullest bands first, one at a time.
     long long list(const Plane<std::uint8_t>& mask, Schedule schedule);
     // Casts what is listed. image.viewDepth there is 0, or as startsAtKnownDepth() wants it.
     void cast(const EyeRenderer& renderer, const EyeView& view, Schedule schedule, EyeImage& image) const;
-    // Or, for who casts its pixels otherwise: calls body(bounds, pixels) for each batch, as
-    // EyeRenderer::renderPixels wants them, on all threads.
+    // Calls body(bounds, pixels) for each batch, as EyeRenderer::renderPixels wants them, on all threads: for
+    // who casts its pixels otherwise.
     template <typename Body>
     void forEach(Schedule schedule, const Body& body) const {
         forEachPiece(static_cast<int>(mTasks.size()), schedule, [&](int, int i) {

@@ -10,7 +10,7 @@ namespace stereonav {
 constexpr float kWeightOne = 32768.0f;  // the weight 1
 constexpr float kWeightMax = 32767.0f;  // what a 16-bit weight can hold
 
-// Rounded to the nearest, ties to even, as the vector conversion does.
+// Returns the nearest whole number, ties to even, as the vector conversion does.
 inline int roundedWeight(float weight) {
     return static_cast<int>(std::lrintf(weight));
 }
@@ -22,10 +22,10 @@ inline int scaledProduct(int difference, int weight) {
 
 // Weights of four taps, in units of 1 / kWeightOne.
 struct CubicWeights {
-    int before, second, after;  // of taps 0, 2 and 3; tap 1 has the rest
+    int before, second, after;  // those of taps 0, 2 and 3; tap 1 has the rest
 };
 
-// Catmull-Rom at t in [0, 1] between taps 1 and 2.
+// Returns Catmull-Rom's weights at t in [0, 1] between taps 1 and 2.
 inline CubicWeights cubicWeights(float t) {
     const float t2 = t * t;
     const float t3 = t2 * t;
@@ -37,24 +37,24 @@ inline CubicWeights cubicWeights(float t) {
             roundedWeight(after * kWeightOne)};
 }
 
-// The weight of the second of two taps at t in [0, 1] between them.
+// Returns the weight of the second of two taps at t in [0, 1] between them.
 inline int linearWeight(float t) {
     const float weight = t * kWeightOne;
     return roundedWeight(weight < kWeightMax ? weight : kWeightMax);
 }
 
-// A channel's fixed-point value, rounded and clamped, in its place in a packed colour.
+// Returns a channel's fixed-point value, rounded and clamped, in its place in a packed colour.
 inline std::uint32_t fromFixed(int value, int shift) {
     const int limited = value < 0 ? 0 : value > 1023 * 16 ? 1023 * 16 : value;
     return static_cast<std::uint32_t>((limited + 8) >> 4) << shift;
 }
 
-// The fixed-point value of the channel that begins at bit `shift`.
+// Returns the fixed-point value of the channel that begins at bit `shift`.
 inline int toFixed(std::uint32_t color, int shift) {
     return static_cast<int>(color >> shift & 1023u) << 4;
 }
 
-// Between two packed colours, t in [0, 1].
+// Returns the colour between two packed ones, t in [0, 1].
 inline std::uint32_t lerpPacked(std::uint32_t a, std::uint32_t b, float t) {
     const int weight = linearWeight(t);
     std::uint32_t result = 0;
@@ -65,7 +65,7 @@ inline std::uint32_t lerpPacked(std::uint32_t a, std::uint32_t b, float t) {
     return result;
 }
 
-// taps[0 .. 3], t between taps 1 and 2.
+// Returns the colour from taps[0 .. 3], t in [0, 1] between taps 1 and 2.
 inline std::uint32_t cubicPacked(const std::uint32_t* taps, float t) {
     const CubicWeights w = cubicWeights(t);
     std::uint32_t result = 0;

@@ -18,28 +18,29 @@ namespace stereonav {
 struct ParallaxHistogram {
     static constexpr int kBins = kParallaxBins;
     static constexpr double kLowest = -0.06, kHighest = 0.08;  // shares of the picture's width
-    // Where bin n begins, as a share of the picture's width; it reaches to the edge of the next. n: up to
-    // kBins.
+    // Returns where bin n begins, as a share of the picture's width; it reaches to the edge of the next. n:
+    // up to kBins.
     static constexpr double lowerEdge(int n) { return kLowest + (kHighest - kLowest) * n / kBins; }
 
     std::array<std::int32_t, kBins> counts{};  // pixels in each bin
     std::int32_t below = 0, above = 0;         // nearer than the first bin, farther than the last
     std::int32_t unknown = 0;                  // holes and what is no depth: in none of the others
 
-    std::int64_t known() const;                // all that are counted
-    double shareOf(std::int32_t count) const;  // of those known; 0 where there are none
-    // The share of those known that lie in a bin.
+    std::int64_t known() const;                // all pixels that are counted
+    double shareOf(std::int32_t count) const;  // of known(), 0 to 1; 0 where there are none
+    // Returns the share of known() that lies in a bin, 0 to 1.
     double share(int bin) const { return shareOf(counts[static_cast<std::size_t>(bin)]); }
 };
 
 // Parallax of a whole picture.
 struct ParallaxSeen {
     double nearest = 0, farthest = 0;  // view depths, metres; 0 where nothing is known
-    ParallaxRange range;               // of these
+    ParallaxRange range;               // parallax of these
     ParallaxHistogram histogram;
 };
 
-// Parallax of every pixel of the left eye's depths. The same for each instruction set and number of threads.
+// Finds the parallax of every pixel of the left eye's depths, metres. The same for each instruction set and
+// number of threads.
 ParallaxSeen parallaxSeen(const StereoViews& views, const Plane<float>& viewDepth,
                           SimdTarget target = SimdTarget::Auto);
 

@@ -18,7 +18,8 @@ struct ParallaxTally {
     // kLastDepthKey.
     static constexpr int kClasses = kParallaxBins + 2;
     const std::int32_t* keys = nullptr;  // kClasses + 1
-    // About the class of a depth z, and for most exactly: offset - scale / z.
+    // Constants of the class of a depth of z metres, which is about, and for most exactly, offset - scale /
+    // z.
     float offset = 0, scale = 0;
     std::int32_t counts[kClasses] = {};
     std::int32_t unknown = 0;                                // no depth above 0: a hole, NaN

@@ -16,7 +16,7 @@ namespace stereonav {
 // What --quality, --target-psnr and --target-ms ask for.
 struct QualityWish {
     std::optional<double> quality =
-        std::nullopt;  // 0..1: share of the first way's expected squared error that is to go
+        std::nullopt;  // share of the first way's expected squared error that is to go, 0 to 1
     std::optional<double> targetPsnr_db = std::nullopt;  // for 95 of 100 frames; 0 to kMostPsnr_db
     std::optional<double> target_ms = std::nullopt;  // of both eyes, above 0; alone it is spent as a whole
     bool firstAlone = false;                         // no other way is to be taken, nor all pixels cast
@@ -47,10 +47,11 @@ struct NamedWarp {
     std::string name;
     WarpSetting setting;
 };
-// Lists those for the scene of this renderer.
+// Lists the ways for the scene of this renderer.
 std::vector<NamedWarp> warpsWorthTrying(const EyeRenderer& renderer);
 
-// Warps and casts each of the views, at least one, of one size. repeats: timed runs of each, >= 1.
+// Warps and casts each of the views, at least one, of one size. repeats: timed runs of each, >= 1. Throws
+// Error without views.
 MeasuredWarps measureWarps(const EyeRenderer& renderer, std::span<const StereoViews> views,
                            std::span<const NamedWarp> warps, int repeats);
 
@@ -58,17 +59,17 @@ MeasuredWarps measureWarps(const EyeRenderer& renderer, std::span<const StereoVi
 struct QualityPlan {
     WarpSetting setting;  // with its refinement
     std::string name;
-    double castShare = 0;   // of all pixels, expected: holes and those that are refined
-    double meanSquare = 0;  // expected, of sRGB bytes; without holes, which are exact
-    double both_ms = 0;     // expected of both eyes, by times measured
+    double castShare = 0;   // expected share of all pixels: holes and those that are refined
+    double meanSquare = 0;  // expected, squared levels of sRGB bytes; without holes, which are exact
+    double both_ms = 0;     // expected for both eyes, by times measured
     // Share of the picture's sides that both eyes are to be made in so that they take target_ms; 1: they do.
     double scale = 1;
 };
 
-// What meets the wish at the least cost, the first way where another is not cheaper by kWorthAChange, and
-// where nothing is wished but quality 0. Where no way takes so little time as wished: the fastest one, in a
-// smaller picture and without a bound, which is known at this size alone. Throws Error for a wish that is not
-// in its range.
+// Returns what meets the wish at the least cost, the first way where another is not cheaper by kWorthAChange,
+// and where nothing is wished but quality 0. Where no way takes so little time as wished: the fastest one, in
+// a smaller picture and without a bound, which is known at this size alone. Throws Error for a wish that is
+// not in its range.
 QualityPlan planQuality(const MeasuredWarps& measured, const QualityWish& wish);
 constexpr double kWorthAChange = 0.05;  // share of the time that another way has to save
 constexpr double kLeastScale = 0.25;    // the least QualityPlan::scale

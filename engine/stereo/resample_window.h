@@ -8,12 +8,12 @@
 namespace stereonav::STEREONAV_ISA {
 namespace {
 
-// Anywhere; index and what is read beside it lie in the tables.
+// Sources anywhere; index and what is read beside it lie in the tables.
 struct FarWindow {
     I index;
 
     STEREONAV_INLINE I read(const void* table) const { return loadEach(table, index); }
-    // At the sources and one further right.
+    // Reads at the sources and one further right.
     STEREONAV_INLINE IPair readPair(const void* table, int offset = 0) const {
         return loadEachPair(static_cast<const std::int32_t*>(table) + offset, index);
     }

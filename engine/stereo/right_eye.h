@@ -13,13 +13,13 @@ namespace stereonav {
 
 struct ErrorCalibration;
 
-// Warped pixels that are cast as well, those with the largest expected error first. Without a calibration
-// none.
+// The wish for warped pixels that are cast as well, those with the largest expected error first. Without a
+// calibration none.
 struct Refinement {
     std::shared_ptr<const ErrorCalibration> calibration;
     // Share of the expected squared error that is to go, 0..1: the quality dial. 1 casts every pixel.
     double quality = 0;
-    double targetPsnr_db = 0;  // against a full cast, to be reached by 95 of 100 frames; 0: no such wish
+    double targetPsnr_db = 0;  // dB against a full cast, to be reached by 95 of 100 frames; 0: no such wish
     double mostPixels = 1;     // share of all pixels that may be cast beside the holes, whatever is wanted
 };
 
@@ -29,16 +29,16 @@ struct WarpSetting {
     // Inverse methods: a pixel between survivors further apart than this many right pixels is a hole. By
     // compare on real terrain, 1.1 is 1 to 3 dB better and casts 1.3 to 2.6 times the rays.
     float maxStretch = 1.4f;
-    // A pixel between survivors nearer to each other than this many right pixels is one too: a fold, or a
-    // silhouette.
+    // Inverse methods: a pixel between survivors nearer to each other than this many right pixels is a hole
+    // too: a fold, or a silhouette.
     float minStretch = 0.5f;
     // Paper: a pixel whose accumulated splat weight is below this share of full cover is a hole.
     float weightThreshold = 0.5f;
     // Selective: pixels whose light comes from depths that shift apart by more than this many right pixels
     // (the root of their mean square) are cast.
     float mostSpread = 0.7f;
-    // DepthSplat: rays start before the depth found by this share of it, and by this share of its difference
-    // from the pixels beside it: what lies between the left eye's samples may be a little nearer.
+    // DepthSplat: rays start before the depth found by depthMargin of it, and by depthRangeMargin of its
+    // difference from the pixels beside it: what lies between the left eye's samples may be a little nearer.
     float depthMargin = 0.01f;
     float depthRangeMargin = 1.0f;
     Refinement refinement;
@@ -49,9 +49,9 @@ struct WarpSetting {
 // What a right eye took, and how many of its pixels were cast.
 struct RightEyeTimings {
     double warp_ms = 0, fill_ms = 0;  // DepthSplat: splatting, and casting every pixel
-    // Cast again, of width * height. DepthSplat: cast without knowing where to start.
+    // Pixels cast again, of width * height. DepthSplat: those cast without knowing where to start.
     long long holePixels = 0;
-    long long refinedPixels = 0;  // of them, warped before
+    long long refinedPixels = 0;  // those of them that were warped before
     double boundPsnr_db = 0;      // expected, where there is a calibration; 95 of 100 frames are better
     double right_ms() const { return warp_ms + fill_ms; }
 };
@@ -65,10 +65,10 @@ public:
     RightEye(RightEye&&) noexcept;
     RightEye& operator=(RightEye&&) noexcept;
 
-    // left: the left eye as cast. right: resized here; every pixel of color and viewDepth is set
-    // (viewDepth 0 where a hole was left). Widths from 1 up. viewDepth of a warped pixel is that of the
-    // nearer of the left pixels it lies between; where colours are shaded again from normals alone, the
-    // estimate at the pixel itself.
+    // Makes a right eye. left: the left eye as cast. right: resized here; every pixel of color and viewDepth
+    // is set (viewDepth 0 where a hole was left). Widths from 1 up. viewDepth of a warped pixel is that of
+    // the nearer of the left pixels it lies between; where colours are shaded again from normals alone, the
+    // estimate at the pixel itself. Throws Error where the left eye is not of the views' size.
     RightEyeTimings render(const EyeRenderer& renderer, const StereoViews& views, const EyeImage& left,
                            const WarpSetting& setting, EyeImage& right);
 

@@ -11,7 +11,7 @@
 
 namespace stereonav {
 
-// In the order in which they are listed and compared.
+// All methods in the order in which they are listed and compared.
 #define STEREONAV_RIGHT_EYE_METHODS(METHOD) \
     METHOD(Full, "full")                    \
     METHOD(Paper, "paper")                  \
@@ -42,7 +42,7 @@ constexpr auto kRightEyeMethods = std::to_array<NamedMethod>({
 #undef STEREONAV_METHOD
 });
 
-// Selective for translucent scenes, else kDefaultRightEyeMethod.
+// Returns Selective for translucent scenes, else kDefaultRightEyeMethod.
 RightEyeMethod defaultMethodFor(const EyeRenderer& renderer);
 // The methods that are worth comparing, in the order of their names above: full, linear, selective and
 // depthsplat for a translucent scene, all but the last two for others. The others work too; depthsplat on an
@@ -57,7 +57,7 @@ bool leavesHoles(RightEyeMethod method);
 bool castsFromDepths(RightEyeMethod method);
 // Whether warped pixels may be cast as well, for a wish of quality (Refinement).
 bool hasQualityDial(RightEyeMethod method);
-// nullopt for an unknown name.
+// Returns nullopt for an unknown name.
 std::optional<RightEyeMethod> rightEyeMethodFromName(std::string_view name);
 // The name of a method on the command line.
 std::string_view nameOf(RightEyeMethod method);

@@ -9,27 +9,28 @@
 
 namespace stereonav {
 
-// Parallax that is comfortable, as shares of the picture's width: the whole range, and the short
-// excursions that broadcasters allow before and behind the screen.
+// Parallax that is comfortable, as shares of the picture's width: the whole range, and the short excursions
+// that broadcasters allow before and behind the screen.
 constexpr double kParallaxBudget = 0.03, kNearestParallax = -0.025, kFarthestParallax = 0.04;
 
 // How near and how far things are in a picture.
 struct RoomSeen {
     double nearest = 0, farthest = 0;  // view depths, metres; what is not hit is infinitely far
-    double ahead = 0;                  // the median in the picture's middle ninth
+    double ahead = 0;                  // the median in the picture's middle ninth, metres
 };
-// What every step-th pixel of every step-th row shows of the room.
+// Returns what every step-th pixel of every step-th row shows of the room. viewDepth: metres.
 RoomSeen roomSeen(const Plane<float>& viewDepth, int step);
-// RoomSeen::ahead alone. Infinite where no depth is known there.
+// Returns RoomSeen::ahead alone, metres. Infinite where no depth is known there.
 double depthAhead(const Plane<float>& viewDepth, int step);
 
-// Where what was seen lies, as shares of the picture's width: negative before the screen.
+// Range of parallax, as shares of the picture's width: negative before the screen.
 struct ParallaxRange {
     double near = 0, far = 0;
 };
-// The parallax of the room's nearest and farthest things.
+// Returns the parallax of the room's nearest and farthest things.
 ParallaxRange parallaxOf(const StereoViews& views, const RoomSeen& room);
-// Parallax of one view depth above 0, which may be infinite, as a share of the picture's width.
+// Returns the parallax of one view depth above 0, metres, which may be infinite, as a share of the picture's
+// width.
 double parallaxAt(const StereoViews& views, double depth);
 
 // Makes eyes that suit the room around them: one step on by dt seconds. free: distance around the head;
@@ -40,17 +41,17 @@ using StereoFollower = std::function<StereoSetting(double free, double depth, do
 // together until their parallax is comfortable, slowly.
 class ComfortLimit {
 public:
-    // A picture was made with eyes so far apart.
+    // Notes that a picture was made with eyes so far apart, metres.
     void observe(double separation, const ParallaxRange& parallax);
-    // The setting with its eyes as near to each other as is comfortable; dt: seconds since the last.
+    // Returns the setting with its eyes as near to each other as is comfortable; dt: seconds since the last.
     StereoSetting limited(StereoSetting wanted, double dt) { return limited(wanted, dt, kLeastShare); }
-    // Down to another share of what is wanted; 0: whatever it takes.
+    // Returns the same, down to another share of what is wanted; 0: whatever it takes.
     StereoSetting limited(StereoSetting wanted, double dt, double leastShare);
-    // The setting without a limit, which goes as slowly as it came.
+    // Returns the setting without a limit, which goes as slowly as it came.
     StereoSetting released(StereoSetting wanted, double dt);
-    // From now on settings are limited as if they had never been: for who begins with what is shown.
+    // Limits settings from now on as if they had never been limited: for who begins with what is shown.
     void restart() { mShare = 1; }
-    double share() const { return mShare; }  // of what was wanted last
+    double share() const { return mShare; }  // of the separation that was wanted last, 0 to 1
 
 private:
     static constexpr double kLeastShare = 0.2;  // a wall that is touched leaves some stereo

@@ -6,7 +6,8 @@
 
 namespace stereonav {
 
-// The function of the set that availableTarget() gives, which throws for one that can not be used here.
+// Returns the function of the set that availableTarget() gives, which throws for one that can not be used
+// here.
 ResampleFunction resampler(SimdTarget target = SimdTarget::Auto);
 
 }  // namespace stereonav

@@ -10,12 +10,13 @@ constexpr int kSplatWidth = 2 * kSubpixels;    // subpixels of a splat: two pixe
 constexpr float kSplatSigma = 0.5f;            // pixels; the paper gives none: the kernel ends at two sigma
 constexpr int kSplatMargin = 2 * kSplatWidth;  // subpixels kept on each side of the scanline
 
-// Floats: four channels (weight, r, g, b) of the supersampled scanline.
+// Returns how many floats of scratch a row takes: four channels (weight, r, g, b) of the supersampled
+// scanline.
 constexpr int splatScratchSize(int width) {
     return 4 * (width * kSubpixels + 2 * kSplatMargin);
 }
 
-// width up to 32768; see SplatRow.
+// Splats one row, width up to 32768; see SplatRow.
 void splatRow(const SplatRow& row);
 
 }  // namespace stereonav

@@ -12,12 +12,12 @@
 
 namespace stereonav {
 
-// What one worker needs for a row.
+// Scratch memory that one worker needs for a row.
 struct WarpScratch {
-    std::vector<float> column, inverse, accumulators;
+    std::vector<float> column, inverse, accumulators;  // those of ResampleRow and SplatRow
     std::vector<std::int32_t> source;
 
-    // For rows of so many pixels; accumulators are there where `splats`.
+    // Resizes for rows of so many pixels; accumulators are there where `splats`.
     void resize(int width, bool splats);
 };
 
@@ -54,12 +54,12 @@ enum class AfterWarp {
     CastFromDepths,  // every pixel is cast, those not marked from the depth that was written
 };
 
-// What a method does with a row, and what follows from that.
+// A way of making the right eye: what it does with a row, and what follows from that.
 struct WarpMethod {
     WarpRowFunction warpRow = nullptr;  // none: every pixel is cast, without a warp
     AfterWarp after = AfterWarp::Cast;
-    // A warped pixel lies between the left pixels source and source + 1, as ResampleRow says; else it is that
-    // of `source`, and its depth the nearest of what was drawn there.
+    // Whether a warped pixel lies between the left pixels source and source + 1, as ResampleRow says; else it
+    // is that of `source`, and its depth the nearest of what was drawn there.
     bool between = false;
     bool splats = false;       // wants scratch for splats
     bool marksBorder = true;   // what only the right eye may see at its right border is cast (region V)
@@ -75,9 +75,9 @@ STEREONAV_RIGHT_EYE_METHODS(STEREONAV_METHOD)
 // The facts of a method.
 const WarpMethod& warpMethodOf(RightEyeMethod method);
 
-// The row of an inverse warp with two taps.
+// Returns the row of an inverse warp with two taps.
 ResampleRow resampleRowOf(const WarpJob& job, WarpScratch& scratch, int y);
-// Warps it.
+// Warps that row.
 void warpRowLinear(const WarpJob& job, ResampleFunction resample, WarpScratch& scratch, int y);
 
 }  // namespace stereonav

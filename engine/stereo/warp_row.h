@@ -37,8 +37,8 @@ struct ResampleRow {
     // of their mean that is off from the plane through them by at most d^2 / 4 of it.
     bool surface = false;
 
-    // If given: how far, in metres, the depths spread that a left pixel's light comes from. Where that shifts
-    // them apart by more than mostSpread right pixels no link holds.
+    // How far, in metres, the depths spread that a left pixel's light comes from; may be null. Where that
+    // shifts them apart by more than mostSpread right pixels no link holds.
     const float* leftSpread = nullptr;
     float mostSpread = 0;
 };
