@@ -18,21 +18,21 @@ namespace stereonav {
 
 class Interface;
 
-// Places are pixels of each eye's picture, (0, 0) its top left corner.
+// A mark in both eyes. Places are pixels of each eye's picture, (0, 0) its top left corner.
 struct OverlayMark {
     glm::vec2 left{0}, right{0};
     std::string text;      // a point with this beside it; "": the pointer
     glm::vec2 textAt{0};   // the text's top left corner, from the place
     bool dot = false;      // a small point, without a text
-    glm::u8vec3 ink{255};  // sRGB, of points and texts
+    glm::u8vec3 ink{255};  // sRGB, for points and texts
     bool operator==(const OverlayMark&) const = default;
 };
 
-// In the window's context.
+// Layers that marks are drawn into. In the window's context.
 class EyeOverlay {
 public:
-    // Draws them by the interface's letters, where they are not what is there already. True: it looks
-    // otherwise than before.
+    // Draws the marks by the interface's letters, where they are not what is there already. size: pixels of
+    // each eye's picture. Returns whether it looks otherwise than before.
     bool draw(const Interface& interface, const glm::ivec2& size, const std::vector<OverlayMark>& marks);
     // Layers of the left and of the right eye; none while nothing is there.
     std::optional<std::array<EyeLayer, 2>> layers() const;

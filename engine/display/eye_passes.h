@@ -10,18 +10,19 @@ namespace stereonav {
 
 enum class BackBuffer { Both, Left, Right };
 
+// One drawing of the composed picture.
 struct EyePass {
-    ComposeSetting setting;  // of a mode that is composed
+    ComposeSetting setting;  // its mode is one that is composed
     BackBuffer buffer = BackBuffer::Both;
 
     bool operator==(const EyePass&) const = default;
 };
 
-// turn: of alternating modes, 0 the eye that comes first, 1 the other one. Where the window has no quad
-// buffer (Window::quadBuffered), that mode is the left eye alone.
+// Returns what to draw. turn: for alternating modes, 0 the eye that comes first, 1 the other one. Where the
+// window has no quad buffer (Window::quadBuffered), that mode is the left eye alone.
 std::vector<EyePass> eyePasses(const ComposeSetting& setting, int turn, bool quadBuffered);
 
-// The buffer that is drawn into from here on; needs a current context, whose buffers are a window's.
+// Chooses the buffer that is drawn into from here on; needs a current context, whose buffers are a window's.
 void drawInto(BackBuffer buffer);
 
 }  // namespace stereonav

@@ -13,24 +13,25 @@ constexpr double kSteadyRefresh = 100;  // Hz: below that, each eye's half of th
 
 class FrameSequence {
 public:
-    // Hz, as the monitor tells it, to a whole number mostly; 0 or nonsense: unknown, 60 is assumed.
+    // Takes Hz, as the monitor tells it, to a whole number mostly; 0 or nonsense: unknown, 60 is assumed.
     explicit FrameSequence(double refreshRate);
 
     // The eye to be drawn for the next refresh: 0 the one that comes first, 1 the other one.
     int eye() const { return static_cast<int>((mRefresh + 1) & 1); }
-    // A swap was done at this time, seconds of a steady clock.
+    // Notes that a swap was done at this time, seconds of a steady clock.
     void swapped(double seconds);
-    // Seconds until a picture for the next refresh may be drawn. 0 while swaps wait for the refresh
-    // themselves; where they do not, the clock stands in for it.
+    // Returns seconds from `seconds` until a picture for the next refresh may be drawn. 0 while swaps wait
+    // for the refresh themselves; where they do not, the clock stands in for it.
     double wait(double seconds) const;
 
-    long long refreshes() const { return mRefresh; }  // that came since the first swap
-    long long dropped() const { return mDropped; }    // of them without a swap
-    bool synchronised() const { return mSynchronised; }
-    double toldRate() const { return mTold; }
-    double period() const { return mPeriod; }  // seconds, as measured
+    long long refreshes() const { return mRefresh; }     // that came since the first swap
+    long long dropped() const { return mDropped; }       // of them without a swap
+    bool synchronised() const { return mSynchronised; }  // swaps wait for the refresh
+    double toldRate() const { return mTold; }            // Hz, as given
+    double period() const { return mPeriod; }            // seconds, as measured
 
-    // Each once: a display that is too slow, swaps that do not wait, pictures that come too late.
+    // Returns each problem once: a display that is too slow, swaps that do not wait, pictures that come too
+    // late.
     std::optional<std::string> takeProblem();
 
 private:

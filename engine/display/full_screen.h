@@ -12,12 +12,12 @@ namespace stereonav {
 
 class FullScreen {
 public:
-    // Borderless over all of the monitor, in the video mode that it has. From one monitor to another, too.
-    // Throws Error where there is no such monitor.
+    // Puts the window without a border over all of the monitor, in the video mode that it has. From one
+    // monitor to another, too. Throws Error where there is no such monitor.
     void enter(GLFWwindow* window, std::size_t monitor);
-    // To the place and size before; nothing where it is a window already.
+    // Puts the window to its place and size before; nothing where it is a window already.
     void leave(GLFWwindow* window);
-    // Asks the desktop: a monitor that is unplugged ends it, too.
+    // Whether it is over a monitor, as the desktop says: a monitor that is unplugged ends it, too.
     static bool on(GLFWwindow* window);
 
 private:

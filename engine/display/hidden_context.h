@@ -10,14 +10,14 @@ namespace stereonav {
 
 class HiddenContext {
 public:
-    // On the main thread, as its end. Throws Error where there is no OpenGL 4.5.
+    // Makes the context, on the main thread, as its end. Throws Error where there is no OpenGL 4.5.
     HiddenContext();
     ~HiddenContext();
     HiddenContext(const HiddenContext&) = delete;
     HiddenContext& operator=(const HiddenContext&) = delete;
 
-    // Current on this thread while it lives, from whatever thread: one waits for another. What was current
-    // before is so again at the end. Null: what is current stays.
+    // Makes the context current on this thread while it lives, from whatever thread: one waits for another.
+    // What was current before is so again at the end. Null: what is current stays.
     class Use {
     public:
         explicit Use(HiddenContext* context);  // throws Error where the driver refuses

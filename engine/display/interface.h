@@ -25,7 +25,7 @@ struct InterfaceArea {
 // Where it is drawn, and how large it takes itself to be.
 struct InterfacePlaces {
     std::vector<InterfaceArea> areas{{}};  // at least one
-    // Share of the window's size, along each axis: what an eye that is squeezed to half stands for is 1.
+    // Shares of the window's size, along each axis: what an eye that is squeezed to half stands for is 1.
     glm::vec2 size{1};
     bool operator==(const InterfacePlaces&) const = default;
 };
@@ -46,7 +46,7 @@ public:
     // late, and events that came together are felt one after another. dt: seconds since the last. False: all
     // looks as before.
     bool layOut(const InterfacePlaces& places, double dt, const std::function<void()>& draw);
-    // Over what is in the framebuffer. opening: where the picture lies in each part; none: everywhere.
+    // Draws over what is in the framebuffer. opening: where the picture lies in each part; none: everywhere.
     void render(const std::optional<InterfaceOpening>& opening = std::nullopt);
     // Whether a layout now could show something else for what the user did, or for another window or look.
     // What is shown of the program's own doing, the caller knows.
@@ -55,12 +55,12 @@ public:
     glm::vec2 size() const;                             // of the layout, units
     void use() const;                                   // Dear ImGui's calls that follow are of this one
     glm::vec2 textSize(const std::string& text) const;  // units
-    // The pointer over the picture: where, in shares of the interface's size; none while it is over the
-    // interface, or outside.
+    // Whether the pointer is over the picture, and where, in shares of the interface's size; false while it
+    // is over the interface, or outside.
     bool pointerOverPicture(glm::dvec2& place) const;
-    // Over the picture the pointer is drawn by whoever draws that (eye_overlay.h), and by nobody else.
+    // Leaves the pointer over the picture to whoever draws that (eye_overlay.h), where `drawn`.
     void setPointerOfPicture(bool drawn);
-    // Some text is at work.
+    // Whether some text is at work.
     bool active() const;
 
     void pointerAt(const glm::dvec2& place) override;
@@ -76,7 +76,7 @@ private:
     std::unique_ptr<State> mState;
 };
 
-// A texture that is drawn by calls of Dear ImGui has other contents: interfaces are drawn again.
+// Notes that a texture which is drawn by calls of Dear ImGui has other contents: interfaces are drawn again.
 void noteChangedTexture();
 
 }  // namespace stereonav

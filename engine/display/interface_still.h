@@ -18,17 +18,17 @@ struct InterfaceOpening {
     bool operator==(const InterfaceOpening&) const = default;
 };
 
-// Pixels of the framebuffer, y downwards from its top.
+// An eye's part in pixels of the framebuffer, y downwards from its top.
 struct InterfacePart {
     glm::ivec2 corner{0}, size{0};
 };
 
-// In one context, whose framebuffer is that of the window.
+// Keeps the interface beside the pictures. In one context, whose framebuffer is that of the window.
 class InterfaceStill {
 public:
     // Whether what lies beside the opening is kept, as it was when it had this digest.
     bool holds(std::uint64_t digest, const InterfaceOpening& opening, const InterfacePart& part) const;
-    // Takes it from a part that is drawn. whole: pixels of the framebuffer.
+    // Keeps it from a part that is drawn. whole: pixels of the framebuffer.
     void keep(std::uint64_t digest, const InterfaceOpening& opening, const InterfacePart& part,
               const glm::ivec2& whole);
     void put(const InterfacePart& part) const;  // of the same size; into the framebuffer

@@ -5,6 +5,7 @@ struct ImVec4;
 
 namespace stereonav {
 
+// What the interface looks like.
 struct InterfaceLook {
     bool dark = true;
     bool grey = false;  // under an anaglyph, whose glasses split colours
@@ -12,14 +13,15 @@ struct InterfaceLook {
     bool operator==(const InterfaceLook&) const = default;
 };
 
-constexpr float kInterfaceFontPixels = 14;  // at scale 1
+constexpr float kInterfaceFontPixels = 14;  // height at scale 1
 
 // Sets colours, sizes and font of the current Dear ImGui context.
 void applyTheme(const InterfaceLook& look);
 
-// Colours with a meaning, as the look has them: of what is at work or chosen, and of what needs attention.
+// Colours with a meaning, sRGB, as the look has them: for what is at work or chosen, and for what needs
+// attention.
 ImVec4 accentColor(const InterfaceLook& look);
 ImVec4 warningColor(const InterfaceLook& look);
-ImVec4 quietColor(const InterfaceLook& look);  // of what explains
+ImVec4 quietColor(const InterfaceLook& look);  // for what explains
 
 }  // namespace stereonav

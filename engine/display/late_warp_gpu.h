@@ -12,20 +12,21 @@
 
 namespace stereonav {
 
-// Needs a current OpenGL 3.3 core context, the same for all calls; one thread.
+// Warps two eyes. Needs a current OpenGL 3.3 core context, the same for all calls; one thread.
 class LateWarpGpu {
 public:
     LateWarpGpu();
     // False where the driver can not draw into eyes of ten bits; nothing else works then.
     bool works() const { return mWorks; }
 
-    // An eye that was cast and prepared, from now on; uploads it.
+    // Takes an eye that was cast and prepared, to be warped from now on; uploads it. eye: 0 left, 1 right.
     void take(std::size_t eye, const LateEye& late, const Plane<PackedColor>& color);
-    // It as `to` sees it. The texture holds it until the next call for this eye: RGB10_A2, row 0 on top,
-    // alpha where nothing was seen before. take() came first, and `late` is the same.
+    // Draws the eye as `to` sees it. The texture holds it until the next call for this eye: RGB10_A2, row 0
+    // on top, alpha where nothing was seen before. take() came first, and `late` is the same.
     GLuint warp(std::size_t eye, const LateEye& late, const EyeView& to);
 
-    // The last one, and where it is uncovered (255) or null. For tests and what is looked at later.
+    // Reads the eye warped last, and where it is uncovered (255) or null. For tests and what is looked at
+    // later.
     void read(std::size_t eye, Plane<PackedColor>& image, Plane<std::uint8_t>* uncovered = nullptr) const;
 
 private:
@@ -42,7 +43,7 @@ private:
     GlVertexArray mVertices;
     std::array<Eye, 2> mEyes;
     std::vector<LatePlan> mPlans;
-    std::vector<float> mTexels;
+    std::vector<float> mTexels;  // the plans, as they are uploaded: each its LatePlan's three numbers
     bool mWorks = true;
 };
 

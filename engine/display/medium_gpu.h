@@ -16,7 +16,8 @@ public:
     explicit MediumGpu(const Medium& medium);
     ~MediumGpu();
 
-    // Makes the pictures of MediumSweep::render and reads them back. Waits until the GPU is done.
+    // Makes the pictures of MediumSweep::render and reads them back. time: seconds. Waits until the GPU is
+    // done. Throws Error for eyes that it can not make.
     void render(const MediumLook& look, const SweepSetting& setting, std::span<const EyeView> eyes,
                 const glm::dvec3& head, double time, std::span<MediumPicture> pictures);
 

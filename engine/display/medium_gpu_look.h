@@ -11,8 +11,8 @@
 
 namespace stereonav {
 
-// By the half angle's sine up to the right angle, beyond it by sqrt(2) - its cosine: even steps of about the
-// same angle, no trigonometry in the shader.
+// A phase function's texture by the half angle's sine up to the right angle, beyond it by sqrt(2) - its
+// cosine: even steps of about the same angle, no trigonometry in the shader.
 class PhaseTexture {
 public:
     void set(const PhaseFunction& phase);  // uploads where it differs from what was set last
@@ -21,14 +21,14 @@ public:
 
 private:
     GlTexture mTexture;               // RGB32F
-    std::vector<glm::vec3> mEntries;  // of what was set
+    std::vector<glm::vec3> mEntries;  // those that were set, as in PhaseFunction
 };
 
-// Light times weight in rgb, the weight in a: what a trilinear filter adds up is the weighted mean, times the
-// sum of the weights. Texels are those of the time when a volume is first set.
+// Baked light as light times weight in rgb, the weight in a: what a trilinear filter adds up is the weighted
+// mean, times the sum of the weights. Texels are those of the time when a volume is first set.
 class BakedTexture {
 public:
-    // Throws Error where it does not fit. Null: none.
+    // Uploads the light. Throws Error where it does not fit. Null: none.
     void set(const std::shared_ptr<const IlluminationVolume>& light);
     bool any() const { return mLight != nullptr; }
     void bind(GLuint unit) const;

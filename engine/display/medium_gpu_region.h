@@ -5,17 +5,18 @@
 
 namespace stereonav {
 
+// Pixels of an eye's buffer.
 struct PixelRect {
     int x = 0, y = 0, width = 0, height = 0;
     bool empty() const { return width <= 0 || height <= 0; }
 };
 
-// Holds every pixel whose ray meets the plane t within the box (world); all pixels where a part of the slice
-// lies behind the eye.
+// Returns what holds every pixel whose ray meets the plane t within the box (world); all pixels where a part
+// of the slice lies behind the eye. t: metres along the sweep's axis.
 PixelRect coveredBySlice(const WorldBox& box, const SweepGeometry& geometry, double t, const RayFan& fan);
 
 PixelRect united(const PixelRect& a, const PixelRect& b);  // the least that holds both
-// By a margin on each side, within the fan's buffer; empty ones stay so.
+// Grows by a margin in pixels on each side, within the fan's buffer; empty ones stay so.
 PixelRect grown(const PixelRect& rect, int margin, const RayFan& fan);
 
 }  // namespace stereonav

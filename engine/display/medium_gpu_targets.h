@@ -14,7 +14,7 @@ namespace stereonav {
 struct TargetSizes {
     std::vector<glm::ivec2> eyes;  // pixels
     glm::ivec2 light{0};           // texels, 0: none
-    bool single = true;
+    bool single = true;            // one target for all
     bool operator==(const TargetSizes&) const = default;
 };
 
@@ -26,22 +26,22 @@ public:
     // Throws Error where a target would be larger than the driver allows.
     explicit MediumTargets(const TargetSizes& sizes);
 
-    // Eyes see all of what lies behind and no light, the light's buffers are 1; leaves no scissor.
+    // Clears: eyes see all of what lies behind and no light, the light's buffers are 1; leaves no scissor.
     void clear();
-    // Scattered light as it sets out, in both buffers, the ring too: texels row by row.
+    // Sets scattered light as it sets out, in both buffers, the ring too: texels row by row.
     void startLight(const std::vector<float>& scattered);
 
-    // Following draws go there; sets framebuffer and viewport.
+    // Lets following draws go there; sets framebuffer and viewport.
     void drawToEye(int eye) { drawTo(mEyes[static_cast<std::size_t>(eye)]); }
     void drawToLight(int turn) { drawTo(mLights[turn & 1]); }
-    // Corner of a region in its texture; of the light's, inside the ring.
+    // Corner of a region in its texture; that of the light's, inside the ring.
     glm::ivec2 eyeAt(int eye) const { return mEyes[static_cast<std::size_t>(eye)].at; }
     glm::ivec2 lightAt(int turn) const { return mLights[turn & 1].at; }
     GLuint eyeTexture(int eye) const { return surfaceOf(mEyes[static_cast<std::size_t>(eye)]).color.name(); }
     GLuint lightTexture(int turn) const { return surfaceOf(mLights[turn & 1]).color.name(); }
 
     const TargetSizes& sizes() const { return mSizes; }
-    void read(int eye, MediumPicture& picture) const;
+    void read(int eye, MediumPicture& picture) const;  // waits until the GPU is done
 
 private:
     struct Surface {

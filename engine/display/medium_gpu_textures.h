@@ -27,12 +27,13 @@ public:
     // medium must outlive it. Throws Error where a texture would be larger than the driver allows.
     explicit MediumTextures(const Medium& medium);
 
-    // Lines that tell the shaders what there is. Not of the look.
+    // Lines that tell the shaders what there is. They do not depend on the look.
     const std::string& defines() const { return mDefines; }
     bool hasGlow() const { return mHasGlow; }
     bool hasSurface() const { return mHasSurface; }
 
-    // Uniforms of the medium, places being relative to the anchor; the program is in use.
+    // Sets uniforms of the medium, places being relative to the anchor, at `time` seconds; the program is in
+    // use.
     void setUniforms(const ShaderProgram& program, const glm::dvec3& anchor, double time) const;
     void bind() const;
 
@@ -61,7 +62,7 @@ private:
         std::vector<glm::ivec4> levels;
     };
     std::vector<Levels> mHeights;  // R32F
-    std::vector<Levels> mColors;   // RGB10_A2, of the layers that have their own
+    std::vector<Levels> mColors;   // RGB10_A2, for the layers that have their own
     bool mHasGlow = false, mHasSurface = false;
     std::string mDefines;
 };

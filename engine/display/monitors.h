@@ -11,7 +11,7 @@
 
 namespace stereonav {
 
-// Screen units of the desktop, y downwards.
+// A rectangle in screen units of the desktop, y downwards.
 struct ScreenRect {
     int x = 0, y = 0, width = 0, height = 0;
 
@@ -27,25 +27,26 @@ struct Monitor {
     double contentScale = 1;          // 2 with twice the usual density
 };
 
-// In the order that the desktop gives them, the primary one first. While a Window exists, on its thread.
+// Returns the monitors in the order that the desktop gives them, the primary one first. While a Window
+// exists, on its thread.
 std::vector<Monitor> monitors();
 // The monitors as they were a quarter of a second ago at most: each of them is asked for in some six turns to
 // the X server and back, which take longer than all that a window draws when it is asked at every turn.
 const std::vector<Monitor>& recentMonitors();
 
-// Which one most of the window lies on, or, where it lies on none, which one is nearest; the first of
+// Returns which one most of the window lies on, or, where it lies on none, which one is nearest; the first of
 // equals. Nullopt where there is none.
 std::optional<std::size_t> monitorUnder(std::span<const Monitor> monitors, const ScreenRect& window);
 
-// "auto": nullopt. "1" and on: in their order. Else the one with this name, or the only one whose name
-// contains it, in whatever case. Throws Error that lists them.
+// Returns the monitor that a text means. "auto": nullopt. "1" and on: in their order. Else the one with this
+// name, or the only one whose name contains it, in whatever case. Throws Error that lists them.
 std::optional<std::size_t> monitorNamed(std::span<const Monitor> monitors, std::string_view text);
 
-// "1 DP-1 (1920x1080), 2 HDMI-1 (3840x1080)"
+// Returns "1 DP-1 (1920x1080), 2 HDMI-1 (3840x1080)".
 std::string monitorList(std::span<const Monitor> monitors);
 
-// The window's top left pixel, counted from the monitor's own first row and column: those are what the
-// polarisers and lenses of interleaved displays are fixed to, wherever the desktop puts the monitor.
+// Returns the window's top left pixel, counted from the monitor's own first row and column: those are what
+// the polarisers and lenses of interleaved displays are fixed to, wherever the desktop puts the monitor.
 // scale: pixels a screen unit.
 glm::ivec2 placeOnMonitor(const ScreenRect& window, const Monitor& monitor, double scale);
 

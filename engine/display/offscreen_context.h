@@ -41,7 +41,7 @@ public:
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
 
-    bool current() const { return mCurrent; }
+    bool current() const { return mCurrent; }  // false where there is no such platform
 
 private:
     EGLDisplay mDisplay = EGL_NO_DISPLAY;

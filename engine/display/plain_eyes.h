@@ -14,13 +14,13 @@
 
 namespace stereonav {
 
-// In one context.
+// Copies eyes into the window. In one context.
 class PlainEyes {
 public:
-    // eye: 0 or 1; sRGB bytes are made of its colours, as files have them.
+    // Takes an eye, 0 or 1; sRGB bytes are made of its colours, as files have them.
     void upload(std::size_t eye, const Plane<PackedColor>& colors);
-    // Into the framebuffer that is drawn into: x, y of the picture's lower left corner. False where the
-    // driver can not copy from such a texture; then nothing was drawn.
+    // Copies into the framebuffer that is drawn into: x, y of the picture's lower left corner. Returns false
+    // where the driver can not copy from such a texture; then nothing was drawn.
     bool copy(std::size_t eye, int x, int y) const;
 
 private:

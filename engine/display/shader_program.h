@@ -13,18 +13,18 @@ struct ShaderSource {
     std::string_view name;  // file name in shaders/
     std::string_view text;
 };
-// Every file of shaders/ (a generated source, see cmake/embed.cmake).
+// Returns every file of shaders/ (a generated source, see cmake/embed.cmake).
 std::span<const ShaderSource> shaderSources();
 
 class ShaderProgram {
 public:
-    // Names of files in shaders/; `defines` are lines put after the first line (#version) of both.
-    // Throws Error with the shader's name and the driver's message.
+    // Compiles and links. Names of files in shaders/; `defines` are lines put after the first line (#version)
+    // of both. Throws Error with the shader's name and the driver's message.
     ShaderProgram(std::string_view vertexName, std::string_view fragmentName,
                   const std::string& defines = "");
 
     void use() const { glUseProgram(mProgram.name()); }
-    // -1, which OpenGL ignores, for a uniform that the compiler dropped.
+    // Returns -1, which OpenGL ignores, for a uniform that the compiler dropped.
     GLint location(const std::string& uniform) const {
         return glGetUniformLocation(mProgram.name(), uniform.c_str());
     }

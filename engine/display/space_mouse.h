@@ -11,8 +11,8 @@
 
 namespace stereonav {
 
-// Shares of a full push or twist, -1 to 1, in the frame of who looks at the screen: right, up, forward; and
-// turns about these, by the left-hand rule, as the daemon has them.
+// State of the axes: shares of a full push or twist, -1 to 1, in the frame of who looks at the screen: right,
+// up, forward; and turns about these, by the left-hand rule, as the daemon has them.
 struct SpaceMouseState {
     std::array<double, 3> push{}, twist{};
     bool moved() const;
@@ -22,20 +22,20 @@ struct SpaceMouseState {
 class SpaceMouse {
 public:
     static constexpr std::chrono::milliseconds kLookAgain{2000};
-    // socket: "" never connects. The default is where the daemon's library looks, too.
+    // Takes a socket: "" never connects. The default is where the daemon's library looks, too.
     explicit SpaceMouse(std::string socket = usualSocket(), std::chrono::milliseconds lookAgain = kLookAgain);
     ~SpaceMouse();
     SpaceMouse(const SpaceMouse&) = delete;
     SpaceMouse& operator=(const SpaceMouse&) = delete;
 
-    // $SPNAV_SOCKET, or /var/run/spnav.sock.
+    // Returns $SPNAV_SOCKET, or /var/run/spnav.sock.
     static std::string usualSocket();
 
     // Reads what has come, and looks for the daemon now and then while there is none; never waits.
     void look();
     bool connected() const { return mSocket >= 0; }
     const SpaceMouseState& state() const { return mState; }
-    std::vector<int> takePresses();  // of buttons, from 0
+    std::vector<int> takePresses();  // buttons, counted from 0
 
 private:
     void connect();
@@ -46,8 +46,8 @@ private:
     std::chrono::milliseconds mLookAgain;
     int mSocket = -1;
     std::chrono::steady_clock::time_point mNext{};  // when to look for the daemon again
-    std::array<std::byte, 32> mPart{};              // of an event,
-    std::size_t mPartBytes = 0;                     // so much of it
+    std::array<std::byte, 32> mPart{};              // the beginning of an event,
+    std::size_t mPartBytes = 0;                     // so many bytes of it
     SpaceMouseState mState;
     std::vector<int> mPresses;
 };

@@ -18,12 +18,12 @@
 
 namespace stereonav {
 
-// Framebuffer pixels, y from the bottom.
+// A part of the framebuffer in pixels, y from the bottom.
 struct Viewport {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-// What lies over an eye: sRGB values multiplied by their alpha, row 0 at the bottom, and where there is
+// A texture over an eye: sRGB values multiplied by their alpha, row 0 at the bottom, and where there is
 // something.
 struct EyeLayer {
     struct Box {  // pixels from the top left corner, the last ones beside it
@@ -33,7 +33,7 @@ struct EyeLayer {
     std::vector<Box> boxes;
 };
 
-// What is left free of a part, pixels at its borders.
+// Pixels at a part's borders that are left free.
 struct PartInset {
     int left = 0, top = 0, right = 0, bottom = 0;
 };
@@ -42,18 +42,19 @@ struct PartInset {
 class StereoPresenter {
 public:
     using SharedEye = std::shared_ptr<const Plane<PackedColor>>;
-    // right may be null or empty: the left eye then stands for both. Kept until the next ones come: they are
-    // uploaded when they are drawn, as what is drawn needs them. Throws Error where the sizes differ or
-    // exceed the driver's textures.
+    // Shows these eyes. right may be null or empty: the left eye then stands for both. Kept until the next
+    // ones come: they are uploaded when they are drawn, as what is drawn needs them. Throws Error where the
+    // sizes differ or exceed the driver's textures.
     void show(SharedEye left, SharedEye right);
-    // Eyes that lie on the graphics processor already (engine/display/late_warp_gpu.h): textures of this
-    // size, row 0 on top, which stay as they are until they were drawn. right 0: the left eye stands for
+    // Shows eyes that lie on the graphics processor already (engine/display/late_warp_gpu.h): textures of
+    // this size, row 0 on top, which stay as they are until they were drawn. right 0: the left eye stands for
     // both.
     void showTextures(GLuint left, GLuint right, int width, int height);
-    // Copies of them.
+    // Shows copies of these eyes. Throws Error as show() does.
     void upload(const Plane<PackedColor>& left, const Plane<PackedColor>& right);
     bool hasPicture() const { return mWidth > 0; }
-    // Over each eye from now on (engine/display/eye_overlay.h), of its picture's size; none: nothing.
+    // Sets what lies over each eye from now on (engine/display/eye_overlay.h), of its picture's size; none:
+    // nothing.
     void setLayers(std::optional<std::array<EyeLayer, 2>> layers) { mLayers = std::move(layers); }
 
     // Fills the viewport with the composed picture (nearest pixels where the sizes differ).

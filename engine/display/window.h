@@ -16,6 +16,7 @@ namespace stereonav {
 // unless no display is named at all. Not while a Window exists.
 bool hasDisplay();
 
+// A key that went down.
 struct KeyPress {
     int key = 0;      // GLFW_KEY_...: the place on a US keyboard
     char letter = 0;  // what the user's layout has there without shift, 0 when it is not ASCII
@@ -27,7 +28,7 @@ struct KeyPress {
 // Sticks in [-1, 1] (y downwards) with a dead zone taken out; triggers in [0, 1].
 struct Gamepad {
     bool present = false;
-    glm::dvec2 leftStick{0.0}, rightStick{0.0};
+    glm::dvec2 leftStick{0.0}, rightStick{0.0};  // shares of full tilt
     double leftTrigger = 0, rightTrigger = 0;
     bool a = false, b = false, x = false, y = false, leftBumper = false, rightBumper = false;
     bool up = false, down = false, left = false, right = false;  // of the cross
@@ -49,12 +50,13 @@ public:
 
 class Window {
 public:
-    // width, height in screen units, each cut to the monitor's free area. Throws
-    // Error where there is no display or no OpenGL 3.3. quadBuffer: asks the driver for a back buffer for
-    // each eye; where it refuses, the window has one for both.
+    // Opens a window, width, height in screen units, each cut to the monitor's free area. Throws Error where
+    // there is no display or no OpenGL 3.3. quadBuffer: asks the driver for a back buffer for each eye; where
+    // it refuses, the window has one for both.
     Window(const std::string& title, int width, int height, bool visible = true, bool quadBuffer = false);
-    // A window beside the first one, which outlives it: textures made in the context of either are those of
-    // both. Where there is a monitor that the first one does not lie on, it opens there.
+    // Opens a window beside the first one, which outlives it: textures made in the context of either are
+    // those of both. Where there is a monitor that the first one does not lie on, it opens there. Throws
+    // Error.
     Window(const std::string& title, int width, int height, const Window& first);
     ~Window();
     Window(const Window&) = delete;
@@ -72,7 +74,7 @@ public:
     void swapBuffers();
     // Swaps, waits until that is done, and says when: seconds of a steady clock.
     double swapTimed();
-    static double now();  // of the same clock
+    static double now();  // seconds of the same clock
     bool quadBuffered() const { return mQuadBuffered; }
 
     glm::ivec2 framebufferSize() const;    // pixels; 0 x 0 while minimised
@@ -82,7 +84,7 @@ public:
     bool redrawNeeded();  // resized or uncovered since the last call
 
     ScreenRect place() const;  // without its frame
-    // Over a whole monitor, of those of monitors(); throws Error where there is no such one.
+    // Goes over a whole monitor, one of monitors(); throws Error where there is no such one.
     void enterFullScreen(std::size_t monitor);
     void leaveFullScreen();
     bool fullScreen() const { return FullScreen::on(mHandle); }
@@ -127,17 +129,17 @@ private:
         ScreenRect place;
     };
     const Told& told() const;
-    glm::dvec2 shareOf(const glm::dvec2& place) const;  // of the window's size, of screen units
+    glm::dvec2 shareOf(const glm::dvec2& place) const;  // screen units as a share of the window's size
 
     GLFWwindow* mHandle = nullptr;
     mutable Told mTold;
     FullScreen mFullScreen;
     bool mQuadBuffered = false;
     std::vector<KeyPress> mKeys;
-    double mWheel = 0;
-    glm::dvec2 mDrag{0.0}, mPointer{0.0};
-    std::vector<glm::dvec2> mClicks;
-    glm::dvec2 mPressed{0.0};  // where the left button went down, screen units
+    double mWheel = 0;                     // notches
+    glm::dvec2 mDrag{0.0}, mPointer{0.0};  // screen units
+    std::vector<glm::dvec2> mClicks;       // shares of the window's size
+    glm::dvec2 mPressed{0.0};              // where the left button went down, screen units
     std::vector<std::string> mDrops;
     InputSink* mSink = nullptr;
     unsigned mTaken = 0;  // buttons that are down and the sink's, a bit each

@@ -14,8 +14,8 @@ namespace stereonav {
 
 // Everything that the texels' light depends on; bakes with the same key may go on from each other.
 struct BakeInputs {
-    std::uint64_t content = 0;  // of the volume: contentHash(), or what stands for it
-    LightSetup light;           // of irradiance; of transfer the albedo and bounces alone count
+    std::uint64_t content = 0;  // the volume's contentHash(), or what stands for it
+    LightSetup light;           // for irradiance; for transfer the albedo and bounces alone count
     TexelSampling sampling;
     VolumeFrame texels;
     TexelChoice choice;  // the region counts as a part of `content`
@@ -23,14 +23,14 @@ struct BakeInputs {
 };
 std::uint64_t bakeKey(const BakeInputs& inputs);
 
-// A hash of all values and the frame.
+// Returns a hash of all values and the frame.
 std::uint64_t contentHash(const GreyVolume& volume);
-// A hash of the values at texels of bricks alone (whose grid is the volume's): for volumes that are known
-// near a wall only. The region is counted in whole.
+// Returns a hash of the values at texels of bricks alone (whose grid is the volume's): for volumes that are
+// known near a wall only. The region is counted in whole.
 std::uint64_t contentHashNear(const GreyVolume& volume, const MaskVolume& region,
                               std::span<const TexelBrick> bricks);
 
-// In the cache folder.
+// Returns the place of the bake with that key in the cache folder.
 std::filesystem::path bakeCacheFile(std::uint64_t key);
 
 struct BakeIdentity {
@@ -43,16 +43,17 @@ struct BakeFile {
     BakeSums sums;
 };
 
-// The file's sums. Nothing when there is no such file, and when it is of no use: then `problem` says why, in
-// a clause ("is cut off: ..."), else it is empty. Never throws for what is in the file; sizes are checked
-// before memory is taken. key: that it must have; none: any.
+// Reads a bake. Returns nothing when there is no such file, and when it is of no use: then `problem` says
+// why, in a clause ("is cut off: ..."), else it is empty. Throws for nothing that is in the file, but Error
+// where the disk reports an error; sizes are checked before memory is taken. key: that it must have; none:
+// any.
 std::optional<BakeFile> readBakeFile(const std::filesystem::path& file, std::optional<std::uint64_t> key,
                                      std::string& problem);
 
 // Whether the file is there and begins as no bake does, so that it should not be written over.
 bool isForeignFile(const std::filesystem::path& file);
 
-// Written beside its place and renamed. Throws Error.
+// Writes the file beside its place and renames it. Throws Error.
 void writeBakeFile(const std::filesystem::path& file, const BakeIdentity& identity, const BakeSums& sums);
 
 }  // namespace stereonav

@@ -12,7 +12,7 @@ namespace stereonav {
 
 class Peers;
 
-// Where samples come from; as the functions of TexelLighter with the same names.
+// What samples come from; as the functions of TexelLighter with the same names.
 struct BakeSource {
     std::function<void(std::span<const glm::ivec3> texels, int count, std::span<TexelSum> sums)>
         addIrradiance;
@@ -20,15 +20,16 @@ struct BakeSource {
                        int channels, std::span<float> sums, std::span<std::uint8_t> alive)>
         addTransfer;
 };
-BakeSource sourceOf(const TexelLighter& lighter);  // which must outlive it
+BakeSource sourceOf(const TexelLighter& lighter);  // the lighter must outlive it
 
-// The first that is reached ends the bake; 0: no such limit.
+// Limits of a bake: the first that is reached ends it; 0: no such limit.
 struct BakeGoal {
-    int samples = 0;     // of each texel
-    double error = 0;    // estimated relative RMSE
-    double minutes = 0;  // of this run
+    int samples = 0;     // that each texel has
+    double error = 0;    // estimated relative RMSE, 0.01: 1 %
+    double minutes = 0;  // that this run takes
 };
 
+// What is done with the sums while a bake runs.
 struct BakeKeeping {
     std::function<void(const BakeSums&)> keep;  // may be empty; called by one thread while nothing is added
     double everySeconds = 120;
@@ -36,15 +37,16 @@ struct BakeKeeping {
 
 enum class BakeEnd { Reached, TimeUp, Cancelled };
 
-// Runs on all threads; the result does not depend on their number. Sums that already have samples go on from
+// Bakes on all threads; the result does not depend on their number. Sums that already have samples go on from
 // there: a bake to a number of samples that was broken off gives the same bytes as one that was not, and so
 // does one that went on from another multiple of 128. Never throws Cancelled: cancelling is an end like
-// others. peers: of whom this is the first process, which deals out bricks and has the sums of all; the same
-// bytes as alone. That another one failed is an end as by Cancelled; Peers::throwIfFailed tells.
+// others. peers: the processes of this run, whose first one this is: it deals out bricks and has the sums of
+// all; the same bytes as alone. A failure of another one is an end as by Cancelled; Peers::throwIfFailed
+// tells.
 BakeEnd runBake(BakeSums& sums, const BakeSource& source, const BakeGoal& goal, Progress& progress,
                 const BakeKeeping& keeping = {}, Peers* peers = nullptr);
 
-// For the other processes: lights the bricks that the first one's runBake deals. Their sums are of the same
+// Lights, in the other processes, the bricks that the first one's runBake deals. Their sums are of the same
 // texels, and of no use afterwards. Throws Error, Cancelled.
 void serveBake(BakeSums& sums, const BakeSource& source, Peers& peers);
 

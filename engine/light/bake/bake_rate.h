@@ -13,21 +13,23 @@ namespace stereonav {
 
 using TexelPiece = std::vector<glm::ivec3>;  // texels that are lit in one go
 
-// All texels of a grid in pieces of 8^3, as a bake hands them out, in a random order.
+// Returns all texels of a grid in pieces of 8^3, as a bake hands them out, in a random order.
 std::vector<TexelPiece> shuffledBricks(const glm::ivec3& size, unsigned seed = 1);
-// Cut into pieces of 64 texels, in a random order: with many samples a few seconds would see few bricks.
+// Returns the texels in pieces of 64, in a random order: with many samples a few seconds would see few
+// bricks.
 std::vector<TexelPiece> inSmallPieces(const std::vector<TexelPiece>& pieces);
 
-// Processor time of all threads of this process so far: what a busy machine does not change much.
+// Returns the processor time of all threads of this process so far, seconds: what a busy machine does not
+// change much.
 double processorSeconds();
 
 struct BakeRate {
     double all_s = 0;        // for all texels, by the clock
     double part = 0;         // share of the texels that was measured; 1: all, and all_s is what they took
-    double texels = 0;       // of them, per second, those without a surface included
-    double onSurface = 0;    // share
+    double texels = 0;       // measured ones per second, those without a surface included
+    double onSurface = 0;    // share of the measured texels
     double processor_s = 0;  // for all texels, of all threads together
-    double samples_s = 0;    // a second of processor time, of texels on a surface
+    double samples_s = 0;    // samples a second of processor time, for texels on a surface
 };
 
 // Calls light(n) for pieces n of sizes[n] texels (or pixels) on all threads, one after another, until
@@ -36,11 +38,12 @@ struct BakeRate {
 BakeRate bakeRate(std::span<const std::size_t> sizes, double seconds, int samples,
                   const std::function<std::size_t(std::size_t)>& light);
 
+// Return the rates of irradiance and of transfer at texels, measured for so many seconds.
 BakeRate irradianceRate(const TexelLighter& lighter, const std::vector<TexelPiece>& pieces, int samples,
                         double seconds);
 BakeRate transferRate(const TexelLighter& lighter, const std::vector<TexelPiece>& pieces, int samples,
                       int order, int channels, double seconds);
-// The same for points instead of texels, as paths from pixels start at.
+// Pieces of points instead of texels, as paths from pixels start at.
 using PointPiece = std::vector<TexelLighter::SurfacePoint>;
 BakeRate pointRate(const TexelLighter& lighter, const std::vector<PointPiece>& pieces, int samples,
                    double seconds);

@@ -17,15 +17,15 @@
 namespace stereonav {
 
 enum class BakeKind : std::uint32_t {
-    Irradiance = 0,  // of a light setup
-    Transfer = 1,    // of distant light, in harmonics
+    Irradiance = 0,  // under a light setup
+    Transfer = 1,    // for distant light, in harmonics
     Openness = 2,    // irradiance under a sky of 1 without bounces: 0..1
 };
 std::string_view nameOf(BakeKind kind);
 
 struct BakeShape {
     BakeKind kind = BakeKind::Irradiance;
-    int order = 5, channels = 1;  // of transfer
+    int order = 5, channels = 1;  // for transfer: 1 to kMaxHarmonicsOrder, 1 or 3
     int numbersPerTexel() const { return kind == BakeKind::Transfer ? order * order * channels : 0; }
     std::size_t bytesPerTexel() const {
         return kind == BakeKind::Transfer ? numbersPerTexel() * sizeof(float) + 1 : sizeof(TexelSum);
@@ -34,8 +34,8 @@ struct BakeShape {
 
 // A brick's texels added up; the relative error is the root of variance / square.
 struct BrickEstimate {
-    double variance = 0;  // of the means; infinite where there are too few samples to tell
-    double square = 0;    // of the means
+    double variance = 0;  // the sum over the means; infinite where there are too few samples to tell
+    double square = 0;    // the sum over the squared means
 };
 
 class BakeSums {
@@ -53,7 +53,7 @@ public:
     std::size_t texels() const { return mFirst.empty() ? 0 : mFirst.back(); }
     std::size_t texelsOf(std::size_t brick) const { return mFirst[brick + 1] - mFirst[brick]; }
 
-    // Irradiance and openness of a brick's texels, in the order of texelsIn().
+    // Sums of irradiance and openness of a brick's texels, in the order of texelsIn().
     std::span<TexelSum> light(std::size_t brick);
     std::span<const TexelSum> light(std::size_t brick) const;
     // Transfer: sums of samples, numbersPerTexel() a texel, and whether texels lie on a surface.
@@ -66,11 +66,12 @@ public:
     std::vector<std::uint32_t> samples;
     std::vector<BrickEstimate> estimates;
     std::uint32_t fewestSamples() const;
-    // The estimated relative RMSE over all texels; infinite while it can not be told; 0 for no light at all.
+    // Returns the estimated relative RMSE over all texels; infinite while it can not be told; 0 for no light
+    // at all.
     double error() const;
 
-    // The brick's part of what is looked up: means by `unit` with weight 1 where there is a surface, else
-    // nothing.
+    // Writes the brick's part of what is looked up: means by `unit` with weight 1 where there is a surface,
+    // else nothing.
     void writeLight(std::size_t brick, IlluminationVolume& to, float unit = 1) const;
 
 private:
@@ -84,17 +85,18 @@ private:
     LazyArray<std::uint8_t> mAlive;
 };
 
-// Irradiance and openness, as shares of `unit`.
+// Returns irradiance and openness, as shares of `unit`.
 IlluminationVolume illuminationOf(const BakeSums& sums, float unit = 1);
-// A unit by which half floats hold the light: 1 where they hold it as it is, else a power of two near its
-// mean.
+// Returns a unit by which half floats hold the light: 1 where they hold it as it is, else a power of two near
+// its mean.
 float lightUnitOf(const BakeSums& sums);
-// Transfer, without the texels that lie on no surface.
+// Returns transfer, without the texels that lie on no surface.
 TransferVolume transferOf(const BakeSums& sums);
 
-// Variances and squares of the luminance of a brick's texels.
+// Returns variances and squares of the luminance of a brick's texels.
 BrickEstimate estimateOf(std::span<const TexelSum> texels);
-// From sums over `countBefore` samples and sums over all `count`: the two parts are independent estimates.
+// Returns the estimate from sums over `countBefore` samples and sums over all `count`: the two parts are
+// independent estimates.
 BrickEstimate estimateOf(std::span<const float> before, std::uint32_t countBefore, std::span<const float> all,
                          std::uint32_t count);
 

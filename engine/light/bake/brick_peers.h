@@ -24,12 +24,13 @@ private:
     std::size_t mEach;
 };
 
-// To bring these to `target` samples within so many seconds.
+// Returns the order to bring these bricks to `target` samples within so many seconds.
 PeerBytes orderOf(const BakeSums& sums, std::span<const std::size_t> bricks, std::uint32_t target,
                   double seconds);
-// Does it, on all threads. Ends early where a stop is wished. sums: of the same texels. Throws Error.
+// Does what the order says, on all threads. Ends early where a stop is wished. sums: of the same texels.
+// Throws Error.
 PeerBytes resultOf(BakeSums& sums, const BrickWork& work, std::span<const std::byte> order);
-// What came back. Throws Error.
+// Takes in what came back. Throws Error.
 void takeResult(BakeSums& sums, std::span<const std::size_t> bricks, std::span<const std::byte> result);
 
 }  // namespace stereonav

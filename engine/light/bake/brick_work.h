@@ -9,21 +9,21 @@
 
 namespace stereonav {
 
-// Samples at once. TexelLighter gave 0.5, 0.9 and 1.2 million samples a second for 16, 64 and 128 at once
-// (160 texels of the engine under Grace, one thread of a busy machine).
+// Samples that a texel gets at once. TexelLighter gave 0.5, 0.9 and 1.2 million samples a second for 16, 64
+// and 128 at once (160 texels of the engine under Grace, one thread of a busy machine).
 constexpr std::uint32_t kBakeBatch = 128;
 
-// The end of the batch that sample `first` is in: fixed, so that sums do not depend on breaks.
+// Returns the end of the batch that sample `first` is in: fixed, so that sums do not depend on breaks.
 std::uint32_t batchEnd(std::uint32_t first);
 
-// Different bricks may be advanced at once.
+// Advances bricks; different ones may be advanced at once.
 class BrickWork {
 public:
     // Both must outlive it.
     BrickWork(BakeSums& sums, const BakeSource& source) : mSums(sums), mSource(source) {}
 
-    // To `target` samples each texel, with what they tell of the error. added: samples of texels, after each
-    // batch; true ends it there, with the samples that it has.
+    // Brings each texel to `target` samples, with what they tell of the error. added: samples of texels,
+    // after each batch; true ends it there, with the samples that it has.
     void advance(std::size_t brick, std::uint32_t target,
                  const std::function<bool(double samples)>& added) const;
 

@@ -18,8 +18,8 @@
 namespace stereonav {
 
 struct LazyBakeSetting {
-    int samples = 64;   // of a texel before others get more
-    int refineTo = 64;  // then in doubling passes up to so many
+    int samples = 64;   // that a texel gets before others get more
+    int refineTo = 64;  // most samples, reached in doubling passes
     int threads = 1;
     BakeShape shape{};  // irradiance, or transfer, which setLight() lights
 };
@@ -31,21 +31,21 @@ public:
     // used.
     LazyBake(const GreyVolume& volume, const TexelChoice& choice, BakeSource source, IlluminationVolume& to,
              const LazyBakeSetting& setting = {});
-    // Prompt: waits for some milliseconds' work at most.
+    // Ends promptly: waits for some milliseconds' work at most.
     ~LazyBake();
     LazyBake(const LazyBake&) = delete;
     LazyBake& operator=(const LazyBake&) = delete;
 
-    // Numbers of bricks (x + bricks.x (y + bricks.y z)) near what is seen, the most wanted first: replaces
-    // what was asked before, whose work is left where it is. Any thread; returns at once. The same list again
-    // disturbs nothing; numbers beyond the grid are passed over.
+    // Asks for bricks near what is seen by their numbers (x + bricks.x (y + bricks.y z)), the most wanted
+    // first: replaces what was asked before, whose work is left where it is. Any thread; returns at once. The
+    // same list again disturbs nothing; numbers beyond the grid are passed over.
     void request(std::vector<std::uint32_t> bricks);
-    // Other surfaces are shown: other texels are wanted. What is lit stays so, as a texel's light is that of
-    // the surface through itself.
+    // Sets other surfaces that are shown: other texels are wanted. What is lit stays so, as a texel's light
+    // is that of the surface through itself.
     void setChoice(const TexelChoice& choice);
 
-    // The sky over transfer, order^2 harmonics; none at first: black. What is lit so far is dotted with it at
-    // once, some nanoseconds a texel. Any thread, between frames.
+    // Sets the sky over transfer, order^2 harmonics; none at first: black. What is lit so far is dotted with
+    // it at once, some nanoseconds a texel. Any thread, between frames.
     void setLight(std::vector<glm::vec3> light);
 
     // Counts changes of texels: a frame drawn since the last one need not be drawn again.
@@ -54,7 +54,7 @@ public:
     std::uint64_t texelsLit() const { return mTexelsLit; }
     // Whether all that was asked for is done.
     bool done() const;
-    // Waits for that, at most so long; gives done().
+    // Waits for that, at most so many seconds; returns done().
     bool waitUntilDone(double seconds);
 
 private:
@@ -129,7 +129,7 @@ private:
     // Guards transfer's light: held while a brick's texels are dotted, or after another light was set all of
     // them.
     std::mutex mLightMutex;
-    std::vector<glm::vec3> mLight;
+    std::vector<glm::vec3> mLight;               // order^2 harmonics of the sky, linear RGB
     std::vector<std::unique_ptr<Shown>> mShown;  // by brick
 
     std::atomic<std::uint64_t> mChanges = 0, mTexelsLit = 0;

@@ -7,7 +7,7 @@
 // either side: 2R + 1 voxels an axis, the voxel in the middle. At the volume's faces the box is what lies
 // inside: nothing is made up beyond them.
 //
-// Which means that a flat wall has O = 1/2, not 1: half of the box is the wall itself. The gain of 2 that
+// Because of this a flat wall has O = 1/2, not 1: half of the box is the wall itself. The gain of 2 that
 // makes a flat wall fully open belongs to the constant k of eq. 5 (AmbientLook::strength).
 #pragma once
 
@@ -29,45 +29,47 @@ enum class OcclusionMethod {
 // A method with what it leaves open.
 struct OcclusionEstimate {
     OcclusionMethod method = OcclusionMethod::Gaussian;
-    double beta = 0;        // of Reconstructed: t^beta with this one, 0.01 to 100; 0: that of the box's mean
-    double deviations = 3;  // of DrawnIn: how far its ends lie from the mean at most, 1 to 10
+    double beta = 0;        // Reconstructed: t^beta with this one, 0.01 to 100; 0: that of the box's mean
+    double deviations = 3;  // DrawnIn: how far its ends lie from the mean at most, 1 to 10
 
     OcclusionEstimate() = default;
     OcclusionEstimate(OcclusionMethod m) : method(m) {}
     bool operator==(const OcclusionEstimate&) const = default;
 };
+// Ranges of OcclusionEstimate::beta and deviations.
 constexpr double kLeastBeta = 0.01, kMostBeta = 100, kLeastDeviations = 1, kMostDeviations = 10;
 
-constexpr float kFlatWallGain = 2.0f;
+constexpr float kFlatWallGain = 2.0f;  // on openness
 
-// 0..255 for 0..1: one byte a voxel.
+// Openness, 0..255 for 0..1: one byte a voxel.
 using OpennessVolume = Volume<std::uint8_t>;
 
 constexpr int kMostOcclusionRadius = 64;  // voxels; sums over (2 * 64 + 1)^3 of any 16-bit values are exact
 
-// Voxels an axis for a radius in metres, so that the box is a cube in space when spacings differ; 0 along an
-// axis whose spacing is more than twice as long. At least 1 along some axis; along an axis of at most
-// kMostOcclusionRadius + 1 voxels no more than hold all of it. Throws Error for a radius that is not above 0
-// or larger than largestOcclusionRadius().
+// Returns voxels an axis for a radius in metres, so that the box is a cube in space when spacings differ; 0
+// along an axis whose spacing is more than twice as long. At least 1 along some axis; along an axis of at
+// most kMostOcclusionRadius + 1 voxels no more than hold all of it. Throws Error for a radius that is not
+// above 0 or larger than largestOcclusionRadius().
 glm::ivec3 occlusionRadius(const VolumeFrame& frame, double radius);
-// Metres; infinite in a volume that a box of kMostOcclusionRadius holds whatever its middle.
+// Returns metres; infinite in a volume that a box of kMostOcclusionRadius holds whatever its middle.
 double largestOcclusionRadius(const VolumeFrame& frame);
 
-// radius: voxels, 0..kMostOcclusionRadius an axis and not 0 along all. Integer sums and extrema are exact, so
-// neither an offset nor a positive scale of the values changes the result by a bit; a negative scale turns
-// open and occluded around; scale 0 (all values equal) gives 1/2 everywhere. The same bytes for any thread
-// count and instruction set. Throws Error (radius, the estimate's numbers, empty volume), Cancelled.
+// Estimates openness. radius: voxels, 0..kMostOcclusionRadius an axis and not 0 along all. Integer sums and
+// extrema are exact, so neither an offset nor a positive scale of the values changes the result by a bit; a
+// negative scale turns open and occluded around; scale 0 (all values equal) gives 1/2 everywhere. The same
+// bytes for any thread count and instruction set. Throws Error (radius, the estimate's numbers, empty
+// volume), Cancelled.
 OpennessVolume estimateOpenness(const GreyVolume& volume, const OcclusionEstimate& estimate,
                                 const glm::ivec3& radius, Progress& progress,
                                 SimdTarget target = SimdTarget::Auto);
 
-// What opacity is multiplied with, 0..255 for 0..1: min(variance / sigmaMax^2, 1) of the values in the box
-// (section 4.2; R5). sigmaMax: in values (HU), > 0. Throws as above.
+// Returns what opacity is multiplied with, 0..255 for 0..1: min(variance / sigmaMax^2, 1) of the values in
+// the box (section 4.2; R5). sigmaMax: in values (HU), > 0. Throws as estimateOpenness() does.
 Volume<std::uint8_t> varianceModulation(const GreyVolume& volume, const glm::ivec3& radius, double sigmaMax,
                                         Progress& progress, SimdTarget target = SimdTarget::Auto);
 
-// The same from how fast the openness changes: min(|gradient| / gradientMax, 1), the gradient (of O in 0..1,
-// a voxel) by four-dimensional linear regression. gradientMax > 0, in 1/voxel.
+// Returns the same from how fast the openness changes: min(|gradient| / gradientMax, 1), the gradient (of O
+// in 0..1, a voxel) by four-dimensional linear regression. gradientMax > 0, in 1/voxel. Throws Error.
 Volume<std::uint8_t> gradientModulation(const OpennessVolume& openness, double gradientMax);
 
 }  // namespace stereonav

@@ -24,7 +24,7 @@ struct OcclusionBand {
     int first = 0, end = 0;     // the band's rows
     BoxResult result = BoxResult::Reconstructed;
     bool turned = false;    // smaller values are the denser ones
-    float perVariance = 0;  // Variance: result a squared stored number
+    float perVariance = 0;  // Variance: result, 0 to 1, a squared stored number
     float beta = 0;         // Reconstructed: the exponent; 0: that of the mean
     float deviations = 3;   // DrawnIn: standard deviations from the mean to its ends, at most
 

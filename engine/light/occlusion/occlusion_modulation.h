@@ -11,8 +11,8 @@
 namespace stereonav {
 
 enum class ModulatedBy {
-    Variance,  // of the values in the box
-    Gradient,  // of the openness that is estimated from it
+    Variance,  // that of the values in the box
+    Gradient,  // that of the openness which is estimated from it
 };
 
 // Share of the voxels that keep all their opacity where no sigma is given, among those that the transfer
@@ -21,23 +21,24 @@ constexpr double kWhollyOpaque = 0.1;
 
 struct ModulationSetting {
     ModulatedBy by = ModulatedBy::Variance;
-    glm::ivec3 radius{10};       // as estimateOpenness
-    OcclusionEstimate openness;  // of Gradient
-    // From where on opacity stays whole, above 0. Variance: the paper's sigma_max, a standard deviation in
-    // the volume's values; Gradient: a change of openness a voxel, at most kSteepestOpenness. None: chosen.
+    glm::ivec3 radius{10};       // voxels, as estimateOpenness takes it
+    OcclusionEstimate openness;  // for Gradient
+    // The measure from where on opacity stays whole, above 0. Variance: the paper's sigma_max, a standard
+    // deviation in the volume's values; Gradient: a change of openness a voxel, at most kSteepestOpenness.
+    // None: chosen.
     std::optional<double> sigma;
 
     bool operator==(const ModulationSetting&) const = default;
 };
-constexpr double kSteepestOpenness = 1;
+constexpr double kSteepestOpenness = 1;  // a voxel
 
 struct OpacityModulation {
     Volume<std::uint8_t> share;  // that opacity is multiplied with, 0..255 for 0..1
-    double sigma = 0;            // given, or chosen
+    double sigma = 0;            // given, or chosen, as ModulationSetting::sigma
 };
 
-// Where no shown voxel differs from its surroundings nothing is left: 0 everywhere shown. transfer: what the
-// chosen sigma looks at. Throws Error, Cancelled.
+// Finds the modulation. Where no shown voxel differs from its surroundings nothing is left: 0 everywhere
+// shown. transfer: what the chosen sigma looks at. Throws Error, Cancelled.
 OpacityModulation opacityModulation(const GreyVolume& volume, const ModulationSetting& setting,
                                     const TransferFunction& transfer, Progress& progress);
 

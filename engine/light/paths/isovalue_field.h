@@ -38,17 +38,17 @@ public:
     IsovalueFields(const GreyVolume& volume, bool leaping, const Often& often, std::size_t budget = kBudget);
 
     int rungs() const { return static_cast<int>(mRungs.size()); }
-    // The number of a rung that is not above any value that reaches the isovalue: of those often asked for
-    // the highest such.
+    // Returns the number of a rung that is not above any value that reaches the isovalue: the highest such
+    // among those often asked for.
     int rungOf(double isovalue) const;
     double valueOf(int rung) const { return mRungs[rung]; }  // stored numbers
     // The field of a rung alone, or all of them: that of a rung begins offset(rung) blocks on.
     PathField field(int rung) const;
     PathField all() const { return fieldAt(0); }
     std::int32_t offset(int rung) const;
-    std::size_t bytesHeld() const;    // of the fields built so far
-    std::size_t bytesToCome() const;  // of those that rungOf() may still ask for
-    int shift() const { return mShift; }
+    std::size_t bytesHeld() const;        // those of the fields built so far
+    std::size_t bytesToCome() const;      // those of fields that rungOf() may still ask for
+    int shift() const { return mShift; }  // blocks have 2^shift cells a side
 
 private:
     struct Entry {

@@ -13,8 +13,9 @@
 
 namespace stereonav {
 
-// The isovalue that is traced for a stored value: the value itself but for the volume's least, at which all
-// would be solid. There it is a little more, so that the surface lies where the values begin to rise.
+// Returns the isovalue that is traced for a stored value: the value itself but for the volume's least, at
+// which all would be solid. There it is a little more, so that the surface lies where the values begin to
+// rise.
 constexpr float kAboveLeast = 1.0f / 16;  // stored numbers, which are whole
 inline double tracedIsovalue(double value, double leastOfVolume) {
     const double least = leastOfVolume + kAboveLeast;
@@ -26,19 +27,21 @@ inline double tracedIsovalue(double value, double leastOfVolume) {
 // other. The slope knows the side.
 constexpr float kOwnSlope = 0.25f;
 
-// Unit, world, towards smaller values on this side of what is solid; 0 where the smoothed gradient vanishes:
-// it is less than a millionth of what the values within 4x4x4 voxels could give, or these do not differ.
+// Returns the unit normal, world, towards smaller values on this side of what is solid; 0 where the smoothed
+// gradient vanishes: it is less than a millionth of what the values within 4x4x4 voxels could give, or these
+// do not differ.
 glm::dvec3 surfaceNormal(const GreyVolume& volume, const glm::dvec3& voxel);
 
 // Voxels along the normal by which rays start above the surface (Y3: the trilinear surface is bumpier than
 // its smoothed normals say): the first of these at which the value is below the isovalue, else the last. From
 // a quarter up, planes and balls with edges 1 to 2 voxels wide and noise of 2 % hide at most 0.05 % of their
-// own sky from themselves; from a sixteenth it was 0.3 %. A
-// start that still is at or above it lies in what is solid, and every ray from there ends there at once: such
-// places get no light directly, and paths that reach them bounce on the spot.
+// own sky from themselves; from a sixteenth it was 0.3 %. A start that still is at or above it lies in what
+// is solid, and every ray from there ends there at once: such places get no light directly, and paths that
+// reach them bounce on the spot.
 constexpr std::array<double, 3> kLifts{0.25, 0.5, 1.0};
 
-// Start of rays from a point of voxel space with a unit world normal, kept within the volume's box.
+// Returns the start of rays from a point of voxel space with a unit world normal, kept within the volume's
+// box.
 glm::dvec3 liftedStart(const GreyVolume& volume, double isovalue, const glm::dvec3& voxel,
                        const glm::dvec3& normal);
 
@@ -47,9 +50,9 @@ glm::dvec3 liftedStart(const GreyVolume& volume, double isovalue, const glm::dve
 // there would be that of either side.
 bool thinnerThanVoxel(const GreyVolume& volume, const glm::dvec3& voxel, double value);
 
-// The nearest place where the trilinear value is `value`, along the normal or, where it is not there, along
-// the 26 directions to voxels around, within kNearSurface voxels; none where there is none. voxel: inside the
-// volume.
+// Returns the nearest place where the trilinear value is `value`, along the normal or, where it is not there,
+// along the 26 directions to voxels around, within kNearSurface voxels; none where there is none. voxel:
+// inside the volume.
 constexpr double kNearSurface = 1.75;
 std::optional<glm::dvec3> nearestOfValue(const GreyVolume& volume, const glm::dvec3& voxel, double value,
                                          const glm::dvec3& normal);

@@ -25,7 +25,7 @@ struct Normalisations {
 };
 constexpr Normalisations kNormalisations;
 
-// values[l (l + 1) + m]: see spherical_harmonics.cpp for the recurrences.
+// Fills values[l (l + 1) + m] of unit directions: see spherical_harmonics.cpp for the recurrences.
 STEREONAV_INLINE void harmonicsOf(const V3& d, int order, F* values) {
     F first(1.0f), cosine(1.0f), sine(0.0f);
     for (int m = 0; m < order; ++m) {
@@ -55,7 +55,7 @@ inline float sumOf(F f) {
     return sum;
 }
 
-// Adds those of paths first .. first + count - 1 of the store, coefficient by coefficient.
+// Adds the harmonics of paths first .. first + count - 1 of the store, coefficient by coefficient.
 inline void addHarmonics(const PathStore& s, int first, int count, int order, int channels, float* sums) {
     F totals[kMostBands * kMostBands * 3];
     const int coefficients = order * order;

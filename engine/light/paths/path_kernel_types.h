@@ -27,14 +27,15 @@ struct PathVolume {
 };
 
 struct PathProbe {
-    const float* pixels = nullptr;   // red, green, blue, density a steradian; null: no probe
-    const float* rows = nullptr;     // running chance of rows, height + 1
-    const float* columns = nullptr;  // of columns within their row, width + 1 a row
+    const float* pixels = nullptr;   // red, green, blue (linear), density a steradian; null: no probe
+    const float* rows = nullptr;     // running chance of rows, 0 to 1, height + 1
+    const float* columns = nullptr;  // that of columns within their row, width + 1 a row
     const float* edges = nullptr;    // cosine at the upper edge of each row, height + 1
     std::int32_t width = 0, height = 0;
-    std::int32_t rowSteps = 0, columnSteps = 0;  // of a binary search
+    std::int32_t rowSteps = 0, columnSteps = 0;  // those of a binary search
 };
 
+// A point light.
 struct PathPoint {
     float voxel[3] = {};      // position, voxel space
     float intensity[3] = {};  // over pi and the square of the unit: divided by squared units it is light
@@ -43,23 +44,24 @@ struct PathPoint {
     float radius = 0;         // units
 };
 
-// Bits that switch what TexelSampling names.
+// What lights the volume, and bits that switch what TexelSampling names.
 struct PathLights {
     PathProbe probe;
     const PathPoint* points = nullptr;
     std::int32_t pointCount = 0;
-    bool oneByChance = false;  // of the points, by what each would bring unshadowed; else all
-    float sky[3] = {}, albedo[3] = {};
+    bool oneByChance = false;           // one of the points, by what each would bring unshadowed; else all
+    float sky[3] = {}, albedo[3] = {};  // linear RGB: radiance; share, 0 to 1
     std::int32_t bounces = 0;
-    float reach = 0;  // units, of rays that look for distant light; 0: endless
+    float reach = 0;  // units that rays look for distant light; 0: endless
     float dim = 0;    // roulette below this throughput; 0: none
     bool lowDiscrepancy = true, cosine = true, nextEvent = true;
 };
 
+// Where the paths of a texel begin.
 struct PathStart {
     std::int32_t cell[3] = {};
-    float local[3] = {}, normal[3] = {};
-    float isovalue = 0;
+    float local[3] = {}, normal[3] = {};  // place in the cell, 0 to 1; unit normal
+    float isovalue = 0;                   // stored number
     std::int32_t field = 0;  // blocks from the first of all fields to the one that serves the isovalue
     std::uint32_t key = 0, firstSample = 0;
 };
@@ -77,12 +79,12 @@ struct alignas(64) PathStore {
     static constexpr int kRoom = kPaths + 16;  // whole vectors may be written at the end
     template <typename T>
     using Row = T[kRoom];
-    // By path: where it is
+    // Where each path is, by path: place in its cell (0 to 1), unit normal, isovalue (stored number)
     Row<std::int32_t> cell[3];
     Row<float> local[3], normal[3], isovalue;
     Row<std::int32_t> field, key, sample;
-    Row<float> throughput[3], light[3];
-    // Ways that are traced from there, and what they meet
+    Row<float> throughput[3], light[3];  // linear RGB
+    // Unit ways that are traced from there, with the most units of way, and what they meet
     Row<float> way[3], shadowWay[3], shadowLight[3], shadowLimit;
     Row<float> met;  // units of way, infinite where nothing is
     Row<std::int32_t> metCell[3];
@@ -94,22 +96,22 @@ struct alignas(64) PathStore {
 struct PathKernels {
     const char* name;
     int lanes;
-    // texels * samples <= PathStore::kPaths.
+    // Lights texels; texels * samples <= PathStore::kPaths.
     void (*irradiance)(const PathVolume&, const PathField&, const PathLights&, const PathStart*, int texels,
                        int samples, PathStore&, PathMoments*);
     // Adds to harmonics of `order`, `channels` (1 or 3) floats a coefficient, one texel after the other.
     void (*transfer)(const PathVolume&, const PathField&, const PathLights&, const PathStart*, int texels,
                      int samples, int order, int channels, PathStore&, float* sums);
-    // The first `count` paths of the store along `way`, from cell, local and isovalue, no further than
+    // Casts the first `count` paths of the store along `way`, from cell, local and isovalue, no further than
     // shadowLimit: fills met, metCell, metLocal.
     void (*cast)(const PathVolume&, const PathField&, int count, PathStore&);
-    // Numbers of a pair of dimensions, for samples 0 .. count - 1.
+    // Writes the numbers of a pair of dimensions, for samples 0 .. count - 1.
     void (*numbers)(bool lowDiscrepancy, std::uint32_t key, std::uint32_t pair, int count, float* x,
                     float* y);
-    // Density and radiance of the probe: for directions, and by choosing.
+    // Write density and radiance of the probe: for directions, and by choosing.
     void (*seeProbe)(const PathProbe&, int count, const float* const* directions, float* const* seen);
     void (*chooseProbe)(const PathProbe&, int count, const float* x, const float* y, float* const* chosen);
-    // Unit normals along the axes at places (metCell, metLocal) of the store; 0 where they vanish.
+    // Writes unit normals along the axes at places (metCell, metLocal) of the store; 0 where they vanish.
     void (*normals)(const PathVolume&, int count, PathStore&, float* const* normals);
 };
 

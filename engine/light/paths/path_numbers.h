@@ -27,7 +27,7 @@ constexpr std::uint32_t mixBits(std::uint32_t x) {
     return x ^ x >> 16;
 }
 
-// The key of a texel: of its place in the grid and the seed.
+// Returns the key of a texel by its place in the grid and the seed.
 constexpr std::uint32_t pathKey(std::uint64_t seed, std::uint64_t texel) {
     std::uint32_t key = mixBits(static_cast<std::uint32_t>(seed) + kGolden);
     key = mixBits(key ^ static_cast<std::uint32_t>(seed >> 32));
@@ -66,18 +66,20 @@ constexpr std::uint32_t secondDimensionReversed(std::uint32_t x) {
     return x ^ (x & 0xaaaaaaaau) >> 1;
 }
 
-// In [0, 1), a multiple of 2^-24: the same in single and double precision.
+// Returns a number in [0, 1), a multiple of 2^-24: the same in single and double precision.
 constexpr float unitNumber(std::uint32_t bits) {
     return static_cast<float>(bits >> 8) * 0x1p-24f;
 }
 
 constexpr std::uint32_t kSecondKey = 0x68bc21ebu, kThirdKey = 0x02e5be93u;  // tell streams of a pair apart
 
+// Returns two numbers in [0, 1), independent of those of other samples.
 inline glm::vec2 independentPair(std::uint32_t key, std::uint32_t pair, std::uint32_t sample) {
     const std::uint32_t bits = mixBits(sample ^ pairKey(key, pair));
     return {unitNumber(bits), unitNumber(mixBits(bits ^ kSecondKey))};
 }
 
+// Returns two numbers in [0, 1), which samples of one key spread evenly.
 inline glm::vec2 sobolPair(std::uint32_t key, std::uint32_t pair, std::uint32_t sample) {
     const std::uint32_t seed = pairKey(key, pair);
     const std::uint32_t index = reverseBits(scrambleReversed(reverseBits(sample), seed));

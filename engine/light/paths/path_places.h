@@ -6,6 +6,7 @@
 
 namespace stereonav::STEREONAV_ISA {
 
+// A place as a cell and what lies beyond its first corner, 0 to 1.
 struct Place {
     I3 cell;
     V3 local;
@@ -32,6 +33,7 @@ constexpr float kRounding = 1e-5f;
 
 constexpr float kOwnSlopeOnly = 0.25f;  // kOwnSlope of isovalue_surface.h
 
+// Finds smoothed normals of the surfaces of `isovalue` (stored numbers) at places, in the lanes m.
 class NormalFinder {
 public:
     STEREONAV_INLINE NormalFinder(const PathVolume& volume, const Place& at, F isovalue, M m)
@@ -51,7 +53,7 @@ public:
         mCellZ = at.cell.z;
     }
 
-    // Unit, along the axes, towards smaller values; 0 where the gradient vanishes.
+    // Returns unit normals, along the axes, towards smaller values; 0 where the gradient vanishes.
     STEREONAV_INLINE V3 find() const {
         F gx(0.0f), gy(0.0f), gz(0.0f), mean(0.0f);
         Corners cell;
@@ -136,6 +138,7 @@ private:
     V3 mLocal;
 };
 
+// Returns values at places of cells, from 0 to 1 along each axis.
 STEREONAV_INLINE F trilinear(const Corners& c, const V3& p) {
     const F near = lerp(lerp(c.v[0], c.v[1], p.x), lerp(c.v[2], c.v[3], p.x), p.y);
     const F far = lerp(lerp(c.v[4], c.v[5], p.x), lerp(c.v[6], c.v[7], p.x), p.y);
@@ -153,6 +156,7 @@ STEREONAV_INLINE void moveAlong(I& cell, F& local, F by, int size) {
 
 constexpr float kLiftsTried[3] = {0.25f, 0.5f, 1.0f};  // kLifts of isovalue_surface.h
 
+// Returns the starts of rays as liftedStart() does; normal: unit, along the axes.
 STEREONAV_INLINE Place lifted(const PathVolume& volume, const Place& from, const V3& normal, F isovalue,
                               M m) {
     const V3 way{normal.x * F(volume.step[0]), normal.y * F(volume.step[1]), normal.z * F(volume.step[2])};

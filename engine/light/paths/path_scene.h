@@ -11,8 +11,10 @@
 
 namespace stereonav {
 
+// Returns the kernels of the set that availableTarget() gives.
 const PathKernels& pathKernels(SimdTarget target);
 
+// The volume as kernels read it; `volume` must outlive it.
 PathVolume pathVolume(const GreyVolume& volume);
 
 // Roulette: paths whose throughput (its largest channel) has fallen below this go on with a probability that
@@ -22,9 +24,10 @@ constexpr float kDim = 0.25f;
 // The unit of lengths in the kernels: metres.
 double pathUnit(const VolumeFrame& frame);
 
-// A place in voxel space within the volume's box, as a cell and what remains.
+// Writes a place in voxel space within the volume's box, as a cell and what remains, 0 to 1.
 void splitPlace(const VolumeFrame& frame, const glm::dvec3& voxel, std::int32_t* cell, float* local);
 
+// Light as kernels read it: lights() is valid as long as this lives.
 class PathLightTables {
 public:
     PathLightTables(const VolumeFrame& frame, const LightSetup& setup, const TexelSampling& sampling);
@@ -38,7 +41,7 @@ private:
     void addPoints(const VolumeFrame& frame, const std::vector<PointLight>& points);
 
     PathLights mLights;
-    std::vector<float> mPixels, mRows, mColumns, mEdges;
+    std::vector<float> mPixels, mRows, mColumns, mEdges;  // as in PathProbe
     std::vector<PathPoint> mPoints;
 };
 

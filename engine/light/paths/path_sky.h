@@ -6,13 +6,13 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-constexpr float kPiF = 3.14159265358979f;
+constexpr float kPiF = 3.14159265358979f;  // pi
 
 struct Turn {
     F sine, cosine;
 };
-// Sine and cosine of angles within pi / 4 of 0: Taylor's polynomials to the ninth and eighth degree, errors
-// below 3e-8.
+// Returns sine and cosine of angles, radians, within pi / 4 of 0: Taylor's polynomials to the ninth and
+// eighth degree, errors below 3e-8.
 STEREONAV_INLINE Turn smallTurn(F x) {
     const F x2 = x * x;
     const F s = mulAdd(mulAdd(mulAdd(mulAdd(F(2.7557319e-6f), x2, F(-1.9841270e-4f)), x2, F(8.3333333e-3f)),
@@ -23,7 +23,7 @@ STEREONAV_INLINE Turn smallTurn(F x) {
         x2, F(1.0f));
     return {s, c};
 }
-// Sine and cosine of any fraction of a full turn.
+// Returns sine and cosine of any fraction of a full turn.
 STEREONAV_INLINE Turn turn(F fraction) {
     const F quarters = fraction * F(4.0f);
     const I whole = floorToInt(quarters + F(0.5f));
@@ -34,7 +34,7 @@ STEREONAV_INLINE Turn turn(F fraction) {
     return {select(down, F(0.0f) - sine, sine), select(left, F(0.0f) - cosine, cosine)};
 }
 
-// In radians, -pi to pi; 0 for (0, 0). The arc tangent below tan(pi / 8) is Cephes's polynomial.
+// Returns radians, -pi to pi; 0 for (0, 0). The arc tangent below tan(pi / 8) is Cephes's polynomial.
 STEREONAV_INLINE F angleOf(F y, F x) {
     const F ax = abs(x), ay = abs(y), high = max(ax, ay), low = min(ax, ay);
     const F ratio = low / max(high, F(1e-37f));
@@ -49,7 +49,7 @@ STEREONAV_INLINE F angleOf(F y, F x) {
     return select(y < F(0.0f), F(0.0f) - angle, angle);
 }
 
-// The unit square onto the unit disc, areas kept (Shirley and Chiu 1997).
+// Maps the unit square onto the unit disc, areas kept (Shirley and Chiu 1997).
 STEREONAV_INLINE F2 onDisc(const F2& u) {
     const F a = mulAdd(F(2.0f), u.x, F(-1.0f)), b = mulAdd(F(2.0f), u.y, F(-1.0f));
     const M wide = abs(b) < abs(a);
@@ -60,7 +60,7 @@ STEREONAV_INLINE F2 onDisc(const F2& u) {
     return {select(wide, along, across), select(wide, across, along)};
 }
 
-// The unit vector with these coordinates across a normal (Duff et al. 2017) and along it.
+// Returns the unit vector with these coordinates across a normal (Duff et al. 2017) and along it.
 STEREONAV_INLINE V3 aroundNormal(const V3& n, const F2& across, F up) {
     const F sign = select(n.z < F(0.0f), F(-1.0f), F(1.0f)), a = F(-1.0f) / (sign + n.z), b = n.x * n.y * a;
     const V3 s{mulAdd(sign * n.x, n.x * a, F(1.0f)), sign * b, F(0.0f) - sign * n.x};
@@ -69,6 +69,7 @@ STEREONAV_INLINE V3 aroundNormal(const V3& n, const F2& across, F up) {
     return {mixed(s.x, t.x, n.x), mixed(s.y, t.y, n.y), mixed(s.z, t.z, n.z)};
 }
 
+// Turn vectors along the volume's axes into the world, and back; axes: PathVolume's.
 STEREONAV_INLINE V3 worldFromAxes(const float* axes, const V3& v) {
     const auto along = [&](int k) {
         return mulAdd(v.x, F(axes[k]), mulAdd(v.y, F(axes[3 + k]), v.z * F(axes[6 + k])));
@@ -94,7 +95,7 @@ STEREONAV_INLINE ProbeSight pixelAt(const PathProbe& probe, I column, I row, M m
             gatherRow(probe.pixels + 3, word, m)};
 }
 
-// What LightProbe::seen gives.
+// Returns what LightProbe::seen gives.
 STEREONAV_INLINE ProbeSight probeTowards(const PathProbe& probe, const V3& world, M m) {
     const F polar = angleOf(sqrt(mulAdd(world.x, world.x, world.y * world.y)), world.z);
     const F azimuth = angleOf(world.y, world.x);
@@ -109,7 +110,7 @@ struct Choice {
     I index;
     F fraction;
 };
-// The entry of a running sum, from `start` in `sums`, that holds u.
+// Returns the entry of a running sum, from `start` in `sums`, that holds u, and where in it u lies, 0 to 1.
 STEREONAV_INLINE Choice chooseEntry(const float* sums, I start, int count, int steps, F u, M m) {
     I low(0), high(count);
     for (int n = 0; n < steps; ++n) {
@@ -128,7 +129,7 @@ struct ProbeChoice {
     V3 world;
     ProbeSight sight;
 };
-// What LightProbe::sample gives.
+// Returns what LightProbe::sample gives.
 STEREONAV_INLINE ProbeChoice chooseProbe(const PathProbe& probe, const F2& u, M m) {
     const Choice row = chooseEntry(probe.rows, I(0), probe.height, probe.rowSteps, u.y, m);
     const I start = row.index * I(probe.width + 1);

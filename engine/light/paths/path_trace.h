@@ -14,6 +14,7 @@ struct I3 {
     I x, y, z;
 };
 
+// Read and write the entries `index` of rows of the store, in the lanes m.
 STEREONAV_INLINE I gatherRow(const std::int32_t* row, I index, M m) {
     return gather(reinterpret_cast<const std::uint32_t*>(row), index, m);
 }
@@ -40,7 +41,8 @@ STEREONAV_INLINE int lanesIn(M m) {
     return __builtin_popcount(bits(m));
 }
 
-// The values of cells at their corners less the isovalue.
+// Returns the index of the cell's first corner; cornersFrom() and cornersIn() the values of cells at their
+// corners less the isovalue.
 STEREONAV_INLINE I firstCorner(const PathVolume& volume, const I3& cell) {
     return (cell.z * I(volume.size[1]) + cell.y) * I(volume.size[0]) + cell.x;
 }
@@ -71,7 +73,7 @@ struct Rail {
     STEREONAV_INLINE F unitsTo(I x) const { return mulAdd(toFloat(x - base), inverse, first); }
 };
 
-// mirror: a power of two above all cells, less 1.
+// Returns the ray's course along one axis. mirror: a power of two above all cells, less 1.
 STEREONAV_INLINE Rail railOf(F origin, F direction, I cell, int cells, int mirror) {
     const F way = awayFromZero(direction), inverse = F(1.0f) / way;
     const M back = way < F(0.0f);
@@ -96,6 +98,7 @@ STEREONAV_INLINE Rail select(M m, const Rail& a, const Rail& b) {
             select(m, a.back, b.back),       select(m, a.flip, b.flip)};
 }
 
+// Rays that are to be traced.
 struct RayQueue {
     const std::int32_t* paths;
     int count;
@@ -107,7 +110,7 @@ struct RayQueue {
 // not looked up yet), parked (in a cell that may hold its surface) or idle.
 struct Rays3 {
     Rail x, y, z;
-    F t, limit, isovalue;
+    F t, limit, isovalue;  // units of way, units of way, stored numbers
     I path, field;
     I block, octant;  // where the walking ones are
     I corner;         // of the cells
@@ -127,15 +130,15 @@ struct EndCells {
 
 constexpr int kRaysAtOnce = 64;
 constexpr int kPackets = kRaysAtOnce / kLanes > 2 ? kRaysAtOnce / kLanes : 2;
-constexpr int kRefill = kLanes / 4 > 0 ? kLanes / 4 : 1;  // idle lanes that are worth filling
+constexpr int kRefill = kLanes / 4 > 0 ? kLanes / 4 : 1;  // least idle lanes that are worth filling
 // Whether corners are fetched before they are asked for. Sixteen lanes ask for so many at once that it costs
 // more than it saves.
 constexpr bool kFetchAhead = kLanes <= 8;
 // Walking lanes for each that waits, below which these do not wait any longer.
 constexpr int kWorthWaiting = 1;
 
-// With `Places` also where in the volume rays end is wanted; without, and without `Limited`, only whether
-// they do.
+// Traces a queue. With `Places` also where in the volume rays end is wanted; without, and without `Limited`,
+// only whether they do.
 template <bool Places, bool Limited>
 class RayTracer {
 public:
@@ -146,7 +149,7 @@ public:
             while (mMirror[k] < volume.size[k]) mMirror[k] = 2 * mMirror[k] + 1;
     }
 
-    // Fills met of all rays of the queue: infinite where nothing is met; without Places and Limited 0 where
+    // Fills met for all rays of the queue: infinite where nothing is met; without Places and Limited 0 where
     // something is. With Places metCell and metLocal.
     STEREONAV_INLINE void run() {
         for (int n = 0; n < PathStore::kPaths; n += kLanes) store(mStore.met + n, F(__builtin_inff()));

@@ -32,8 +32,8 @@ private:
     TexelLighter mLighter;
 };
 
-// Luminance of irradiance / pi over the pixels that show a surface: its mean, and the root of the mean
-// variance of the pixels' means as a share of that of their squares (infinite below two samples). The
+// Facts of luminance of irradiance / pi over the pixels that show a surface: its mean, and the root of the
+// mean variance of the pixels' means as a share of that of their squares (infinite below two samples). The
 // variance is that of independent samples: low discrepancy is better than it says.
 struct PixelLightFacts {
     std::size_t pixels = 0;

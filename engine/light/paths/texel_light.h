@@ -33,8 +33,8 @@ struct TexelSampling {
     SimdTarget simd = SimdTarget::Auto;
 };
 
-// More point lights than a few are sampled one at a time, by what each would bring unshadowed; the naive way
-// takes all.
+// Whether point lights are sampled one at a time, by what each would bring unshadowed: where there are more
+// than a few. The naive way takes all.
 bool choosesLights(const LightSetup& setup, const TexelSampling& sampling);
 
 // Running mean of a texel's samples.
@@ -56,7 +56,8 @@ public:
                  const TexelSampling& sampling);
     ~TexelLighter();
 
-    // What it will take at most beside what it holds, but for what each thread takes for its paths.
+    // Returns the bytes that it will take at most beside what it holds, but for what each thread takes for
+    // its paths.
     std::size_t bytesToCome() const;
 
     // Adds samples [sums[n].samples, sums[n].samples + count) to each texel; the result depends on the texel,
@@ -66,23 +67,24 @@ public:
 
     // A point between texels, on a surface that is shown.
     struct SurfacePoint {
-        glm::dvec3 voxel{0.0};       // of the volume's grid; clamped to its box
-        double isovalue = 0;         // of the surface, stored numbers
+        glm::dvec3 voxel{0.0};       // place in the volume's grid; clamped to its box
+        double isovalue = 0;         // that of the surface, a stored number
         glm::dvec3 towardsEye{0.0};  // unit, world: the normal where the gradient vanishes
-        std::uint64_t number = 0;    // of its samples, as the place in the grid is of a texel's
+        std::uint64_t number = 0;    // chooses its random numbers, as a texel's place in the grid does
     };
-    // The same at such points; one at which there is neither a gradient nor a direction gets samples -1.
+    // Adds samples at such points; one at which there is neither a gradient nor a direction gets samples -1.
     void addIrradianceAt(std::span<const SurfacePoint> points, int count, std::span<TexelSum> sums) const;
 
-    // The transfer of distant light in harmonics (eq. 4 to 8; Y4): adds `count` samples from `firstSample` on
-    // to sums of harmonicsCount(order) * channels floats a texel (coefficient first, then channel), already
-    // divided by pi: dotted with the light's coefficients it is what addIrradiance gives. channels: 1 (grey
-    // albedo: the mean of the three) or 3. Sums of samples, not means. alive[n]: false where the texel lies
-    // on no surface, or on two.
+    // Adds the transfer of distant light in harmonics (eq. 4 to 8; Y4): `count` samples from `firstSample`
+    // on, to sums of harmonicsCount(order) * channels floats a texel (coefficient first, then channel),
+    // already divided by pi: dotted with the light's coefficients it is what addIrradiance gives. channels: 1
+    // (grey albedo: the mean of the three) or 3. Sums of samples, not means. alive[n]: false where the texel
+    // lies on no surface, or on two.
     void addTransfer(std::span<const glm::ivec3> texels, int firstSample, int count, int order, int channels,
                      std::span<float> sums, std::span<std::uint8_t> alive) const;
 
-    // Isovalue and unit normal (towards smaller values) at a texel; normal 0 where the gradient vanishes.
+    // Isovalue (stored number) and unit normal (world, towards smaller values) at a texel; normal 0 where the
+    // gradient vanishes.
     struct TexelPlace {
         float isovalue;
         glm::dvec3 normal;

@@ -12,35 +12,37 @@
 
 namespace stereonav {
 
+// A sky. Radiance is linear RGB, 0 and more.
 class LightProbe {
 public:
     // width * height pixels of linear radiance, row by row. Throws Error (naming `name`) when a pixel is
     // negative or not finite, or the picture is empty.
     LightProbe(int width, int height, std::vector<glm::vec3> radiance, const std::string& name);
 
-    // Piecewise constant: of the pixel the unit direction falls into.
+    // Returns the radiance of the pixel that the unit direction falls into: it is piecewise constant.
     glm::vec3 radiance(const glm::vec3& direction) const;
     // Radiance and density() at once, for the price of one.
     struct Seen {
-        glm::vec3 radiance;
-        float density;
+        glm::vec3 radiance;  // linear RGB
+        float density;       // per steradian
     };
     Seen seen(const glm::vec3& direction) const;
 
     struct Sample {
-        glm::vec3 direction, radiance;
-        float density;  // per steradian; > 0 unless the probe is black
+        glm::vec3 direction, radiance;  // unit; linear RGB
+        float density;                  // per steradian; > 0 unless the probe is black
     };
-    // By luminance times solid angle. u in [0, 1)^2; a well spread u gives well spread directions.
+    // Chooses a direction by luminance times solid angle. u in [0, 1)^2; a well spread u gives well spread
+    // directions.
     Sample sample(const glm::vec2& u) const;
-    // The density with which sample() gives a direction; 0 for a black probe.
+    // Returns the density, per steradian, with which sample() gives a direction; 0 for a black probe.
     float density(const glm::vec3& direction) const;
 
-    // Throws Error for an order out of 1..kMaxHarmonicsOrder. Exact over the pixels: harmonicsCount(order)
-    // coefficients a channel.
+    // Returns harmonicsCount(order) coefficients a channel, exact over the pixels. Throws Error for an order
+    // out of 1..kMaxHarmonicsOrder.
     std::vector<glm::vec3> project(int order) const;
 
-    glm::vec3 mean() const { return mMean; }  // over the sphere
+    glm::vec3 mean() const { return mMean; }  // radiance over the sphere
     bool black() const { return mBlack; }
     std::span<const glm::vec3> pixels() const { return mRadiance; }
     int width() const { return mWidth; }
@@ -57,8 +59,8 @@ private:
     void fillRow(int row);
 
     int mWidth, mHeight;
-    std::vector<glm::vec3> mRadiance;
-    std::vector<double> mEdges;  // cosine of the polar angle at the upper edge of row j; mHeight + 1
+    std::vector<glm::vec3> mRadiance;  // linear RGB
+    std::vector<double> mEdges;        // cosine of the polar angle at the upper edge of row j; mHeight + 1
     // Running sums of the chance of a row, and of a column within its row (mWidth + 1 a row): double, because
     // a dim pixel's chance is the difference of two of them.
     std::vector<double> mRows, mColumns;
@@ -66,9 +68,9 @@ private:
     bool mBlack = false;
 };
 
-// .hdr, or any picture (taken as sRGB), as one stands in it: its middle is seen towards +y, what lies right
-// of it towards +x, as a terrain's sky. A width not divisible by 4 is turned by up to half a column. Throws
-// Error.
+// Reads .hdr, or any picture (taken as sRGB), as one stands in it: its middle is seen towards +y, what lies
+// right of it towards +x, as a terrain's sky. A width not divisible by 4 is turned by up to half a column.
+// Throws Error.
 LightProbe readLightProbe(const std::filesystem::path& file);
 
 }  // namespace stereonav

@@ -13,11 +13,12 @@ namespace stereonav {
 struct PointLight {
     glm::dvec3 position{0.0};   // world, metres
     glm::vec3 intensity{0.0f};  // W/sr in units of the probe: irradiance at distance d is intensity / d^2
-    // Nearer than this the light counts as being this far away, so that a light on the surface stays finite.
+    // Metres: nearer than this the light counts as being this far away, so that a light on the surface stays
+    // finite.
     double radius = 1e-3;
 };
 
-// By which one of many is chosen: the luminance of its intensity.
+// Returns the weight by which one of many is chosen: the luminance of its intensity.
 inline double lightWeight(const PointLight& light) {
     return luminance(glm::dvec3(light.intensity));
 }
@@ -26,7 +27,7 @@ struct LightSetup {
     std::shared_ptr<const LightProbe> probe;  // may be null
     glm::vec3 sky{0.0f};                      // the same radiance from everywhere, beside the probe
     std::vector<PointLight> lights;           // hard shadows
-    glm::vec3 albedo{0.7f};                   // 0..1, of the diffuse surface
+    glm::vec3 albedo{0.7f};                   // 0..1, linear: that of the diffuse surface
     // Metres: distant light (probe and sky) comes from here on, a ray that met nothing by then sees it, so
     // that closed cavities have open places too. 0: from infinitely far away.
     double reach = 0;

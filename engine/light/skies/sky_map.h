@@ -26,7 +26,7 @@ private:
     Plane<PackedColor> mMap;
 };
 
-// The built-in sky: horizon to zenith, and haze below the horizon.
+// Returns the built-in sky, linear RGB 0 to 1: horizon to zenith, and haze below the horizon.
 glm::vec3 gradientSky(const glm::vec3& direction);
 
 }  // namespace stereonav

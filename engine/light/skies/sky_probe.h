@@ -15,13 +15,13 @@ struct ClearSky {
     glm::dvec3 sun{0.35, -0.6, 0.72};  // towards it, of any length; at or above the horizon
     double turbidity = 3.0;  // haze: 2 very clear, 3 clear, 6 hazy, 10 thick; the model holds from 1.8 to 10
     bool disc = true;        // the sun itself, 0.533 degrees across; without it: the light of the sky alone
-    double groundAlbedo = 0.2;  // 0..1
+    double groundAlbedo = 0.2;  // 0..1, linear
     int height = 128;           // rows, even, 2..4096; twice as many columns
 };
 // Throws Error for values out of these ranges.
 LightProbe clearSkyProbe(const ClearSky& sky);
 
-// Three times as bright at the zenith as at the horizon.
+// Returns a sky three times as bright at the zenith as at the horizon. Throws Error as clearSkyProbe() does.
 LightProbe overcastSkyProbe(double groundAlbedo = 0.2, int height = 128);
 
 }  // namespace stereonav

@@ -16,14 +16,15 @@ constexpr int harmonicsCount(int order) {
     return order * order;
 }
 
-// order 1..kMaxHarmonicsOrder; direction: unit; values: harmonicsCount(order) of them. Sound at the poles.
+// Fills values. order 1..kMaxHarmonicsOrder; direction: unit; values: harmonicsCount(order) of them. Sound at
+// the poles.
 void evaluateHarmonics(const glm::dvec3& direction, int order, double* values);
 void evaluateHarmonics(const glm::vec3& direction, int order, float* values);
 
-// The rotation nearest to a matrix (its polar factor), to which it should be close. A turn that is dragged on
-// from frame to frame is a product of ever more rounded matrices; band l of a harmonics rotation is of degree
-// l in them, so what they lose in orthogonality it loses l-fold. Throws Error for a matrix that is no
-// rotation at all: not finite, flattened or mirrored.
+// Returns the rotation nearest to a matrix (its polar factor), to which it should be close. A turn that is
+// dragged on from frame to frame is a product of ever more rounded matrices; band l of a harmonics rotation
+// is of degree l in them, so what they lose in orthogonality it loses l-fold. Throws Error for a matrix that
+// is no rotation at all: not finite, flattened or mirrored.
 glm::dmat3 nearestRotation(const glm::dmat3& almost);
 
 // Turns coefficients so that the function they stand for is rotated: (R f)(w) = f(R^-1 w). Matrices band by
@@ -34,7 +35,7 @@ public:
     // order out of 1..kMaxHarmonicsOrder.
     HarmonicsRotation(const glm::dmat3& rotation, int order);
     int order() const { return mOrder; }
-    // from and to: harmonicsCount(order) values; not the same memory.
+    // Turns coefficients. from and to: harmonicsCount(order) values; not the same memory.
     void apply(const double* from, double* to) const;
     void apply(const glm::vec3* from, glm::vec3* to) const;
     // The matrix of band l: (2l + 1)^2 values, rows first.
@@ -43,7 +44,7 @@ public:
 
 private:
     int mOrder;
-    std::vector<double> mBands;
+    std::vector<double> mBands;  // the matrices, one band after the other
 };
 
 }  // namespace stereonav

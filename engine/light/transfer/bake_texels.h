@@ -12,9 +12,11 @@
 
 namespace stereonav {
 
+// Which texels are wanted.
 struct TexelChoice {
-    // Texels at corners of texel cells that a surface of a stored value in [lowest, highest] passes through:
-    // trilinear lookups at points of such a surface touch just these.
+    // Stored values of the surfaces that may be shown: texels count at corners of texel cells that a surface
+    // of a value in [lowest, highest] passes through: trilinear lookups at points of such a surface touch
+    // just these.
     float lowest = 0, highest = 0;
     // If given (same frame as the volume): cells without a voxel inside do not count.
     const MaskVolume* region = nullptr;
@@ -30,11 +32,11 @@ struct TexelBrick {
     TexelMask wanted{};
 };
 
-// Place of a brick in bricks, its first texel, and the texels of a mask in the order of their bits.
+// Return the place of a brick in bricks, and the texels of its mask in the order of their bits.
 glm::ivec3 brickPlace(const TexelLayout& layout, std::uint32_t number);
 std::vector<glm::ivec3> texelsIn(const TexelLayout& layout, const TexelBrick& brick);
 
-// Answers for one brick at a time; may be asked from any thread.
+// Finds the wanted texels of one brick at a time; may be asked from any thread.
 class TexelChooser {
 public:
     // volume (and the region) must outlive this; texels: made by texelFrame from the volume's frame.
@@ -52,7 +54,7 @@ private:
     glm::dvec3 mVoxelsPerTexel;
 };
 
-// All bricks with a wanted texel, by number. Throws Cancelled.
+// Returns all bricks with a wanted texel, by number. Throws Cancelled.
 std::vector<TexelBrick> wantedBricks(const GreyVolume& volume, const VolumeFrame& texels,
                                      const TexelChoice& choice, Progress& progress);
 

@@ -8,11 +8,11 @@
 
 namespace stereonav {
 
-// On a grid of blocks, all known (BakedLook::beyond); empty where nothing of `light` is.
+// Returns light on a grid of blocks, all known (BakedLook::beyond); empty where nothing of `light` is.
 IlluminationVolume lightBeyond(const IlluminationVolume& light);
 
-// The same into what it gave before, after texels of `light` have changed. Where nothing is known any more
-// `beyond` stays as it is.
+// Brings what lightBeyond() gave up to date, after texels of `light` have changed. Where nothing is known any
+// more `beyond` stays as it is.
 void updateLightBeyond(const IlluminationVolume& light, IlluminationVolume& beyond);
 
 }  // namespace stereonav

@@ -10,9 +10,9 @@
 
 namespace stereonav {
 
-// Numbers of the bricks (x + bricks.x (y + bricks.y z)) around the texels that the surfaces seen through
-// every `every`-th pixel lie between, those of most pixels first, without repeats. Pixels that met nothing do
-// not count. every >= 1.
+// Returns the numbers of the bricks (x + bricks.x (y + bricks.y z)) around the texels that the surfaces seen
+// through every `every`-th pixel lie between, those of most pixels first, without repeats. Pixels that met
+// nothing do not count. every >= 1.
 std::vector<std::uint32_t> bricksSeen(const EyeView& view, const EyeImage& image,
                                       const IlluminationVolume& light, int every = 4);
 

@@ -18,12 +18,13 @@ struct TransferGroups {
     const std::uint32_t* words = nullptr;
     int groups = 0, pairs = 0;
     int channels = 1;  // 1 or 3
-    // 2 * pairs times 3: red, green, blue of a coefficient, times kTransferLightScale.
+    // Coefficients of the light, 2 * pairs times 3: red, green, blue of a coefficient, times
+    // kTransferLightScale.
     const float* light = nullptr;
 };
 
 struct TransferKernels {
-    // The dot products as packed texels in two halves: red | green << 16, and blue | weight 1 << 16.
+    // Writes the dot products as packed texels in two halves: red | green << 16, and blue | weight 1 << 16.
     void (*relight)(const TransferGroups& from, std::uint32_t* redGreen, std::uint32_t* blueWeight);
 };
 

@@ -18,7 +18,8 @@ namespace stereonav {
 class TransferVolume {
 public:
     TransferVolume() = default;
-    // order: 1..kMaxHarmonicsOrder; channels: 1 or 3; bricks: the texels to hold, by number of their brick.
+    // Holds the texels of `bricks`, by number of their brick. order: 1..kMaxHarmonicsOrder; channels: 1 or 3.
+    // Throws Error for others.
     TransferVolume(const VolumeFrame& texels, int order, int channels, std::vector<TexelBrick> bricks);
 
     bool empty() const { return mBricks.empty(); }
@@ -35,15 +36,16 @@ public:
     // Sets the numbers of all texels of bricks()[n], in the order of texelsIn(). Different bricks may be set
     // by different threads. Rounds to half floats, none of them denormal; what is not finite becomes 0.
     void setBrick(std::size_t n, std::span<const float> numbers);
-    // Numbers of a texel as they are stored; empty where it is not held.
+    // Returns the numbers of a texel as they are stored; empty where it is not held.
     std::vector<float> at(const glm::ivec3& texel) const;
 
     // Dots every texel with light: order^2 coefficients (HarmonicsRotation turns them), into `to`, which has
-    // the same frame. Irradiance below 0, of harmonics' ringing, becomes 0. `which`: of bricks(), the order
-    // in which they are done; all: relightAll. Not finite light counts as none.
+    // the same frame. Negative irradiance, from harmonics' ringing, becomes 0. `which`: indices into
+    // bricks(), the order in which they are done; all: relightAll. Light that is not finite counts as none.
     void relight(std::span<const glm::vec3> light, std::span<const std::uint32_t> which,
                  IlluminationVolume& to, SimdTarget target = SimdTarget::Auto) const;
-    // Places in bricks() of those whose numbers are named (bricksSeen), in that order; others are not held.
+    // Returns the places in bricks() of those whose numbers are named (bricksSeen), in that order; others are
+    // not held.
     std::vector<std::uint32_t> heldAmong(std::span<const std::uint32_t> numbers) const;
     void relightAll(std::span<const glm::vec3> light, IlluminationVolume& to,
                     SimdTarget target = SimdTarget::Auto) const;

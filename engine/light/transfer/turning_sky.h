@@ -14,14 +14,14 @@
 
 namespace stereonav {
 
-// Radians: the sky is tilted about the axis to the east, so that what lies north rises, and then turned about
-// the vertical, anticlockwise seen from above, as --turn does.
+// A turn in radians: the sky is tilted about the axis to the east, so that what lies north rises, and then
+// turned about the vertical, anticlockwise seen from above, as --turn does.
 struct SkyTurn {
     double turn = 0, tilt = 0;
     bool operator==(const SkyTurn&) const = default;
 };
 
-// Harmonics of a sky, order^2 of them, so turned. Throws Error where there are not that many.
+// Returns harmonics of a sky, order^2 of them, so turned. Throws Error where there are not that many.
 std::vector<glm::vec3> turnedSky(const std::vector<glm::vec3>& straight, const SkyTurn& turn);
 
 // Used by one thread, that which makes frames.
@@ -34,9 +34,9 @@ public:
                std::shared_ptr<IlluminationVolume> beyond = nullptr);
 
     const SkyTurn& turn() const { return mTurn; }
-    // Before a frame: lights what the last one saw. Cheap where the sky stands there already.
+    // Lights, before a frame, what the last one saw. Does nothing where the sky stands there already.
     void turnTo(const SkyTurn& turn);
-    // After it: lights what it saw for the first time, and some of the rest.
+    // Lights, after a frame, what it saw for the first time, and some of the rest.
     void seen(const EyeView& view, const EyeImage& image);
     // Counts frames after which texels have changed: the last one is to be drawn again.
     std::uint64_t changes() const { return mChanges; }
@@ -48,7 +48,7 @@ private:
     void addRest(std::vector<std::uint32_t>& stale);
 
     TransferVolume mTransfer;
-    std::vector<glm::vec3> mStraight, mNow;
+    std::vector<glm::vec3> mStraight, mNow;  // harmonics, linear RGB
     std::shared_ptr<IlluminationVolume> mLight, mBeyond;
     SkyTurn mTurn;
     std::uint32_t mTurns = 0;
