@@ -29,7 +29,7 @@ struct KeyPress {
 struct Gamepad {
     bool present = false;
     glm::dvec2 leftStick{0.0}, rightStick{0.0};  // shares of full tilt
-    double leftTrigger = 0, rightTrigger = 0;
+    double leftTrigger = 0, rightTrigger = 0;    // shares of full pull
     bool a = false, b = false, x = false, y = false, leftBumper = false, rightBumper = false;
     bool up = false, down = false, left = false, right = false;  // of the cross
 };

@@ -7,7 +7,7 @@
 
 namespace stereonav {
 
-constexpr float kLargestHalf = 65504.0f;
+constexpr float kLargestHalf = 65504.0f;  // the largest finite one, without unit
 
 // Rounds to nearest, ties to even. Beyond 65504 (infinities too): 65504. NaN: 65504 as well, never NaN.
 inline std::uint16_t halfFromFloat(float v) {

@@ -7,16 +7,16 @@
 
 namespace stereonav {
 
-// A voxel for each cell, at its middle.
+// Returns a grid with a voxel for each cell, at its middle.
 VolumeFrame cellFrameOf(const VolumeFrame& voxels);
 
 bool anySet(const std::uint8_t* row, int count);
 
-// 1 for the cells of row (j, k) with a corner inside the mask; false, and nothing written, where there are
-// none.
+// Writes 1 for the cells of row (j, k) with a corner inside the mask; returns false, and writes nothing,
+// where there are none.
 bool flagRegion(const MaskVolume& mask, int j, int k, int cells, std::uint8_t* region);
 
-// 1 for those of the region's cells that hold surface, 0 for all others.
+// Writes 1 for those of the region's cells that hold surface, 0 for all others.
 void flagActive(const GreyVolume& volume, const SurfaceSetting& setting, int j, int k, int cells,
                 const std::uint8_t* region, std::uint8_t* active);
 

@@ -27,23 +27,23 @@ struct VoxelRuns {
         const std::size_t n = rowNumber(j, k);
         return {runs.data() + rowStart[n], runs.data() + rowStart[n + 1]};
     }
-    // The run that holds a voxel; -1 where none does, and outside the grid.
+    // Returns the run that holds a voxel; -1 where none does, and outside the grid.
     std::int64_t runAt(const glm::ivec3& voxel) const;
     std::size_t voxelCount() const;
 };
 
-// Appends the runs of row (j, k), ascending. Called from many threads, once a row.
+// A function that appends the runs of row (j, k), ascending. Called from many threads, once a row.
 using RowRuns = std::function<void(int j, int k, std::vector<VoxelRun>& runs)>;
 VoxelRuns collectRuns(const glm::ivec3& size, const RowRuns& rowRuns);
 
-// The same slice by slice, for who has not all of them yet.
+// Runs of one slice, for who has not all of them yet.
 struct SliceRuns {
     std::vector<VoxelRun> runs;
     std::vector<std::uint32_t> ofRow;  // how many runs each row has
 };
-// Value < limit, in a slice of size.x * size.y values.
+// Returns the runs of values below limit, in a slice of size.x * size.y values.
 SliceRuns sliceRunsBelow(const std::int16_t* slice, const glm::ivec3& size, double limit);
-// Runs of a volume out of those of its size.z slices.
+// Returns the runs of a volume out of those of its size.z slices.
 VoxelRuns joinedRuns(const glm::ivec3& size, const std::vector<SliceRuns>& slices);
 
 VoxelRuns runsOf(const MaskVolume& mask);                               // voxels not 0
@@ -51,6 +51,7 @@ VoxelRuns runsBelow(const Volume<std::int16_t>& volume, double limit);  // value
 VoxelRuns runsAbove(const Volume<std::int16_t>& volume, double limit);  // value > limit
 VoxelRuns eroded(const VoxelRuns& runs);  // voxels whose six neighbours are in the set and in the grid too
 
+// A piece of a set.
 struct Component {
     std::size_t voxels = 0;
     glm::ivec3 first{0}, last{0};  // bounding box, last included
@@ -61,7 +62,7 @@ struct Components {
     std::vector<std::uint32_t> ofRun;  // for each run its component
     std::vector<Component> list;
 
-    // The component that holds a voxel, -1 where none does.
+    // Returns the component that holds a voxel, -1 where none does.
     int at(const VoxelRuns& runs, const glm::ivec3& voxel) const {
         const std::int64_t run = runs.runAt(voxel);
         return run < 0 ? -1 : static_cast<int>(ofRun[static_cast<std::size_t>(run)]);

@@ -10,7 +10,8 @@ namespace stereonav {
 // A plane of squared distances, `lines` rows of `columns` numbers; rows are combined with their neighbours
 // above and below.
 struct DistancePlane {
-    const float* from = nullptr;  // columns a line, gap-free, columns a multiple of kDistanceChunk
+    // Squared lengths: columns a line, gap-free, columns a multiple of kDistanceChunk.
+    const float* from = nullptr;
     int lines = 0;
     int begin = 0, end = 0;  // the lines that are wanted
     int columns = 0;
@@ -24,16 +25,16 @@ constexpr int kDistanceChunk = 16;
 // Squared distances to units: the largest q with q * q * squaredUnit <= squared * keep.
 struct DistanceUnits {
     float perLength = 1;     // units a length
-    double squaredUnit = 1;  // of a unit
-    double keep = 1;         // what rounding may have added is taken away
+    double squaredUnit = 1;  // squared length of a unit
+    double keep = 1;         // share, near 1: what rounding may have added is taken away
 };
 
 struct DistanceKernels {
-    // to + (line - begin) * stride: squared distances again. Where a chunk holds no more than 0, nothing is
-    // written.
+    // Writes squared distances to to + (line - begin) * stride. Where a chunk holds no more than 0, nothing
+    // is written.
     void (*combine)(const DistancePlane& plane, float* to, std::ptrdiff_t stride);
-    // to + (line - begin) * stride: in units; of the columns `width` are written, and nothing where all are
-    // 0.
+    // Writes units to to + (line - begin) * stride; of the columns `width` are written, and nothing where all
+    // are 0.
     void (*finish)(const DistancePlane& plane, const DistanceUnits& units, std::uint16_t* to,
                    std::ptrdiff_t stride, int width);
 };

@@ -19,15 +19,15 @@ struct DistanceVolume : Volume<std::uint16_t> {
     double unit = 0;  // metres
 };
 
-// Distance to the nearest voxel with mask 0, for every voxel with mask not 0; 0 elsewhere. Voxels beyond
-// the volume's faces count as 0 too when outsideIsSeed. unit: metres, > 0; 0: a 64th of the smallest spacing.
-// Where spacings differ, a distance within one part in 4 million of a whole number may come out one unit
-// less. The work is done inside the bounding box of the mask. Memory: 2 bytes a voxel for the result, 4 for
-// each square of a block of lines (2^24 of them, or 64 lines where that is more), taken only where rows of
-// the box hold mask (in pages of 2 MB), besides two planes a thread and 8 bytes a row. The same on any number
-// of threads and for every target. What is further than atMost metres is given as that: then no line further
-// away is looked at, and all voxels count as near a seed. Throws Error when the unit, atMost or a spacing is
-// not positive or this processor does not have the target.
+// Returns the distance to the nearest voxel with mask 0, for every voxel with mask not 0; 0 elsewhere. Voxels
+// beyond the volume's faces count as 0 too when outsideIsSeed. unit: metres, > 0; 0: a 64th of the smallest
+// spacing. Where spacings differ, a distance within one part in 4 million of a whole number may come out one
+// unit less. The work is done inside the bounding box of the mask. Memory: 2 bytes a voxel for the result, 4
+// for each square of a block of lines (2^24 of them, or 64 lines where that is more), taken only where rows
+// of the box hold mask (in pages of 2 MB), besides two planes a thread and 8 bytes a row. The same on any
+// number of threads and for every target. What is further than atMost metres is given as that: then no line
+// further away is looked at, and all voxels count as near a seed. Throws Error when the unit, atMost or a
+// spacing is not positive or this processor does not have the target.
 DistanceVolume distanceToOutside(const MaskVolume& mask, bool outsideIsSeed = true, double unit = 0,
                                  SimdTarget target = SimdTarget::Auto,
                                  double atMost = std::numeric_limits<double>::infinity());

@@ -9,7 +9,7 @@
 
 namespace stereonav {
 
-// i in bits 0..2 of a brick, j in 3..5, k in 6..8.
+// Order of texels in memory: i in bits 0..2 of a brick, j in 3..5, k in 6..8.
 struct TexelLayout {
     glm::ivec3 bricks{0};
 
@@ -27,12 +27,12 @@ struct TexelLayout {
 // known, else how much it counts beside its neighbours (1 for a finished one). All zero: unknown.
 using PackedTexel = std::uint64_t;
 
-PackedTexel packTexel(const glm::vec3& light, float weight);  // not finite or negative: taken as 0
-glm::vec3 texelLight(PackedTexel texel);
-float texelWeight(PackedTexel texel);
+PackedTexel packTexel(const glm::vec3& light, float weight);  // what is not finite or negative is taken as 0
+glm::vec3 texelLight(PackedTexel texel);                      // linear RGB
+float texelWeight(PackedTexel texel);                         // 0 to 1
 
 struct IlluminationVolume {
-    VolumeFrame frame;  // of the texels
+    VolumeFrame frame;  // the texels' grid
     TexelLayout layout;
     LazyArray<PackedTexel> texels;  // by layout; written by one thread a texel (8 bytes at a time)
 
@@ -44,20 +44,21 @@ struct IlluminationVolume {
     // How neighbouring texels are put together (Y5 of docs/ledger.md, fig. 6). The default wins.
     enum class Lookup { Nearest, NearestIsovalue, Trilinear, Tricubic };
     struct Light {
-        glm::vec3 value{0.0f};
+        glm::vec3 value{0.0f};  // linear RGB: irradiance / pi
         // Weight of the texels that are known, 0..1; value is theirs alone. 0: nothing known, or of less
         // weight than places are exact to (kLeastKnown).
         float weight = 0;
     };
     // Scalar oracle of the kernels' lookup; world: any point, clamped to the grid. Not for NearestIsovalue.
     Light at(const glm::dvec3& world, Lookup lookup = Lookup::Trilinear) const;
-    // Takes of the eight texels around the point the one whose value in `field` is nearest to isovalue.
+    // Takes, among the eight texels around the point, the one whose value in `field` is nearest to isovalue
+    // (a stored number).
     Light nearestIsovalue(const glm::dvec3& world, const GreyVolume& field, float isovalue) const;
 };
 
-// The texels' grid for a volume: `perVoxel` texels a voxel along each axis (1/2 for the paper's 1/8, 1, 2 for
-// its 8), the first texel on the first voxel, the last on or beyond the last voxel. Throws Error when that is
-// more texels than 32-bit indices hold.
+// Returns the texels' grid for a volume: `perVoxel` texels a voxel along each axis (1/2 for the paper's 1/8,
+// 1, 2 for its 8), the first texel on the first voxel, the last on or beyond the last voxel. Throws Error
+// when that is more texels than 32-bit indices hold, or perVoxel is out of range.
 VolumeFrame texelFrame(const VolumeFrame& volume, double perVoxel);
 
 }  // namespace stereonav

@@ -6,18 +6,18 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// What is known, of all lanes finite: weights are at most 1, texels at most 65536, the exposure at most
+// Light that is known, finite in all lanes: weights are at most 1, texels at most 65536, the exposure at most
 // kMostExposure, and what is divided by is at least kLeastKnown.
 struct BakedLight {
-    F red, green, blue;  // irradiance / pi times the exposure, of the texels that are known
+    F red, green, blue;  // linear RGB: irradiance / pi times the exposure, of the texels that are known
     F known;             // their weight, 0..1; less than kLeastKnown counts as 0, kWhollyKnown as 1
 };
-constexpr float kWhollyKnown = 0.999f;
+constexpr float kWhollyKnown = 0.999f;  // weight
 
 // The two texels along an axis: their shares of the index, and the place between them.
 struct TexelPair {
     I first, second;
-    F between;
+    F between;  // 0 to 1
 };
 STEREONAV_INLINE TexelPair texelsAt(const TexelGrid& grid, int axis, F voxel) {
     const int last = grid.last[axis];
@@ -31,7 +31,7 @@ STEREONAV_INLINE TexelPair texelsAt(const TexelGrid& grid, int axis, F voxel) {
     return {index(low), index(high), at - toFloat(low)};
 }
 
-// A half float that is not negative, times 2^-112: as a float's bits.
+// Returns a half float that is not negative, times 2^-112: as a float's bits.
 STEREONAV_INLINE F lowHalf(I word) {
     return asFloat(shiftLeft<13>(word) & I(0x0FFFE000));
 }
@@ -39,7 +39,7 @@ STEREONAV_INLINE F highHalf(I word) {
     return asFloat(shiftRight<3>(word) & I(0x0FFFE000));
 }
 
-// Light of the texels that are known, times the factor; lanes outside m: 0. voxel: any numbers.
+// Returns light of the texels that are known, times the factor; lanes outside m: 0. voxel: any numbers.
 STEREONAV_INLINE BakedLight texelsAround(const TexelGrid& grid, const V3& voxel, F factor, M m) {
     constexpr float kHalfScale = 0x1p112f;
     // Weights are raised by so much that light of 2^-112 times a small weight is still a normal number.
@@ -69,8 +69,8 @@ STEREONAV_INLINE BakedLight texelsAround(const TexelGrid& grid, const V3& voxel,
             select(known < least, zero, select(known < F(kWhollyKnown), known, one))};
 }
 
-// A function of its own: seldom needed, and as long as all the rest. What a lane gets does not depend on what
-// the others need.
+// Mixes in light of BakedData::beyond where `near` is not wholly known. A function of its own: seldom needed,
+// and as long as all the rest. What a lane gets does not depend on what the others need.
 [[gnu::noinline]] inline BakedLight withBeyond(const BakedData& data, const V3& voxel, const BakedLight& near,
                                                M m) {
     const BakedLight far = texelsAround(data.beyond, voxel, F(data.exposure), m);
@@ -79,7 +79,7 @@ STEREONAV_INLINE BakedLight texelsAround(const TexelGrid& grid, const V3& voxel,
     return {mixed(near.red, far.red), mixed(near.green, far.green), mixed(near.blue, far.blue), far.known};
 }
 
-// voxel: points in voxel coordinates.
+// Returns light times the exposure. voxel: points in voxel coordinates.
 STEREONAV_INLINE BakedLight bakedAt(const BakedData& data, const V3& voxel, M m) {
     const BakedLight near = texelsAround(data, voxel, F(data.exposure), m);
     if (!data.beyond.texels || !any(m & (near.known < F(1.0f)))) return near;

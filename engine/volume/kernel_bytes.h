@@ -6,14 +6,14 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// base[index] and base[index + 1], which may be odd.
+// Returns base[index] and base[index + 1], which may be odd.
 STEREONAV_INLINE IPair gatherBytePair(const std::uint8_t* base, I index, M m) {
     const I four = gatherHalves(base, shiftRight<1>(index), m);
     const I from = shiftRight(four, shiftLeft<3>(index & I(1)));
     return {from & I(255), shiftRight<8>(from) & I(255)};
 }
 
-// first: index of the cell's voxel nearest to the origin; p: place in the cell, 0..1. 0..255.
+// Returns 0..255. first: index of the cell's voxel nearest to the origin; p: place in the cell, 0..1.
 STEREONAV_INLINE F bytesAt(const ByteData& data, I first, const V3& p, M m) {
     F edges[4];
     for (int n = 0; n < 4; ++n) {
@@ -24,7 +24,7 @@ STEREONAV_INLINE F bytesAt(const ByteData& data, I first, const V3& p, M m) {
     return lerp(lerp(edges[0], edges[1], p.y), lerp(edges[2], edges[3], p.y), p.z);
 }
 
-// The same at points in voxel coordinates; beyond the faces the outermost voxels count on.
+// Returns the same at points in voxel coordinates; beyond the faces the outermost voxels count on.
 STEREONAV_INLINE F bytesAt(const ByteData& data, const V3& voxel, M m) {
     const auto low = [&](F at, int axis) { return min(truncateToInt(at), I(data.last[axis] - 1)); };
     const auto within = [&](F at, int axis) {

@@ -7,14 +7,14 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// c0 + c1 s + c2 s^2 + c3 s^3
+// The cubic c0 + c1 s + c2 s^2 + c3 s^3.
 struct Cubic {
     F c0, c1, c2, c3;
     STEREONAV_INLINE F at(F s) const { return mulAdd(mulAdd(mulAdd(c3, s, c2), s, c1), s, c0); }
     STEREONAV_INLINE F slope(F s) const { return mulAdd(mulAdd(F(3.0f) * c3, s, c2 + c2), s, c1); }
 };
 
-// The value along start + s * way, s from 0 to 1.
+// Returns the value less the isovalue along start + s * way, s from 0 to 1.
 STEREONAV_INLINE Cubic cubicAlong(const Corners& c, const V3& start, const V3& way) {
     F a[4], b[4];  // along the edges in x: a + b s
     for (int n = 0; n < 4; ++n) {
@@ -38,6 +38,7 @@ constexpr float kCloseEnough = 1e-6f;  // of the way through a cell
 // After a step of Newton's as short as this the next would be of the order of its square.
 constexpr float kQuadratic = 1e-4f;
 
+// A root of a cubic, 0 to 1.
 struct Root {
     F s;
     M found;
@@ -70,8 +71,8 @@ STEREONAV_INLINE M hasRoot(const Cubic& f, M m) {
     return m & ((f.c0 >= zero) | (f.at(F(1.0f)) >= zero) | topsOut(f, turnsOf(f)));
 }
 
-// The first s in [0, 1] where the cubic is >= 0. Between its local minimum and maximum a cubic rises, so one
-// bracket holds the first root, in which Newton's steps are kept by bisection.
+// Returns the first s in [0, 1] where the cubic is >= 0. Between its local minimum and maximum a cubic rises,
+// so one bracket holds the first root, in which Newton's steps are kept by bisection.
 STEREONAV_INLINE Root firstRoot(const Cubic& f, M m) {
     const F zero(0.0f), one(1.0f);
     const M atOnce = m & (f.c0 >= zero);
@@ -104,8 +105,9 @@ STEREONAV_INLINE Root firstRoot(const Cubic& f, M m) {
     return {select(atOnce, zero, s), atOnce | found};
 }
 
+// Where packets of rays meet the surface.
 struct Hits {
-    F t;       // view depth; infinite where nothing is hit
+    F t;       // view depth, metres; infinite where nothing is hit
     V3 local;  // in the cell, 0..1
     I word;    // Places::word
     M hit;
@@ -114,9 +116,10 @@ struct Hits {
 // A ray's way through its cell.
 struct Crossing {
     F in, out;      // view depths
-    V3 start, way;  // in the cell's own coordinates
+    V3 start, way;  // in the cell's own coordinates, 0..1; way: from where the ray enters to where it leaves
 };
 
+// Returns a coordinate of the ray at t in its cell, 0..1.
 STEREONAV_INLINE F inCell(F eye, F t, F direction, I cell) {
     return clamp(mulAdd(t, direction, eye) - toFloat(cell), F(0.0f), F(1.0f));
 }

@@ -7,33 +7,36 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-constexpr float kEnoughLeft = 1.0f / 1024;  // of the light: less than a packed step
+constexpr float kEnoughLeft = 1.0f / 1024;  // share of the light: less than a packed step
 
+// What a ray has gathered.
 struct Composite {
-    F red, green, blue;
-    F through;  // of what lies behind
-    F first;    // view depth of the first sample that is not transparent; infinite: none
-    F square;   // of the samples' distances behind the first, sum by light sent
+    F red, green, blue;  // linear RGB
+    F through;           // share of what lies behind that passes
+    F first;             // view depth, metres, of the first sample that is not transparent; infinite: none
+    F square;            // the samples' squared distances behind the first, metres^2, weighted by light sent
 };
 
+// Returns the trilinear value at places in cells, 0..1 along each axis.
 STEREONAV_INLINE F valueAt(const Corners& c, const V3& p) {
     const F near = lerp(lerp(c.v[0], c.v[1], p.x), lerp(c.v[2], c.v[3], p.x), p.y);
     const F far = lerp(lerp(c.v[4], c.v[5], p.x), lerp(c.v[6], c.v[7], p.x), p.y);
     return lerp(near, far, p.z);
 }
 
+// Returns linear light of the channel that begins at bit `shift`, 0 to 1.
 STEREONAV_INLINE F channelAt(I packed, int shift) {
     const F root = toFloat(shiftRight(packed, I(shift)) & I(1023)) * F(1.0f / 1023);
     return root * root;
 }
 
-// What the extinction is multiplied with (Ruiz et al. 2010, section 4.2), at places in cells.
+// Returns what the extinction is multiplied with, 0 to 1 (Ruiz et al. 2010, section 4.2), at places in cells.
 STEREONAV_INLINE F modulationAt(const ByteData& data, const Grid& grid, const Cells& at, const V3& p, M m) {
     const I x = at.x + grid.baseX, y = at.y + grid.baseY, z = at.z + grid.baseZ;
     return bytesAt(data, z * I(data.slice) + y * I(data.row) + x, p, m) * F(1.0f / 255);
 }
 
-// One sample of the lanes m, which stand in active cells.
+// Adds one sample of the lanes m, which stand in active cells.
 STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, const Grid& grid,
                                 const Rays& r, const Walk& w, I word, M m, Composite& sum) {
     const V3 local{inCell(grid.eyeX, w.t, r.direction.x, w.at.x),
@@ -70,7 +73,7 @@ STEREONAV_INLINE void addSample(const VolumeData& data, const VolumeView& view, 
     sum.square = mulAdd(share * behind, behind, sum.square);
 }
 
-// To the first sample behind t, and the cell there. Where samples are nearer to each other than the view
+// Goes to the first sample behind t, and the cell there. Where samples are nearer to each other than the view
 // depth's rounding (an eye millions of samples away), to the next view depth that there is.
 STEREONAV_INLINE void toSample(const VolumeData& data, const Grid& grid, const Rays& r, Walk& w, F t, M m) {
     const F apart = F(data.transfer.step) * r.perMetre;
@@ -80,7 +83,7 @@ STEREONAV_INLINE void toSample(const VolumeData& data, const Grid& grid, const R
     w.at = {select(m, c.x, w.at.x), select(m, c.y, w.at.y), select(m, c.z, w.at.z)};
 }
 
-// w stands anywhere before the first sample.
+// Gathers along the rays; w stands anywhere before the first sample.
 STEREONAV_INLINE Composite compositePacket(const VolumeData& data, const VolumeView& view, const Grid& grid,
                                            const Rays& r, Walk w) {
     Composite sum{F(0.0f), F(0.0f), F(0.0f), F(1.0f), F(__builtin_inff()), F(0.0f)};
@@ -105,11 +108,12 @@ STEREONAV_INLINE Composite compositePacket(const VolumeData& data, const VolumeV
     return sum;
 }
 
-// Root of the mean square distance behind the first sample that light comes from.
+// Returns the root of the mean square distance, metres, behind the first sample that light comes from.
 STEREONAV_INLINE F spreadOf(const Composite& sum) {
     return sqrt(sum.square * approxReciprocal(max(F(1.0f) - sum.through, F(1e-6f))));
 }
 
+// Returns what was gathered before the background, as a packed colour.
 STEREONAV_INLINE I compositeColor(const VolumeData& data, const Composite& sum) {
     // What is left at the end is too little to see; the rest is what the background shows through.
     const F through = select(sum.through < F(kEnoughLeft), F(0.0f), sum.through);

@@ -7,7 +7,8 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// 2^x for |x| < 120: the fraction by a polynomial of the fifth degree, relative error below 3e-7 and 1.
+// Returns 2^x for |x| < 120: the fraction by a polynomial of the fifth degree, relative error below 3e-7 and
+// 1.
 STEREONAV_INLINE F exp2(F x) {
     const F bounded = clamp(x, F(-120.0f), F(120.0f));
     const I whole = floorToInt(bounded);
@@ -19,7 +20,7 @@ STEREONAV_INLINE F exp2(F x) {
     p = mulAdd(p, f, F(9.9999994e-1f));
     return p * asFloat(shiftLeft<23>(whole + I(127)));
 }
-// log2 of positive normal numbers.
+// Returns log2 of positive normal numbers.
 STEREONAV_INLINE F log2(F x) {
     const I bitsOfX = asInt(x);
     const F exponent = toFloat(shiftRight<23>(bitsOfX) - I(127));
@@ -33,7 +34,7 @@ STEREONAV_INLINE F log2(F x) {
     return mulAdd(u * p, F(1.44269504f), exponent);
 }
 
-// x^n by squaring; n > 0.
+// Returns x^n by squaring; n > 0.
 STEREONAV_INLINE F wholePower(F x, int n) {
     F result(1.0f);
     for (F square = x;; square = square * square) {
@@ -43,15 +44,16 @@ STEREONAV_INLINE F wholePower(F x, int n) {
     }
 }
 
+// Linear RGB.
 struct Light {
     F red, green, blue;
 };
 
 // The lamp's share that reaches a point and what the surface sends to the eye: factor * (albedo * diffuse
-// part + highlight), finite for every finite t and n. t: view depth; n: normals of any length but 0; lit:
-// share of the lamp that is seen.
+// part + highlight), finite for every finite t and n. t: view depth, metres; n: normals of any length but 0;
+// lit: share of the lamp that is seen.
 struct Lit {
-    F diffuse, highlight;
+    F diffuse, highlight;  // linear
 };
 STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const Rays& r, F t, V3 n, F lit) {
     const auto world = [&](int k) {
@@ -85,7 +87,7 @@ STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const
     return {diffuse, select(shines, power * F(light.specular) * reaches * lit, F(0.0f))};
 }
 
-// Linear light in one channel to a packed channel.
+// Returns a packed channel of linear light in one channel.
 STEREONAV_INLINE I closeLinear(F v) {
     const F light = clamp(v, F(1e-12f), F(1.0f));
     return truncateToInt(mulAdd(light * approxRsqrt(light), F(1023.0f), F(0.5f)));
@@ -98,7 +100,7 @@ STEREONAV_INLINE Light backgroundOf(const LightData& light) {
     return {F(light.background[0]), F(light.background[1]), F(light.background[2])};
 }
 
-// What falls onto a surface, of each colour, and the highlight on it.
+// Light that falls onto a surface, by colour, and the highlight on it.
 struct Falling {
     Light diffuse;
     F highlight;
@@ -108,8 +110,8 @@ STEREONAV_INLINE Falling ofLamp(const Lit& lamp, F share) {
     return {{light, light, light}, lamp.highlight * share};
 }
 
-// k O, and beside it the lamp's direct light (Ruiz et al. 2010, eq. 5): what it has of ambient light is none
-// here. Known everywhere. lampAt as below.
+// Returns k O, and beside it the lamp's direct light (Ruiz et al. 2010, eq. 5): the lamp's own ambient light
+// is left out here. Known everywhere. lampAt as for fallingOn().
 template <typename Lamp>
 STEREONAV_INLINE Falling ofOpenness(const OcclusionData& data, const V3& voxel, M m, const Lamp& lampAt) {
     const F ambient = bytesAt(data.openness, voxel, m) * F(data.perByte);
@@ -119,9 +121,10 @@ STEREONAV_INLINE Falling ofOpenness(const OcclusionData& data, const V3& voxel, 
     return {{light, light, light}, F(data.lampShare) * lamp.highlight};
 }
 
-// lampAt(): litBy of these points, asked for only where the lamp counts: its normals take as many loads as
-// half a lookup of baked light, and its shadows rays. It does where less than `enough` of a lookup is known:
-// 1 asks for what a neighbour may need, who knows nothing. t: finite, of all lanes; so is what comes back.
+// Returns the light that falls on places at view depths t. lampAt(): litBy of these points, asked for only
+// where the lamp counts: its normals take as many loads as half a lookup of baked light, and its shadows
+// rays. It does where less than `enough` of a lookup is known: 1 asks for what a neighbour may need, who
+// knows nothing. t: finite, of all lanes; so is what comes back.
 template <typename Lamp>
 STEREONAV_INLINE Falling fallingOn(const VolumeData& data, const VolumeView& view, const Rays& r, F t, M m,
                                    float enough, const Lamp& lampAt) {
@@ -148,7 +151,8 @@ STEREONAV_INLINE I packedBackground(const LightData& light) {
     return packLight(backgroundOf(light));
 }
 
-// What the surface sends to the eye, through the fog; behind: packedBackground. t: finite, of all lanes.
+// Returns what the surface sends to the eye, through the fog; behind: packedBackground. t: finite, of all
+// lanes.
 STEREONAV_INLINE I sentColor(const LightData& light, const Rays& r, F t, M hit, const Falling& falling,
                              I behind) {
     Light sent{mulAdd(falling.diffuse.red, F(light.albedo[0]), falling.highlight),
@@ -163,7 +167,7 @@ STEREONAV_INLINE I sentColor(const LightData& light, const Rays& r, F t, M hit, 
     return select(hit, packLight(sent), behind);
 }
 
-// lampAt: as above, of a view depth.
+// Returns the colour of a surface at a view depth; lampAt(t): as for fallingOn().
 template <typename Lamp>
 STEREONAV_INLINE I surfaceColor(const VolumeData& data, const VolumeView& view, const Rays& r, F depth, M hit,
                                 I behind, const Lamp& lampAt) {

@@ -11,8 +11,8 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Three channels of 10 bits, spread so that all three can be mixed in 16-bit halves, with four more bits of
-// fraction.
+// A normal as three channels of 10 bits, spread so that all three can be mixed in 16-bit halves, with four
+// more bits of fraction.
 struct Channels {
     I xz, y;
 };
@@ -27,12 +27,13 @@ STEREONAV_INLINE I closeChannels(Channels c) {
 STEREONAV_INLINE Channels mix(Channels a, Channels b, I t) {
     return {lerpHalves(a.xz, b.xz, t), lerpHalves(a.y, b.y, t)};
 }
-// A weight for lerpHalves in both halves.
+// Returns a weight, 0 to 1, for lerpHalves in both halves.
 STEREONAV_INLINE I weightOf(F t) {
     const I w = truncateToInt(min(t, F(0.99996f)) * F(32768.0f));
     return w | shiftLeft<16>(w);
 }
 
+// Return channels of 14 bits as -1..1; fourteenBits() and channelsOf() do the reverse.
 STEREONAV_INLINE F signedChannel(I fourteenBits) {
     return mulAdd(toFloat(fourteenBits & I(0x3FFF)), F(1.0f / (511.5f * 16)), F(-1.0f));
 }
@@ -48,7 +49,7 @@ STEREONAV_INLINE Channels channelsOf(const V3& unit) {
     return {fourteenBits(unit.x) | shiftLeft<16>(fourteenBits(unit.z)), fourteenBits(unit.y)};
 }
 
-// Two corners of a cell's normals along x; n: which edge, by y + 2 z. word: Places::word.
+// Returns two corners of a cell's normals along x; n: which edge, by y + 2 z. word: Places::word.
 STEREONAV_INLINE IPair normalPair(const CellData& cells, I word, int n, M dense, M sparse) {
     const IPair kept = gatherPair(cells.records + 4 + 2 * n, word, sparse);
     if (!cells.normals) return kept;
@@ -57,7 +58,8 @@ STEREONAV_INLINE IPair normalPair(const CellData& cells, I word, int n, M dense,
     return {select(dense, corner.first, kept.first), select(dense, corner.second, kept.second)};
 }
 
-// Towards smaller values at a place in a cell, unit world; 0 where the values are all the same.
+// Returns the direction towards smaller values at a place in a cell, unit world; 0 where the values are all
+// the same.
 STEREONAV_INLINE V3 downOf(const CellData& cells, const Corners& c, const V3& p) {
     const auto along = [&](int k, F s, F t, int a, int b) {
         const F low = lerp(c.v[k] - c.v[0], c.v[a + k] - c.v[a], s);
@@ -74,8 +76,8 @@ STEREONAV_INLINE V3 downOf(const CellData& cells, const Corners& c, const V3& p)
     return {down.x * inverse, down.y * inverse, down.z * inverse};
 }
 
-// A function of its own: seldom needed. The lanes' normals where the corners do not agree; agree: how far
-// they do, as kAgree has it.
+// Returns the lanes' normals where the corners do not agree; agree: how far they do, as kAgree has it. A
+// function of its own: seldom needed.
 [[gnu::noinline]] inline V3 normalOfSide(const CellData& cells, I word, const Corners& values,
                                          const V3& local, const V3& mean, F agree, M dense, M sparse) {
     const F zero(0.0f), one(1.0f), small(kLeastOfSlope);
@@ -104,7 +106,8 @@ STEREONAV_INLINE V3 downOf(const CellData& cells, const Corners& c, const V3& p)
     return {normal.x * inverse, normal.y * inverse, normal.z * inverse};
 }
 
-// The normal at a place in a cell: of its corners' normals, mixed. valuesOf(): the values at its corners.
+// Returns the normal at a place in a cell, 0..1: its corners' normals, mixed. valuesOf(): the values at its
+// corners.
 template <typename ValuesOf>
 STEREONAV_INLINE Channels normalIn(const CellData& cells, I word, const ValuesOf& valuesOf, const V3& local,
                                    M m) {

@@ -19,7 +19,7 @@ STEREONAV_INLINE M isDense(I word) {
     return word < I(0);
 }
 
-// index: of active cells.
+// Returns where what is kept of active cells with these indices lies.
 STEREONAV_INLINE Places placesOf(const CellData& cells, I index, M m) {
     const I brick = gather(cells.bricks, shiftRight<12>(index), m);
     const I place = gatherHalves(cells.places, index, m) & I(0xFFFF);
@@ -40,11 +40,13 @@ struct Corners {
     F v[8];
 };
 
+// Takes values of a pair of corners out of the halves of a word.
 STEREONAV_INLINE void setPair(Corners& corners, int pair, I both, F isovalue) {
     corners.v[2 * pair] = toFloat(shiftRight<16>(shiftLeft<16>(both))) - isovalue;
     corners.v[2 * pair + 1] = toFloat(shiftRight<16>(both)) - isovalue;
 }
 
+// Reads the corners of the cells `at`.
 STEREONAV_INLINE Corners cornersOf(const Grid& grid, I word, const Cells& at, M m) {
     const CellData& cells = grid.data;
     const M dense = cells.normals ? m & isDense(word) : maskFromBits(0);

@@ -7,6 +7,7 @@
 
 namespace stereonav::STEREONAV_ISA {
 
+// Three coordinates a lane.
 struct V3 {
     F x, y, z;
 };
@@ -14,6 +15,7 @@ STEREONAV_INLINE F dot(const V3& a, const V3& b) {
     return mulAdd(a.x, b.x, mulAdd(a.y, b.y, a.z * b.z));
 }
 
+// Indices of cells.
 struct Cells {
     I x, y, z;  // from the eye's cell
 };
@@ -24,16 +26,17 @@ struct Rays {
     V3 direction, inverse;  // voxels a metre of view depth, and its inverse
     V3 farAtEye;            // view depths of the far planes of the cell that the eye is in
     I stepX, stepY, stepZ;  // 1 or -1: to the next cell
-    F perMetre;             // view depth a metre of way
-    F windowX, windowY;     // at unit view depth
+    F perMetre;             // view depth a metre of way, 0 to 1
+    F windowX, windowY;     // place in the window at unit view depth
 };
 
+// Returns d, or 1e-12 with its sign where it is nearer to 0.
 STEREONAV_INLINE F awayFromZero(F d) {
     const F tiny(1e-12f);
     return select(abs(d) < tiny, select(d < F(0.0f), F(-1e-12f), tiny), d);
 }
 
-// All that follows from the direction; eye: where the rays start, in its cell.
+// Sets all that follows from the direction; eye: where the rays start, in its cell.
 STEREONAV_INLINE void setDirection(Rays& r, const V3& direction, const float* eye) {
     const F zero(0.0f), one(1.0f);
     r.direction = direction;
@@ -49,14 +52,15 @@ STEREONAV_INLINE void setDirection(Rays& r, const V3& direction, const float* ey
                   plane(direction.z, r.inverse.z, eye[2])};
 }
 
-// Where rays cross the window, which is all that light of a lamp asks for. x, y: pixels, whose centres the
-// rays go through.
+// Sets where rays cross the window, which is all that light of a lamp asks for. x, y: pixels, whose centres
+// the rays go through.
 STEREONAV_INLINE void setWindow(Rays& r, const VolumeView& view, F x, F y) {
     r.windowX = mulAdd(x + F(0.5f), F(view.pixelWidth), F(view.xMin));
     r.windowY = mulAdd(y + F(0.5f), F(-view.pixelHeight), F(view.yMax));
     r.perMetre = approxRsqrt(mulAdd(r.windowX, r.windowX, mulAdd(r.windowY, r.windowY, F(1.0f))));
 }
 
+// Makes the rays through the centres of pixels.
 STEREONAV_INLINE Rays makeRays(const VolumeView& view, F x, F y) {
     Rays r;
     const auto along = [&](int k) {
@@ -69,9 +73,10 @@ STEREONAV_INLINE Rays makeRays(const VolumeView& view, F x, F y) {
     return r;
 }
 
+// The volume's cells, counted from the eye's.
 struct Grid {
     const CellData& data;
-    F eyeX, eyeY, eyeZ;
+    F eyeX, eyeY, eyeZ;  // place in its cell, 0..1
     I baseX, baseY, baseZ, lastX, lastY, lastZ;
     STEREONAV_INLINE Grid(const CellData& cells, const VolumeView& view) : Grid(cells, view.base, view.eye) {}
     STEREONAV_INLINE Grid(const CellData& cells, const std::int32_t* base, const float* eye)
@@ -93,7 +98,7 @@ struct Grid {
     STEREONAV_INLINE M inside(const Cells& c) const {
         return within(c.x + baseX, lastX) & within(c.y + baseY, lastY) & within(c.z + baseZ, lastZ);
     }
-    // Index of cells inside the volume.
+    // Returns the index of cells inside the volume.
     STEREONAV_INLINE I index(const Cells& c) const {
         const I x = c.x + baseX, y = c.y + baseY, z = c.z + baseZ;
         const I brick =
@@ -102,7 +107,8 @@ struct Grid {
         const I low(15);
         return shiftLeft<12>(brick) | shiftLeft<8>(z & low) | shiftLeft<4>(y & low) | (x & low);
     }
-    // Codes of the cells with these indices. Cells of far bricks have none of their own: it is their group's.
+    // Returns the codes of the cells with these indices. Cells of far bricks have none of their own: it is
+    // their group's.
     STEREONAV_INLINE I code(I index, M m) const {
         const I code = gatherByte(data.codes, index, m);
         if (!data.farCodes) return code;
@@ -114,7 +120,7 @@ struct Grid {
     }
 };
 
-// View depths at which rays leave through the planes of their cells.
+// Returns view depths at which rays leave through the planes of their cells.
 STEREONAV_INLINE V3 farPlanes(const Rays& r, const Cells& c) {
     return {mulAdd(toFloat(c.x), r.inverse.x, r.farAtEye.x), mulAdd(toFloat(c.y), r.inverse.y, r.farAtEye.y),
             mulAdd(toFloat(c.z), r.inverse.z, r.farAtEye.z)};
@@ -122,13 +128,13 @@ STEREONAV_INLINE V3 farPlanes(const Rays& r, const Cells& c) {
 
 // Where rays are: all that a walk changes.
 struct Walk {
-    F t;  // view depth, free of surface up to here
+    F t;  // view depth, metres, free of surface up to here
     Cells at;
     M active;  // still on its way
 };
 
-// To the next cell: cells are counted, not found again from a rounded position, so that a ray's cells do not
-// depend on how it came there.
+// Steps to the next cell: cells are counted, not found again from a rounded position, so that a ray's cells
+// do not depend on how it came there.
 STEREONAV_INLINE void stepCell(const Rays& r, Walk& w, M m) {
     const V3 far = farPlanes(r, w.at);
     const F next = min(far.x, min(far.y, far.z));
@@ -139,7 +145,7 @@ STEREONAV_INLINE void stepCell(const Rays& r, Walk& w, M m) {
 }
 
 // Leaps and steps until most active rays stand in active cells, or have left: a few that still have far to go
-// do not hold up the others. Gives the lanes that stand in one and the cells' indices.
+// do not hold up the others. Returns the lanes that stand in one and the cells' indices.
 constexpr int kStragglers =
     2;  // rays under way for each that has arrived, at which the others wait no longer
 struct Parked {

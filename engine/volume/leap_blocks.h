@@ -9,9 +9,9 @@
 namespace stereonav {
 
 constexpr int kLargestCode = 255;
-constexpr double kExactReach = 16;  // smallest spacings
+constexpr double kExactReach = 16;  // multiples of the smallest spacing
 
-// How many units of distance make one of leaps, so that the largest distance has a code.
+// Returns how many units of distance make one of leaps, so that the largest distance has a code.
 inline int leapDivisor(int largest) {
     const int most = kLargestCode - 1;
     return largest > most ? (largest + most - 1) / most : 1;
@@ -26,6 +26,7 @@ constexpr std::size_t kCellsOfBrick = 4096;
 void codeLeapsByBlocks(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress,
                        SurfaceCells& cells);
 
+// Whether a code stands for an active cell, until settleCodes().
 bool isMarkedActive(std::uint8_t code);
 
 // Gives active cells kCellActive, and the memory of codes back that far bricks took.

@@ -6,7 +6,7 @@
 
 namespace stereonav {
 
-// World, metres.
+// Places in the world, metres.
 struct PieceChoices {
     std::vector<glm::dvec3> include, exclude;
 

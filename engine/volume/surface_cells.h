@@ -28,12 +28,13 @@ struct BrickLayout {
             (static_cast<std::size_t>(k >> 4) * bricks.y + (j >> 4)) * bricks.x + (i >> 4);
         return brick << 12 | (k & 15) << 8 | (j & 15) << 4 | (i & 15);
     }
-    // Index of the group of 4^3 cells that a cell with this index is in, in bricks of 4^3 groups.
+    // Returns the index of the group of 4^3 cells that a cell with this index is in, in bricks of 4^3 groups.
     static std::size_t farIndex(std::size_t index) {
         return index >> 12 << 6 | (index >> 6 & 48) | (index >> 4 & 12) | (index >> 2 & 3);
     }
 };
 
+// What is kept of an active cell.
 struct alignas(64) CellRecord {
     std::int16_t values[8];  // at corner x + 2 y + 4 z, stored numbers
     std::uint32_t
@@ -46,8 +47,8 @@ static_assert(sizeof(CellRecord) == 64);
 // next, it tells no side, and a corner has no normal.
 constexpr double kOneSided = 0.1371;
 
-// A unit vector, or 0, in three channels of 10 bits, x lowest: 0..1023 for -1..1, as EyeImage::normal wants
-// it.
+// Packs a unit vector, or 0, in three channels of 10 bits, x lowest: 0..1023 for -1..1, as EyeImage::normal
+// wants it.
 std::uint32_t packCornerNormal(const glm::dvec3& unit);
 glm::dvec3 unpackCornerNormal(std::uint32_t packed);  // length near 1
 
@@ -60,12 +61,12 @@ constexpr std::uint32_t kDenseBrick = 1u << 31;
 constexpr int kDenseSide = 17, kDenseCorners = kDenseSide * kDenseSide * kDenseSide;
 
 struct SurfaceCells {
-    VolumeFrame frame;  // of the voxels
+    VolumeFrame frame;  // the voxels' grid
     BrickLayout layout;
     double leapUnit = 0;            // metres; a quarter of the smallest spacing, more where leaps are long
     LazyArray<std::uint8_t> codes;  // by layout; see code(). kCellActive without a record: outside the region
-    // Codes of groups of 4^3 cells, 64 a brick by farIndex: of far bricks, whose cells have none of their own
-    // (0 in `codes`, where no memory is taken); 0 of all others. Empty: no brick is far.
+    // Codes of groups of 4^3 cells, 64 a brick by farIndex: those of far bricks, whose cells have none of
+    // their own (0 in `codes`, where no memory is taken); 0 for all others. Empty: no brick is far.
     LazyArray<std::uint8_t> farCodes;
     std::size_t codedBricks = 0;  // bricks that have codes of their own, where some are far
     // The number of each brick's first record; or, with kDenseBrick, its place among the dense ones.
@@ -73,17 +74,18 @@ struct SurfaceCells {
     LazyArray<std::uint16_t> places;  // by layout: 1, 2, ... among its brick's records, 0 where there is none
     LazyArray<CellRecord> records;
     LazyArray<std::uint32_t>
-        normals;  // of dense bricks, kDenseCorners each, x fastest; 0 where none is asked for
+        normals;  // those of dense bricks, kDenseCorners each, x fastest; 0 where none is asked for
     LazyArray<std::int16_t> values;  // the volume's, where there are dense bricks
     std::size_t active = 0;          // cells with a record
     float isovalue = 0;              // the surface is where the trilinear value reaches it, in stored numbers
 
-    // How far a ray may leap from a cell, or kCellActive. The cell must lie in the volume, as below.
+    // Returns how far a ray may leap from a cell, as a code, or kCellActive. The cell must lie in the volume,
+    // as below.
     std::uint8_t code(const glm::ivec3& cell) const {
         const std::size_t n = layout.index(cell.x, cell.y, cell.z);
         return codes[n] == 0 && !farCodes.empty() ? farCodes[BrickLayout::farIndex(n)] : codes[n];
     }
-    // What is kept of a cell, nothing where it is not active.
+    // Returns what is kept of a cell, nothing where it is not active.
     std::optional<CellRecord> record(const glm::ivec3& cell) const;
     // The cell's number in `records`; nothing where it has none there.
     std::optional<std::size_t> recordNumber(const glm::ivec3& cell) const;
@@ -100,9 +102,9 @@ struct SurfaceSetting {
     // known only in cells with one.
     const MaskVolume* region = nullptr;
     // Leaps of more cells than these are measured in blocks: in a byte or so a cell instead of eight, and no
-    // leap beyond 16 of the smallest spacing is as long as it may be (leap_blocks.h). Of a region the memory
-    // is that of the cells around it and rays take long leaps, so only the largest are measured so. Left
-    // out: kCellsAtOnce, or kRegionAtOnce with a region.
+    // leap beyond 16 of the smallest spacing is as long as it may be (leap_blocks.h). With a region the
+    // memory is that of the cells around it and rays take long leaps, so only the largest are measured so.
+    // Left out: kCellsAtOnce, or kRegionAtOnce with a region.
     std::optional<std::size_t> atOnce = std::nullopt;
     static constexpr std::size_t kCellsAtOnce = std::size_t{1} << 25, kRegionAtOnce = std::size_t{1} << 28;
     // Without a region, bricks with so many active cells are dense ones.
@@ -110,19 +112,20 @@ struct SurfaceSetting {
     static constexpr std::uint32_t kDenseFrom = 640, kNeverDense = 4097;
 };
 
-// Rays must start below the isovalue: a volume that is seen from outside has a border of values below it.
-// Throws Error when the volume has fewer than 2 voxels along an axis or too many for 32-bit indices of
-// cells; Cancelled. Runs on all threads, the result does not depend on their number.
+// Finds the cells. Rays must start below the isovalue: a volume that is seen from outside has a border of
+// values below it. Throws Error when the volume has fewer than 2 voxels along an axis or too many for 32-bit
+// indices of cells, or memory is short; Cancelled. Runs on all threads, the result does not depend on their
+// number.
 SurfaceCells findSurfaceCells(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress);
 
-// The gradient of the values smoothed by a tricubic B-spline over 4x4x4 voxels, at any voxel-space point
-// (Wyman et al. 2006, section 4; Y3 of docs/ledger.md), in stored numbers a metre along the world axes.
+// Returns the gradient of the values smoothed by a tricubic B-spline over 4x4x4 voxels, at any voxel-space
+// point (Wyman et al. 2006, section 4; Y3 of docs/ledger.md), in stored numbers a metre along the world axes.
 // Beyond the faces the outermost voxels count on.
 glm::dvec3 smoothGradient(const GreyVolume& volume, const glm::dvec3& voxel);
 
-// A distance that is free of surface around a world point: no point of the surface is nearer, and the
-// true distance is more than it by less than `tolerance` (metres). Looks no further than `upTo` metres,
-// which is then the answer. More than 0 before the surface, however coarse the tolerance; 0 at and behind it
+// Returns metres that are free of surface around a world point: no point of the surface is nearer, and the
+// true distance is more than it by less than `tolerance` (metres). Looks no further than `upTo` metres, which
+// is then the answer. More than 0 before the surface, however coarse the tolerance; 0 at and behind it
 // (further behind than upTo only where the region ends) and outside the volume's region. The volume's faces
 // count as surface, since beyond them it is 0. Tolerances below a millionth of the smallest spacing count as
 // that.

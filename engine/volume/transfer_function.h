@@ -10,14 +10,14 @@
 namespace stereonav {
 
 struct TransferPoint {
-    double value = 0;       // of the volume (HU for CT)
+    double value = 0;       // a volume's value (HU for CT)
     glm::vec3 color{1.0f};  // linear RGB
-    double opacity = 0;     // in [0, 1]: what a layer of referenceLength takes away
+    double opacity = 0;     // in [0, 1]: the share that a layer of referenceLength takes away
 
     bool operator==(const TransferPoint&) const = default;
 };
 
-// Linear between its points, constant beyond them.
+// Colour and opacity by value: linear between its points, constant beyond them.
 class TransferFunction {
 public:
     TransferFunction() = default;
@@ -30,25 +30,25 @@ public:
     const std::vector<TransferPoint>& points() const { return mPoints; }
     double referenceLength() const { return mReferenceLength; }  // metres
 
-    TransferPoint at(double value) const;
-    // Optical depth a metre: -ln(1 - opacity) / referenceLength; opacity 1 counts as kDensest.
-    static constexpr double kDensest = 1.0 - 1e-6;
+    TransferPoint at(double value) const;  // at the ends: the outermost point
+    // Returns the optical depth a metre: -ln(1 - opacity) / referenceLength; opacity 1 counts as kDensest.
+    static constexpr double kDensest = 1.0 - 1e-6;  // opacity
     double extinction(double value) const;
 
     // The values between which something is not transparent; lowest > highest where all is. The ends may be
     // infinite.
     struct Range {
-        double lowest, highest;
+        double lowest, highest;  // values
     };
     Range visibleRange() const;
 
 private:
     std::vector<TransferPoint> mPoints;
-    double mReferenceLength = 0.001;
+    double mReferenceLength = 0.001;  // metres
 };
 
-// Text: "reference_mm L" and one line "value red green blue opacity" a point (sRGB and opacity 0..1), # for
-// comments. Throws Error with file and line.
+// Reads text: "reference_mm L" and one line "value red green blue opacity" a point (sRGB and opacity 0..1), #
+// for comments. Throws Error with file and line.
 TransferFunction parseTransferFunction(std::string_view text, const std::string& source);
 TransferFunction readTransferFunction(const std::filesystem::path& file);
 

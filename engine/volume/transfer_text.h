@@ -9,15 +9,15 @@
 
 namespace stereonav {
 
-// More belong into a file.
+// Most points of a curve in a word: more belong into a file.
 constexpr std::size_t kMostCurvePoints = 256;
 
-// Whether it is one, right or wrong, and no file's name.
+// Whether the text is a curve, right or wrong, and no file's name.
 bool isCurveText(std::string_view text);
-// Throws Error, named `source`, with the point's place.
+// Reads a curve. Throws Error, named `source`, with the point's place.
 TransferFunction transferFromCurve(std::string_view text, const std::string& source);
-// Colours to four digits of sRGB, the reference length to nine digits of millimetres: what is read back gives
-// the same text again.
+// Returns a curve, colours to four digits of sRGB, the reference length to nine digits of millimetres: what
+// is read back gives the same text again.
 std::string curveTextOf(const TransferFunction& function);
 
 }  // namespace stereonav

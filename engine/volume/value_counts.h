@@ -14,17 +14,17 @@ struct ValueCounts {
     double scale = 1, offset = 0;       // value = stored * scale + offset
 
     bool empty() const { return counts.empty(); }
-    // Smallest and largest value that occur; 0 of none.
+    // The smallest and the largest value that occur; 0 without any.
     double lowest() const;
     double highest() const;
 };
 
-// border: so many voxels at each face are left out. near: of the same frame, only what lies within some
-// voxels of what is inside it counts; null: all. Any thread; throws Cancelled.
+// Counts values. border: so many voxels at each face are left out. near: of the same frame, only what lies
+// within some voxels of what is inside it counts; null: all. Any thread; throws Cancelled.
 ValueCounts countValues(const GreyVolume& grey, int border, const MaskVolume* near, Progress& progress);
 
-// Bars over equal parts of low..high: the logarithm of how many voxels have a value there, 1 for the highest
-// bar. All 0 where low < high is false.
+// Returns bars over equal parts of low..high: the logarithm of how many voxels have a value there, as a share
+// of the highest bar's. All 0 where low < high is false.
 std::vector<float> barsOf(const ValueCounts& counts, double low, double high, int bars);
 
 }  // namespace stereonav

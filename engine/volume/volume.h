@@ -13,6 +13,7 @@
 
 namespace stereonav {
 
+// Where a grid's voxels lie.
 struct VolumeFrame {
     glm::ivec3 size{0};       // voxels
     glm::dvec3 spacing{1.0};  // metres between neighbours along i, j, k; > 0
@@ -32,11 +33,11 @@ struct VolumeFrame {
     glm::dvec3 voxelFromWorld(const glm::dvec3& world) const {
         return (glm::transpose(axes) * (world - origin)) / spacing;
     }
-    // The same for directions: no origin, lengths as they are.
+    // Turns directions into voxels: no origin; a metre becomes 1 / spacing.
     glm::dvec3 voxelDirection(const glm::dvec3& world) const {
         return (glm::transpose(axes) * world) / spacing;
     }
-    // The same grid from voxel `first` on, `extent` voxels large.
+    // Returns the same grid from voxel `first` on, `extent` voxels large.
     VolumeFrame cropped(const glm::ivec3& first, const glm::ivec3& extent) const {
         VolumeFrame part = *this;
         part.origin = worldFromVoxel(glm::dvec3(first));
@@ -57,7 +58,7 @@ struct Volume {
     T& at(int i, int j, int k) { return values[frame.index(i, j, k)]; }
     T at(const glm::ivec3& v) const { return values[frame.index(v)]; }
     T& at(const glm::ivec3& v) { return values[frame.index(v)]; }
-    // The same voxels in the same memory (LazyArray::share).
+    // Returns the same voxels in the same memory (LazyArray::share).
     Volume share() const {
         Volume same;
         same.frame = frame;

@@ -8,10 +8,12 @@
 
 namespace stereonav {
 
-// Layout as in surface_cells.h: bricks of 16^3 cells; records of 64 bytes, 16 words: 4 of values, 8 normals.
+// Active cells. Layout as in surface_cells.h: bricks of 16^3 cells; records of 64 bytes, 16 words: 4 of
+// values, 8 normals.
 struct CellData {
     const std::uint8_t* codes = nullptr;
-    const std::uint8_t* farCodes = nullptr;  // of groups of 4^3 cells, 64 a brick; null: no brick is far
+    // Codes of groups of 4^3 cells, 64 a brick; null: no brick is far.
+    const std::uint8_t* farCodes = nullptr;
     const std::uint32_t* records = nullptr;
     const std::uint32_t* bricks = nullptr;
     const std::uint16_t* places = nullptr;
@@ -27,7 +29,7 @@ struct CellData {
     std::int32_t firstVoxel = 0;
     std::int32_t last[3] = {};  // the last cell along each axis
     float leapUnit = 0;         // metres
-    float isovalue = 0;
+    float isovalue = 0;         // stored number
     bool leaping = true;
     // World directions of slopes of 1 a voxel along each axis, turned to smaller values: at most 1 long.
     float downX[3] = {}, downY[3] = {}, downZ[3] = {};
@@ -44,24 +46,23 @@ constexpr float kLeastOfSlope = 0.01f;  // the slope itself counts as much besid
 // Where less than this of what a lookup weighs is known, nothing counts as known: places in single precision
 // are no nearer.
 constexpr float kLeastKnown = 1e-4f;
-// What multiplies baked light at most, so that no light overflows; 65504 times that and all weights is
-// finite.
+// Largest factor on baked light, so that no light overflows; 65504 times that and all weights is finite.
 constexpr float kMostExposure = 1e18f;
 
 // An illumination volume; places in voxels of the scene's grid.
 struct TexelGrid {
-    const std::uint32_t* texels = nullptr;  // two words each; null: none
-    std::int32_t brickStride[3] = {};       // texels from a brick to the next along each axis
-    std::int32_t last[3] = {};              // the last texel
-    float offset[3] = {}, perVoxel[3] = {};
+    const std::uint32_t* texels = nullptr;   // two words each; null: none
+    std::int32_t brickStride[3] = {};        // texels from a brick to the next along each axis
+    std::int32_t last[3] = {};               // the last texel
+    float offset[3] = {}, perVoxel[3] = {};  // texel = (voxel - offset) * perVoxel
 };
 struct BakedData : TexelGrid {
     TexelGrid beyond;  // light where these texels are not known, itself known everywhere; texels null: none
     bool openness = false;
-    float exposure = 1, lampShare = 0;  // exposure: at most kMostExposure
+    float exposure = 1, lampShare = 0;  // factor, at most kMostExposure; share, 0 to 1
 };
 
-constexpr float kMostFalloff = 1e8f;  // of a lamp that reaches 0.1 mm
+constexpr float kMostFalloff = 1e8f;  // 1 / metres^2, of a lamp that reaches 0.1 mm
 
 // A volume of bytes on the scene's grid, 0..255 for 0..1.
 struct ByteData {
@@ -73,11 +74,11 @@ struct ByteData {
 // Openness as ambient light; see volume_look.h.
 struct OcclusionData {
     ByteData openness;
-    float perByte = 0;  // k / 255
-    float lampShare = 0;
+    float perByte = 0;    // k / 255
+    float lampShare = 0;  // share of the lamp, 0 to 1
 };
 
-// Linear RGB; see volume_look.h.
+// The light: linear RGB, and shares of the lamp's light; see volume_look.h.
 struct LightData {
     float albedo[3] = {}, background[3] = {};
     float ambient = 0, diffuse = 0, specular = 0, shininess = 1;
@@ -86,7 +87,7 @@ struct LightData {
     float inverseFalloffSquared = 0;  // 1 / metres^2, at most kMostFalloff
     bool shadows = false;
     float largestSpacing = 0;                  // metres
-    float varyingAmbient = 0, inverseFog = 0;  // 1 / metres
+    float varyingAmbient = 0, inverseFog = 0;  // share; 1 / metres
 };
 
 // Colour and density by value: entry (value - first) * scale, linear between entries.
@@ -94,9 +95,9 @@ struct TransferData {
     static constexpr int kEntries = 1024;
     const float* extinction = nullptr;     // a metre; kEntries + 1 of them
     const std::uint32_t* color = nullptr;  // packed (10-bit square roots)
-    float first = 0, scale = 0;
-    float step = 0;       // metres of way between samples
-    ByteData modulation;  // of extinction
+    float first = 0, scale = 0;            // volume values; entries a value
+    float step = 0;                        // metres of way between samples
+    ByteData modulation;                   // factor on the extinction
 };
 
 struct VolumeData {
@@ -114,23 +115,24 @@ struct VolumeView {
     float eye[3] = {};          // in it, 0..1
     double direction[3] = {}, perX[3] = {},
            perY[3] = {};                               // voxels a metre: pixel (0, 0)'s centre, a pixel on
-    float forward[3] = {}, right[3] = {}, up[3] = {};  // world
+    float forward[3] = {}, right[3] = {}, up[3] = {};  // world, unit
     float xMin = 0, yMax = 0, pixelWidth = 0, pixelHeight = 0;  // window at unit depth
     float head[3] = {};                                         // world, from the eye: where the lamp is
     float lampAway = 0;                                         // metres, its length
-    // The lamp where it casts shadows: as base and eye.
+    // The lamp where it casts shadows: its cell and its place in it, as base and eye.
     std::int32_t lampBase[3] = {};
     float lampEye[3] = {};
     bool lampInside = false;
-    float nearDepth = 0;
+    float nearDepth = 0;  // metres
     bool inside = false;  // the eye lies in the volume
 };
 
+// First pixels of the planes that are written; strides: pixels from row to row.
 struct VolumeTarget {
     std::uint32_t* color = nullptr;
-    float* depth = nullptr;
+    float* depth = nullptr;           // metres
     std::uint32_t* normal = nullptr;  // null: not wanted
-    float* depthSpread = nullptr;     // of rectangles, translucent; as depth; null: not wanted
+    float* depthSpread = nullptr;     // metres, for rectangles, translucent; null: not wanted
     std::int64_t colorStride = 0, depthStride = 0, normalStride = 0;
 };
 
@@ -144,7 +146,8 @@ struct VolumePixel {
 struct VolumeKernels {
     const char* name;
     int lanes;
-    // fromDepth: target.depth holds where each ray may start (0: unknown; infinite: hits nothing).
+    // Casts a rectangle. fromDepth: target.depth holds where each ray may start (0: unknown; infinite: hits
+    // nothing).
     void (*castRect)(const VolumeData&, const VolumeView&, const VolumeRect&, const VolumeTarget&,
                      bool fromDepth);
     void (*castPixels)(const VolumeData&, const VolumeView&, const VolumePixel*, int count,

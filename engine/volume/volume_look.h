@@ -25,7 +25,7 @@ struct BakedLook {
     std::shared_ptr<const IlluminationVolume> beyond;
     Use use = Use::Irradiance;
     float exposure = 1;   // factor on irradiance
-    float lampShare = 0;  // of the lamp that is added to irradiance
+    float lampShare = 0;  // share of the lamp, 0 to 1, that is added to irradiance
     IlluminationVolume::Lookup lookup = IlluminationVolume::Lookup::Trilinear;  // others: slow, to compare
 };
 
@@ -35,27 +35,28 @@ struct BakedLook {
 struct AmbientLook {
     std::shared_ptr<const Volume<std::uint8_t>> openness;  // 0..255 for 0..1, trilinear between the voxels of
                                                            // the scene's field; null: none
-    float strength = 1;   // k: with 2 a flat wall, half of whose surroundings is the wall, sends its colour
-    float lampShare = 0;  // of the lamp's direct light and highlight that is added; eq. 5 has none
+    float strength = 1;  // k: with 2 a flat wall, half of whose surroundings is the wall, sends its colour
+    // Share, 0 to 1, of the lamp's direct light and highlight that is added; eq. 5 has none.
+    float lampShare = 0;
 };
 
 struct VolumeLook {
-    glm::vec3 surface{0.75f, 0.42f, 0.34f};  // linear RGB albedo
-    glm::vec3 background{0.0f};              // linear RGB where nothing is hit
-    float ambient = 0.08f;                   // light from everywhere, share of the lamp's at distance 0
-    float diffuse = 0.92f;
-    float specular = 0.18f, shininess = 24.0f;  // Blinn-Phong
-    // The lamp's light falls off as 1 / (1 + (d / falloff)^2); 0: does not fall off. Metres.
+    glm::vec3 surface{0.75f, 0.42f, 0.34f};     // linear RGB albedo
+    glm::vec3 background{0.0f};                 // linear RGB where nothing is hit
+    float ambient = 0.08f;                      // light from everywhere, share of the lamp's at distance 0
+    float diffuse = 0.92f;                      // direct light, share of the lamp's
+    float specular = 0.18f, shininess = 24.0f;  // Blinn-Phong: share of the lamp's light; exponent
+    // Metres: the lamp's light falls off as 1 / (1 + (d / falloff)^2); 0: does not fall off.
     float falloff = 0.06f;
-    std::optional<glm::dvec3> lampAt;  // world; none: at the head
-    bool shadows = false;              // hard, of a lamp at lampAt; of opaque surfaces
-    float varyingAmbient = 0;          // ambient light grows by this share towards +z and falls towards -z
+    std::optional<glm::dvec3> lampAt;  // world, metres; none: at the head
+    bool shadows = false;              // hard ones, from a lamp at lampAt, by opaque surfaces
+    float varyingAmbient = 0;          // share by which ambient light grows towards +z and falls towards -z
     float fog = 0;                     // metres in which all but 1/e is lost in the background; 0: no fog
     BakedLook baked;
     AmbientLook occlusion;      // in place of `ambient` and varyingAmbient
     TransferFunction transfer;  // empty: the opaque surface alone
-    // What the transfer function's extinction is multiplied with, 0..255 for 0..1, trilinear between the
-    // voxels of the scene's field (see engine/light/occlusion/occlusion_modulation.h); null: nothing.
+    // Factor on the transfer function's extinction, 0..255 for 0..1, trilinear between the voxels of the
+    // scene's field (see engine/light/occlusion/occlusion_modulation.h); null: nothing.
     std::shared_ptr<const Volume<std::uint8_t>> modulation;
 };
 

@@ -9,6 +9,7 @@
 
 namespace stereonav {
 
+// How a volume is cast.
 struct VolumeCasting {
     SimdTarget target = SimdTarget::Auto;
     bool leaping = true;      // false: cell by cell; the same hits, slower

@@ -9,7 +9,7 @@ namespace stereonav {
 
 struct VolumeScene {
     GreyVolume field;    // the surface lies where its trilinear value reaches cells.isovalue
-    SurfaceCells cells;  // of `field`
+    SurfaceCells cells;  // those of `field`
     VolumeLook look;
 };
 

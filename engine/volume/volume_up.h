@@ -17,15 +17,15 @@ struct UpAxis {
     bool operator==(const UpAxis&) const = default;
 };
 
-// "x", "-x", "y", "-y", "z", "-z"; else nothing.
+// Returns the axis of "x", "-x", "y", "-y", "z" or "-z"; else nothing.
 std::optional<UpAxis> upAxisFromText(std::string_view text);
 std::string nameOf(const UpAxis& up);
 
-// The rotation by quarter turns that brings this axis up, to +z. Seen to the north, the picture itself turns
-// where that will do: -z is upside down, not back to front.
+// Returns the rotation by quarter turns that brings this axis up, to +z. Seen to the north, the picture
+// itself turns where that will do: -z is upside down, not back to front.
 glm::dmat3 turnThatPutsUp(const UpAxis& up);
 
-// The same values at places turned about the world's origin.
+// Turns the places of a volume about the world's origin; its values stay the same.
 void turnUp(VolumeFrame& frame, const UpAxis& up);
 
 }  // namespace stereonav

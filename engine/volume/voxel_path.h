@@ -30,7 +30,7 @@ public:
     std::size_t nodeCount() const { return mCells.size(); }
     const glm::ivec3& block() const { return mBlock; }
 
-    // Metres of the 26 steps, by their number; see stepOf.
+    // Metres of the 26 steps, by their number.
     double stepLength(int step) const { return mLengths[step]; }
     double shortestStep() const { return mShortest; }
     double longestStep() const { return mLongest; }
@@ -43,7 +43,7 @@ public:
     template <typename Visit>
     void forEachVoxel(Node node, const Visit& visit) const;
 
-    // The first voxel of the node's block, which need not be inside.
+    // Returns the first voxel of the node's block, which need not be inside.
     glm::ivec3 blockVoxel(Node node) const;
 
 private:
@@ -61,11 +61,11 @@ private:
     void visitFace(Node node, int step, const Visit& visit) const;
 
     glm::ivec3 mFirst{0}, mLast{0}, mBlock{1};
-    glm::ivec3 mGrid{0};                // blocks, with a border of one on all sides
-    std::uint8_t mFull = 1;             // the pattern of a block that is all inside
-    std::array<Step, kSteps> mSteps{};  // faces first
-    std::array<double, kSteps> mLengths{};
-    double mShortest = 0, mLongest = 0;
+    glm::ivec3 mGrid{0};                    // blocks, with a border of one on all sides
+    std::uint8_t mFull = 1;                 // the pattern of a block that is all inside
+    std::array<Step, kSteps> mSteps{};      // faces first
+    std::array<double, kSteps> mLengths{};  // metres
+    double mShortest = 0, mLongest = 0;     // metres
     // The voxel pairs that meet at each face: number in this block, number in the other.
     std::array<std::vector<std::array<std::uint8_t, 2>>, kFaces> mFacePairs;
     LazyArray<std::uint8_t> mPatterns;  // of blocks: bit x + 2 y + 4 z where a voxel is inside
@@ -74,8 +74,8 @@ private:
     std::vector<std::uint8_t> mParts;   // of nodes: the piece of the block
 };
 
-// The pieces of a block by its pattern: two bits a voxel, and their number. Voxels are numbered x + 2 y + 4
-// z.
+// Returns the pieces of a block by its pattern: two bits a voxel, and their number. Voxels are numbered x + 2
+// y + 4 z.
 struct BlockPieces {
     std::array<std::uint8_t, 8> piece{};
     std::uint8_t count = 0;
@@ -87,19 +87,19 @@ struct VoxelPaths {
     static constexpr VoxelGraph::Node kNone = 0xffffffff;
     struct Way {
         float cost, length;         // length: metres along the cheapest way; both infinite where not reached
-        float weight;               // of the node itself
+        float weight;               // cost a metre at the node itself
         VoxelGraph::Node previous;  // kNone at the start and where not reached
     };
     std::vector<Way> ways;              // by node
-    VoxelGraph::Node farthest = kNone;  // at the end of the longest of them; ties: the first node
+    VoxelGraph::Node farthest = kNone;  // end of the longest of them; ties: the first node
 
-    std::vector<VoxelGraph::Node> to(VoxelGraph::Node end) const;  // from the start; empty if not reached
+    std::vector<VoxelGraph::Node> to(VoxelGraph::Node end) const;  // way from the start; empty if not reached
 };
 
-// Dijkstra's algorithm with a circular queue of buckets (Dial 1969), on one thread: the same result always.
-// weights: cost a metre at each node, at least 1 and at most kLargestWeight, a step costs their mean; empty:
-// lengths alone; they go once they are taken over. Stops once the cost of `end` is final (kNone: never).
-// Calls `poll` now and then, which may throw to end the search.
+// Finds ways by Dijkstra's algorithm with a circular queue of buckets (Dial 1969), on one thread: the same
+// result always. weights: cost a metre at each node, at least 1 and at most kLargestWeight, a step costs
+// their mean; empty: lengths alone; they go once they are taken over. Stops once the cost of `end` is final
+// (kNone: never). Calls `poll` now and then, which may throw to end the search.
 constexpr float kLargestWeight = 16384.0f;
 VoxelPaths findVoxelPaths(const VoxelGraph& graph, std::vector<float> weights, VoxelGraph::Node start,
                           VoxelGraph::Node end, const std::function<void()>& poll);
