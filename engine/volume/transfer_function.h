@@ -32,7 +32,7 @@ public:
 
     TransferPoint at(double value) const;  // at the ends: the outermost point
     // Returns the optical depth a metre: -ln(1 - opacity) / referenceLength; opacity 1 counts as kDensest.
-    static constexpr double kDensest = 1.0 - 1e-6;  // opacity
+    static constexpr double kDensest = 1.0 - 1e-6;  // largest opacity
     double extinction(double value) const;
 
     // The values between which something is not transparent; lowest > highest where all is. The ends may be

@@ -7,12 +7,12 @@
 
 namespace stereonav {
 
-// 64^3 values 0..1000: blended ellipsoids, 2 km wide (Kniss et al. 2003, fig. 10); the noise makes the
-// detail.
+// Returns a cloud: 64^3 values 0..1000, blended ellipsoids, 2 km wide (Kniss et al. 2003, fig. 10); the noise
+// makes the detail.
 std::shared_ptr<GreyVolume> makeCloudField();
 Perturbation cloudPerturbation();
 
-// A block of wax with a wick's hollow, 96^3, 80 mm (fig. 9): values 0..1000.
+// Returns a block of wax with a wick's hollow, 96^3, 80 mm (fig. 9): values 0..1000.
 std::shared_ptr<GreyVolume> makeWaxField();
 
 }  // namespace stereonav

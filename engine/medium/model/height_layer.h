@@ -24,19 +24,20 @@ struct HeightLayer {
     // Null: none. Else the table's colours are multiplied by this one's at the place, whose grid coordinates
     // count from the origin, colorSpacing metres each.
     std::shared_ptr<const ColorTexture> color;
-    glm::dvec2 colorSpacing{1.0};
+    glm::dvec2 colorSpacing{1.0};  // metres
 
-    double lowest = 0, highest = 0;  // of what is not empty, world z
+    double lowest = 0, highest = 0;  // metres, world z: what is not empty lies between
 
-    // Height at a place by the level of that footprint (metres; 0: the finest), linear within and between
-    // levels; beyond the edge there is none: NaN.
+    // Returns the height at a place by the level of that footprint (metres; 0: the finest), linear within and
+    // between levels; beyond the edge there is none: NaN.
     double heightAt(double x, double y, double footprint) const;
-    // By the level of the texture whose texels are as large as the footprint; 1 without one.
+    // Returns the linear RGB factor of `color` by the level whose texels are as large as the footprint; 1
+    // without a texture.
     glm::vec3 colorAt(double x, double y, double footprint) const;
     double colorTexel() const;  // metres across a texel: the mean of both sides; needs a texture
     OpticalProperties at(const glm::dvec3& world, double footprint) const;
 };
-// Fills levels 1, 2, .. of level 0 and lowest, highest.
+// Fills levels 1, 2, .. from level 0, and lowest, highest.
 void makeMipLevels(HeightLayer& layer);
 
 }  // namespace stereonav

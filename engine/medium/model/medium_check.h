@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// "expected ..., got ..."; "" when nothing is wrong. previous: null for the first point.
+// Return "expected ..., got ..."; "" when nothing is wrong. previous: null for the first point.
 std::string problemOf(const MediumPoint& point, const MediumPoint* previous);
 std::string problemOf(const MediumRegion& region);
 std::string problemOfReference(double metres);

@@ -8,16 +8,16 @@
 namespace stereonav {
 
 struct GreyRange {
-    double lowest = 0, highest = 0;
+    double lowest = 0, highest = 0;  // values
 };
-// Least and greatest value (not stored number) of a grid that is not empty.
+// Returns the least and the greatest value (not stored number) of a grid that is not empty.
 GreyRange valueRange(const GreyVolume& field);
 
 struct CellBox {
     glm::ivec3 first{0}, last{-1};  // voxels, the corners of the cells that were found
     bool empty() const { return last.x < first.x; }
 };
-// The cells of eight voxels in which the trilinear value comes strictly between the two.
+// Returns the cells of eight voxels in which the trilinear value comes strictly between the two values.
 CellBox cellsBetween(const GreyVolume& field, double lowest, double highest);
 
 }  // namespace stereonav

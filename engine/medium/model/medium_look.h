@@ -23,7 +23,7 @@ struct MediumLight {
     bool atHead = false;
     double coneAngle = 2.0;  // Lamp: radians, the full angle, below 2.8; beyond it there is no light
     double falloff = 0;      // Lamp: light falls as 1 / (1 + (d / falloff)^2); 0: not at all; metres
-    // L_l of eq. 12, linear RGB: radiance that an isotropic medium of colour 1 sends when thin, an optical
+    // Linear RGB, L_l of eq. 12: radiance that an isotropic medium of colour 1 sends when thin, an optical
     // depth. A parallel light of irradiance H across its way is H / (4 pi).
     glm::vec3 radiance{1.0f};
 };
@@ -38,12 +38,13 @@ enum class MediumModel {
 struct MediumLook {
     MediumModel model = MediumModel::Indirect;
     MediumLight light;
-    PhaseFunction phase;         // of direct light
-    float indirectShare = 1;     // of scattered light in what is seen, 0 or more
+    PhaseFunction phase;         // for direct light
+    float indirectShare = 1;     // factor, 0 or more, on scattered light in what is seen
     glm::vec3 background{0.0f};  // linear RGB
-    // Blinn-Phong, for the surface weight S: diffuse share, highlight and its exponent.
+    // Blinn-Phong, for the surface weight S: shares of the light for ambient, diffuse and highlight, and the
+    // highlight's exponent.
     float ambient = 0.1f, diffuse = 0.9f, specular = 0.2f, shininess = 32.0f;
-    // Baked irradiance in place of Blinn-Phong where a surface weight is and a texel is known.
+    // Baked light (irradiance / pi) in place of Blinn-Phong where a surface weight is and a texel is known.
     BakedLook baked;
 };
 

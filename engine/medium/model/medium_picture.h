@@ -11,7 +11,7 @@ namespace stereonav {
 struct MediumPicture {
     // Linear RGB radiance, the background not in it, and in w the share of the background that is seen.
     Plane<glm::vec4> light;
-    // View depth at which the eye's ray first meets something not empty, kMissDepth where nothing.
+    // View depth, metres, at which the eye's ray first meets something not empty, kMissDepth where nothing.
     Plane<float> viewDepth;
 };
 

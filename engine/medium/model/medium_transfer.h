@@ -15,29 +15,28 @@ namespace stereonav {
 
 // A material as people write it: opacity and transport colour of a layer of the file's reference length.
 struct MediumMaterial {
-    glm::vec3 color{1.0f};  // linear RGB 0..1
-    double opacity = 0;     // 0..1; 1 counts as kDensest
-    glm::vec3 transport{
-        0.5f};             // linear RGB 0..1: the colour scattered light has after that layer, 1 - alpha_i
-    double surface = 0;    // 0..1
-    glm::vec3 glow{0.0f};  // linear RGB, >= 0
+    glm::vec3 color{1.0f};      // linear RGB 0..1
+    double opacity = 0;         // 0..1; 1 counts as kDensest
+    glm::vec3 transport{0.5f};  // linear RGB 0..1: colour of scattered light after that layer, 1 - alpha_i
+    double surface = 0;         // weight 0..1
+    glm::vec3 glow{0.0f};       // linear RGB, >= 0
 };
 struct MediumPoint {
-    double value = 0;
+    double value = 0;  // in the field's units
     MediumMaterial material;
 };
 // Weight 1 inside, falling linearly to 0 over the outer parts: a trapezoid in each of both.
 struct MediumRegion {
     double value[4] = {};  // A < B <= C < D: the weight is 0, 1, 1, 0 there
-    // The same of the gradient magnitude, value units a metre; A = B = 0: from 0 on; the last may be
-    // infinite.
+    // Corners A, B, C and D for the gradient magnitude, value units a metre; A = B = 0: from 0 on; the last
+    // may be infinite.
     double gradient[4] = {};
     MediumMaterial material;
 };
 
 class MediumTransfer {
 public:
-    static constexpr double kDensest = 1.0 - 1e-6;
+    static constexpr double kDensest = 1.0 - 1e-6;  // largest opacity
 
     MediumTransfer() = default;
     // Throws Error (named `source`, with the place) unless all is finite, ordered and in range and
@@ -51,37 +50,39 @@ public:
     const std::vector<MediumPoint>& points() const { return mPoints; }
     const std::vector<MediumRegion>& regions() const { return mRegions; }
 
-    // Every surface weight is multiplied by a share that rises from 0 at gradient magnitude `low` to 1 at
-    // `high` (value units a metre): smooth insides keep their volume light. Throws Error unless 0 <= low <
-    // high.
+    // Multiplies every surface weight by a share that rises from 0 at gradient magnitude `low` to 1 at `high`
+    // (value units a metre): smooth insides keep their volume light. Throws Error unless 0 <= low < high.
     void setSurfaceRamp(double low, double high, const std::string& source);
     bool hasSurfaceRamp() const { return mSurfaceHigh > 0; }
     double surfaceLow() const { return mSurfaceLow; }
     double surfaceHigh() const { return mSurfaceHigh; }
 
-    // Extinctions are added (and linear between points) as opacities' logarithms; colours mixed by
-    // extinction. Where the opacity is 0 nothing is left of the rest either: all 0.
+    // Returns the properties, by value and gradient magnitude (value units a metre). Extinctions are added
+    // (and linear between points) as opacities' logarithms; colours mixed by extinction. Where the opacity is
+    // 0 nothing is left of the rest either: all 0.
     OpticalProperties at(double value, double gradient) const;
-    // Values outside are transparent for every gradient; lowest > highest where all is; ends may be infinite.
+    // Values outside are transparent for every gradient; lowest > highest where all are; ends may be
+    // infinite.
     struct Range {
-        double lowest, highest;
+        double lowest, highest;  // values
     };
     Range visibleRange() const;
-    Range changingRange() const;     // of values; outside nothing changes any more
-    double largestGradient() const;  // beyond it nothing changes any more; 0 in one dimension
+    Range changingRange() const;  // values; outside nothing changes any more
+    // Returns value units a metre: beyond it nothing changes any more; 0 in one dimension.
+    double largestGradient() const;
 
 private:
     std::vector<MediumPoint> mPoints;
     std::vector<MediumRegion> mRegions;
-    double mReferenceLength = 0.001;
-    double mSurfaceLow = 0, mSurfaceHigh = 0;  // both 0: no ramp
+    double mReferenceLength = 0.001;           // metres
+    double mSurfaceLow = 0, mSurfaceHigh = 0;  // value units a metre; both 0: no ramp
 };
 
-// The transport colour that diffusion gives a material of this colour and opacity (docs/formats.md), for
-// files that name none.
+// Returns the transport colour, linear RGB 0..1, that diffusion gives a material of this colour and opacity
+// (docs/formats.md), for files that name none.
 glm::vec3 diffuseTransport(const glm::vec3& color, double opacity);
 
-// The text format is in docs/formats.md. Throws Error with file and line.
+// Read the text format of docs/formats.md. Throw Error with file and line.
 MediumTransfer parseMediumTransfer(std::string_view text, const std::string& source);
 MediumTransfer readMediumTransfer(const std::filesystem::path& file);
 
@@ -92,7 +93,7 @@ struct MediumPreset {
 };
 std::span<const MediumPreset> mediumPresets();
 std::string mediumPresetNames();  // "a, b, c"
-// From a file, else by the name of a preset. Throws Error that lists the names.
+// Reads a file, or else takes the preset with this name. Throws Error that lists the names.
 MediumTransfer findMediumTransfer(const std::filesystem::path& fileOrName);
 
 }  // namespace stereonav

@@ -8,9 +8,9 @@
 
 namespace stereonav {
 
-// "none", "cloud" or "fur" for a medium that is `extent` metres long, or a file. Throws Error.
+// Returns "none", "cloud" or "fur" for a medium that is `extent` metres long, or a file. Throws Error.
 Perturbation findNoise(const std::string& text, double extent);
-// Throws Error with file and line.
+// Reads a file's text. Throws Error with file and line.
 Perturbation parseNoise(std::string_view text, const std::string& source);
 
 }  // namespace stereonav

@@ -14,14 +14,14 @@
 
 namespace stereonav {
 
-// 32^3 texels of four bytes, uniform numbers blurred a little along each axis, repeating; made from its seed
-// alone.
+// Noise of 32^3 texels of four bytes, uniform numbers blurred a little along each axis, repeating; made from
+// its seed alone.
 class NoiseVolume {
 public:
     static constexpr int kSize = 32;
     explicit NoiseVolume(std::uint32_t seed = 1);
-    // Trilinear, in -1..1; place in texels, any finite numbers: the texture repeats. Texel n lies at the
-    // place n (a texture unit's coordinate is (place + 0.5) / kSize).
+    // Returns four channels, trilinear, in -1..1; place in texels, any finite numbers: the texture repeats.
+    // Texel n lies at the place n (a texture unit's coordinate is (place + 0.5) / kSize).
     glm::vec4 at(const glm::dvec3& texel) const;
     const std::vector<std::uint8_t>& bytes() const { return mBytes; }  // RGBA, x fastest
 
@@ -44,20 +44,22 @@ struct Perturbation {
     std::uint32_t seed = 1;
 
     bool any() const { return !scales.empty(); }
-    double largestDisplacement() const;  // metres along any axis, over all scales
-    double largestExtinctionFactor() const;
+    double largestDisplacement() const;      // metres along any axis, over all scales
+    double largestExtinctionFactor() const;  // at least 1, without unit
 };
-// How far a scale's noise has moved, metres, less whole repeats: exact however late it is.
+// Returns how far a scale's noise has moved, metres, less whole repeats: exact however late it is. time:
+// seconds.
 glm::dvec3 noiseOffset(const NoiseScale& scale, double time);
-// Where a scale reads the noise: (world - noiseOffset) * kSize / size.
+// Returns where a scale reads the noise, in texels: (world - noiseOffset) * kSize / size.
 glm::dvec3 noiseTexel(const NoiseScale& scale, const glm::dvec3& world, double time);
-// What is added to the place at which data are read: the sum over all scales, each read at `world` itself.
+// Returns what is added to the place at which data are read, metres: the sum over all scales, each read at
+// `world` itself.
 glm::dvec3 displacementAt(const Perturbation& perturbation, const NoiseVolume& noise, const glm::dvec3& world,
                           double time);
 // Changes properties: factors are 1 + the sum over all scales, read at `world` itself (not displaced).
 void perturb(const Perturbation& perturbation, const NoiseVolume& noise, const glm::dvec3& world, double time,
              OpticalProperties& properties);
-// Throws Error: too many scales, sizes not above 0, numbers that are not finite.
+// Throws Error for too many scales, sizes not above 0, numbers that are not finite.
 void checkPerturbation(const Perturbation& perturbation, const std::string& source);
 
 }  // namespace stereonav

@@ -29,19 +29,19 @@ public:
 
     bool isotropic() const { return mIsotropic; }
     glm::vec3 at(float cosine) const;  // by lookup; cosines beyond -1..1 count as the ends
-    // The mean cosine g of each colour, of the table.
+    // Returns the mean cosine g of each colour, by the table.
     glm::vec3 meanCosine() const;
     // kEntries + 1 weights; entry i stands for the angle i * pi / kEntries.
     const std::vector<glm::vec3>& entries() const { return mEntries; }
 
-    // For a path: the cosine of a new direction by one colour's table (0 red .. 2 blue), u in [0, 1).
+    // Returns the cosine of a new direction of a path by one colour's table (0 red .. 2 blue), u in [0, 1).
     float sampleCosine(int channel, float u) const;
 
 private:
     explicit PhaseFunction(const std::vector<glm::dvec3>& weights);  // kEntries + 1, not scaled
     void accumulate();
 
-    std::vector<glm::vec3> mEntries;
+    std::vector<glm::vec3> mEntries;      // weights, mean 1 over the sphere
     std::vector<glm::dvec3> mCumulative;  // share of the light up to each angle
     bool mIsotropic = true;
 };
@@ -54,9 +54,9 @@ struct PhasePreset {
 std::span<const PhasePreset> phasePresets();
 std::string phasePresetNames();  // "a, b, c"
 
-// "none", "hg G" or "hg G_RED G_GREEN G_BLUE", a preset's name, or a file: lines "angle_deg red green blue".
-// Throws Error: of what is in a file with the file's name, else in the name of `asked`, where the text is
-// from.
+// Returns "none", "hg G" or "hg G_RED G_GREEN G_BLUE", a preset's function, or a file's: lines "angle_deg red
+// green blue". Throws Error: for what is in a file with the file's name, else in the name of `asked`, where
+// the text is from.
 PhaseFunction findPhaseFunction(const std::string& text, const std::string& asked = "phase function");
 
 }  // namespace stereonav

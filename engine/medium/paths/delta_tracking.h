@@ -18,14 +18,15 @@ struct TrackingSetting {
     int samples = 64;       // paths a pixel
     int mostScatters = 64;  // 1: single scattering, what the model calls direct light; paths end there
     std::uint32_t seed = 1;
-    // Only light that between its scatters never travels against the light's own way: all that half-angle
-    // slicing could carry. What is missing is what it misses in principle.
+    // Counts only light that between its scatters never travels against the light's own way: all that
+    // half-angle slicing could carry. What is missing is what it misses in principle.
     bool onlyForward = false;
 };
 
 struct TrackedPicture {
-    Plane<glm::vec4> light;     // as MediumPicture::light
-    Plane<glm::vec3> variance;  // of the mean of each pixel's samples; of one sample: infinite
+    Plane<glm::vec4> light;  // as MediumPicture::light
+    // Linear RGB squared: variance of the mean of each pixel's samples; infinite for one sample.
+    Plane<glm::vec3> variance;
 };
 
 // Rays go through the pixels' centres, as those of the sweeps. Does not depend on the thread count. The
@@ -34,8 +35,8 @@ struct TrackedPicture {
 // the first scatter. Light that was scattered more than once counts times indirectShare, so 1 is the truth.
 // Light enters as radiance * 4 pi across its way (see MediumLight::radiance).
 //
-// Rows from `first` to before `end` alone; the others stay 0. bounds: of the medium at that time
-// (delta_tracking_bounds.h), made once for who traces it in parts.
+// Rows from `first` to before `end` are traced alone; the others stay 0. bounds: of the medium at that time
+// (delta_tracking_bounds.h), made once for who traces it in parts. time: seconds.
 struct PictureRows {
     int first = 0, end = 0;
 };

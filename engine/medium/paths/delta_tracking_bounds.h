@@ -20,8 +20,8 @@ struct ExtinctionRange {
 
 struct ExtinctionBounds {
     glm::ivec3 size{0};            // cells; 0: the medium is empty
-    glm::dvec3 extent{0.0};        // of the medium in cells: at most `size`, the last ones may be cut
-    glm::dvec3 origin{0.0};        // world: the low corner of cell (0, 0, 0)
+    glm::dvec3 extent{0.0};        // the medium's size in cells: at most `size`, the last ones may be cut
+    glm::dvec3 origin{0.0};        // world, metres: the low corner of cell (0, 0, 0)
     glm::dmat3 cellsFromWay{1.0};  // cell coordinates = this * (world - origin)
     std::vector<ExtinctionRange> cells;
 
@@ -32,22 +32,22 @@ struct ExtinctionBounds {
     const ExtinctionRange& at(const glm::ivec3& c) const { return cells[index(c)]; }
 };
 
-// Bounds over every point of the medium at that time. Cells follow the voxels of a grid, or the world's axes
-// for layers.
+// Makes bounds over every point of the medium at that time, seconds. Cells follow the voxels of a grid, or
+// the world's axes for layers.
 ExtinctionBounds makeExtinctionBounds(const Medium& medium, double time);
 
 struct WorldRay {
-    glm::dvec3 origin{0.0}, direction{0, 0, -1};  // unit
+    glm::dvec3 origin{0.0}, direction{0, 0, -1};  // world, metres; unit
     glm::dvec3 at(double distance) const { return origin + distance * direction; }
 };
 
-// The cells that a ray passes between two distances, nearest first.
+// The cells that a ray passes between two distances, metres, nearest first.
 class CellWalk {
 public:
     CellWalk(const ExtinctionBounds& bounds, const WorldRay& ray, double first, double last);
 
     bool inside() const { return mInside; }
-    double begin() const { return mBegin; }  // of the cell, metres along the ray
+    double begin() const { return mBegin; }  // metres along the ray at which the cell begins
     double end() const { return mEnd; }
     const ExtinctionRange& range() const { return mBounds.at(mCell); }
     void step();
@@ -58,7 +58,7 @@ private:
 
     const ExtinctionBounds& mBounds;
     glm::dvec3 mWay{0.0};               // cells a metre
-    glm::dvec3 mNext{0.0}, mEach{0.0};  // distance of the next face across each axis, and between faces
+    glm::dvec3 mNext{0.0}, mEach{0.0};  // metres to the next face across each axis, and between faces
     glm::ivec3 mCell{0};
     double mBegin = 0, mEnd = 0, mLast = 0;
     bool mInside = false;

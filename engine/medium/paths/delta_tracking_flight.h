@@ -41,12 +41,12 @@ struct TrackedMedium {
 };
 
 struct MediumCollision {
-    glm::dvec3 place{0.0};
+    glm::dvec3 place{0.0};  // world, metres
     OpticalProperties properties;
 };
 
-// Where light that travels along the ray from `first` on is next met by the medium; nothing where it leaves.
-// Delta tracking (Woodcock et al. 1965) with a majorant a cell.
+// Returns where light that travels along the ray from `first` metres on is next met by the medium; nothing
+// where it leaves. Delta tracking (Woodcock et al. 1965) with a majorant a cell.
 inline std::optional<MediumCollision> freeFlight(const TrackedMedium& medium, const WorldRay& ray,
                                                  double first, PathRandom& random) {
     double depth = random.opticalDepth();
@@ -66,9 +66,9 @@ inline std::optional<MediumCollision> freeFlight(const TrackedMedium& medium, co
     return std::nullopt;
 }
 
-// An estimate without bias of exp(-integral of extinction) between two distances, in [0, 1] but for roulette:
-// residual ratio tracking (Novak et al. 2014) with the least extinction of each cell as its control, so that
-// homogeneous cells are exact. Below kRouletteBelow it is continued by chance.
+// Returns an estimate without bias of exp(-integral of extinction) between two distances, metres, in [0, 1]
+// but for roulette: residual ratio tracking (Novak et al. 2014) with the least extinction of each cell as its
+// control, so that homogeneous cells are exact. Below kRouletteBelow it is continued by chance.
 inline double transmittance(const TrackedMedium& medium, const WorldRay& ray, double first, double last,
                             PathRandom& random) {
     constexpr double kRouletteBelow = 0.01, kNothing = 1e-30;

@@ -9,11 +9,11 @@
 namespace stereonav {
 
 struct NoiseBounds {
-    glm::dvec3 low{0.0}, high{0.0};          // of the displacement, metres, world axes
+    glm::dvec3 low{0.0}, high{0.0};          // displacement, metres, world axes
     double leastFactor = 1, mostFactor = 1;  // on extinction
 };
 
-// noise: null without a perturbation.
+// Bounds the noise within the box at `time` seconds. noise: null without a perturbation.
 NoiseBounds boundNoise(const Perturbation& perturbation, const NoiseVolume* noise, const WorldBox& box,
                        double time);
 

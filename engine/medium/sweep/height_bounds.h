@@ -15,8 +15,8 @@ class HeightBounds {
 public:
     // displacement: metres that noise moves places by at most. The layer has heights; it is not kept.
     HeightBounds(const HeightLayer& layer, double displacement);
-    // False: no place in the box (world, low <= high) that is sampled with a footprint up to this one is in
-    // the layer. Roundings of floats are allowed for; NaN asks for everything.
+    // Returns false where no place in the box (world, low <= high) that is sampled with a footprint up to
+    // this one, metres, is in the layer. Roundings of floats are allowed for; NaN asks for everything.
     bool meets(const glm::dvec3& low, const glm::dvec3& high, double footprint) const;
     std::size_t heldBytes() const;
 
@@ -30,14 +30,14 @@ private:
     };
     double marginOf(double footprint) const;
 
-    glm::dvec2 mOrigin{0.0};
+    glm::dvec2 mOrigin{0.0};  // metres
     int mWidth = 0, mHeight = 0;
-    double mSpacing = 1;
-    double mCoarsest = 1;           // samples a side of the coarsest level's blocks
-    double mBelow = 0, mAbove = 0;  // metres: what of the layer is beside its heights, with roundings
-    double mReach = 0;              // sideways
-    double mLowest = 0, mHighest = 0;
-    std::vector<Level> mLevels;  // blocks of 2, 4, 8 .. samples a side
+    double mSpacing = 1;               // metres between samples
+    double mCoarsest = 1;              // samples a side of the coarsest level's blocks
+    double mBelow = 0, mAbove = 0;     // metres: what of the layer is beside its heights, with roundings
+    double mReach = 0;                 // metres sideways
+    double mLowest = 0, mHighest = 0;  // metres, world z
+    std::vector<Level> mLevels;        // blocks of 2, 4, 8 .. samples a side
 };
 
 }  // namespace stereonav

@@ -10,7 +10,8 @@ STEREONAV_INLINE F dotWith(const V3& v, const float (&a)[3]) {
     return mulAdd(v.x, F(a[0]), mulAdd(v.y, F(a[1]), v.z * F(a[2])));
 }
 
-// What the buffer holds at continuous coordinates, bilinearly; outside, what the ring around it does.
+// Light that the buffer holds at continuous coordinates, bilinearly, 0 to 1; outside, what the ring around it
+// does.
 struct Buffered {
     F direct, indirect[3];
 };
@@ -50,15 +51,15 @@ STEREONAV_INLINE Buffered readBuffer(const SweepLight& light, int inChunk, F u, 
     return b;
 }
 
-// The light's way at places, and what of it would arrive were nothing between.
+// The light's way at places, and what share of it would arrive were nothing between.
 struct Arriving {
     V3 way;           // unit
-    F share, length;  // by the falloff; metres of way for one along the axis
-    F u, v;           // in the buffer
+    F share, length;  // 0 to 1, by the falloff; metres of way for one along the axis
+    F u, v;           // place in the buffer, texels
     M lit;            // past the light
-    M inCone;         // of a lamp, where direct light is
+    M inCone;         // within a lamp's cone, where direct light is
 };
-// along: of the places, along the axis.
+// Returns a lamp's light; along: metres along the axis at which the places lie.
 [[gnu::noinline]] inline Arriving lampAt(const SweepLight& light, const V3& place, F along, M m) {
     const F zero(0.0f), one(1.0f), tiny(1e-30f);
     const V3 from{place.x - F(light.origin[0]), place.y - F(light.origin[1]), place.z - F(light.origin[2])};
@@ -86,7 +87,7 @@ STEREONAV_INLINE Arriving sunAt(const SweepLight& light, const V3& place, M m) {
             m};
 }
 
-// Blinn-Phong of both sides alike; normal: any length; toEye: unit.
+// Returns Blinn-Phong's share of the light, both sides alike; normal: any length; way, toEye: unit.
 STEREONAV_INLINE F blinnPhong(const SweepLook& look, const V3& normal, const V3& way, const V3& toEye) {
     const F zero(0.0f), tiny(1e-30f);
     const F square = dot(normal, normal);
@@ -100,7 +101,7 @@ STEREONAV_INLINE F blinnPhong(const SweepLook& look, const V3& normal, const V3&
     return select(square > tiny, sum, zero);
 }
 
-// (1 - S) + f_s S of V3 of docs/volume_light.md. place: not displaced; gradient: world axes.
+// Returns (1 - S) + f_s S of V3 of docs/volume_light.md. place: not displaced; gradient: world axes.
 [[gnu::noinline]] inline Colors surfaceFactor(const SweepScene& scene, F surface, const V3& place,
                                               const V3& gradient, const V3& way, const V3& toEye, M m) {
     const F one(1.0f);

@@ -11,7 +11,7 @@ namespace stereonav::STEREONAV_ISA {
 
 #if defined(STEREONAV_ISA_avx512)
 
-// Four rows of eight voxels, the first at p.
+// Loads four rows of eight voxels, the first at p.
 STEREONAV_INLINE __m512i rowsAt(const std::int16_t* p, std::int64_t stride, int count) {
     const auto row = [&](int n) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p + n * stride)); };
     __m512i rows = _mm512_zextsi128_si512(row(0));
@@ -35,14 +35,14 @@ STEREONAV_INLINE F inBlock(const __m512i (&planes)[3], const BlockPlace& at) {
     return lerp(lerp(pair(0, 0), pair(0, 1), at.fy), lerp(pair(1, 0), pair(1, 1), at.fy), at.fz);
 }
 
-// The least of lanes m, no more than `most`.
+// Returns the least number of lanes m, no more than `most`.
 STEREONAV_INLINE int leastOf(I a, M m, int most) {
     const int least = _mm512_mask_reduce_min_epi32(m.v, a.v);
     return least < most ? least : most;
 }
 
-// The same as innerDifferences, of lanes m whose cells lie within two along each axis; false: they do not,
-// and nothing was done. The grid's values differ by less than 2^15.
+// Does the same as innerDifferences for lanes m whose cells lie within two along each axis; false: they do
+// not, and nothing was done. The grid's values differ by less than 2^15.
 STEREONAV_INLINE bool blockDifferences(const SweepGrid& grid, const V3& v, I x, I y, I z, M m, V3& d) {
     if (!grid.blocks) return false;
     const I one(1);
@@ -83,8 +83,8 @@ STEREONAV_INLINE bool blockDifferences(const SweepGrid& grid, const V3& v, I x, 
     return true;
 }
 
-// Trilinear, of lanes m whose cells lie within seven, three and two along x, y and z; false: they do not, and
-// nothing was done.
+// Finds trilinear values for lanes m whose cells lie within seven, three and two along x, y and z; false:
+// they do not, and nothing was done.
 STEREONAV_INLINE bool blockValue(const SweepGrid& grid, const V3& v, I x, I y, I z, M m, F& value) {
     if (!grid.large) return false;
     const int x0 = leastOf(x, m, grid.lastCell[0] - 6), y0 = leastOf(y, m, grid.lastCell[1] - 2),
@@ -120,8 +120,8 @@ STEREONAV_INLINE WordBlock wordsAt(const std::uint32_t* p, std::int64_t stride) 
     rows = _mm512_inserti32x4(rows, row(2), 2);
     return {_mm512_inserti32x4(rows, row(3), 3)};
 }
-// Texels (i, j) of the light that eyes read, of lanes m, and their neighbours to the right and below: where
-// all lie in four by four. index: in the block.
+// Finds texels (i, j) of the light that eyes read, for lanes m, and their neighbours to the right and below:
+// where all lie in four by four. index: in the block.
 STEREONAV_INLINE bool lightBlock(const SweepLight& light, I i, I j, M m, std::int64_t& word, I& index) {
     const int i0 = leastOf(i, m, light.width - 1), j0 = leastOf(j, m, light.height - 2);
     const I oi = i - I(i0), oj = j - I(j0), most(2);

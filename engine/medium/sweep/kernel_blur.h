@@ -9,11 +9,11 @@ namespace stereonav::STEREONAV_ISA {
 // Texels' rays in the middle of a slab.
 struct TexelPlaces {
     V3 place;
-    V3 way;     // for one along the axis
-    F length;   // of way
-    F size;     // of a texel there, metres
+    V3 way;     // metres of way for one along the axis
+    F length;   // the way's length
+    F size;     // metres across a texel there
     M crosses;  // rays that cross slabs
-    M valid;    // and do so past a lamp
+    M valid;    // those of them that do so past a lamp
 };
 STEREONAV_INLINE V3 alongFan(const SweepLight& light, F x, F y) {
     const auto axis = [&](int k) { return mulAdd(F(light.right[k]), x, mulAdd(F(light.up[k]), y, F(0.0f))); };
@@ -49,7 +49,7 @@ STEREONAV_INLINE TexelPlaces texelPlaces(const SweepLight& light, float middle, 
     return p;
 }
 
-// sin and cos of 0 .. pi / 2, errors below 4e-6.
+// Sine and cosine of 0 .. pi / 2, errors below 4e-6.
 struct Turn {
     F cosine, sine;
 };
@@ -71,7 +71,7 @@ STEREONAV_INLINE I logicalRight(I a) {
 STEREONAV_INLINE I wholeNumber(std::uint32_t bitsOf) {
     return I(static_cast<int>(bitsOf));
 }
-// The angle of tapTurn().
+// The angle of tapTurn(), radians.
 STEREONAV_INLINE F turnOf(I x, I y, int slab) {
     I h = (x * wholeNumber(0x8da6b343u)) ^ (y * wholeNumber(0xd8163841u)) ^
           wholeNumber(static_cast<std::uint32_t>(slab) * 0xcb1ab31fu);
@@ -92,7 +92,7 @@ STEREONAV_INLINE F readPlane(const SweepLight& light, const float* plane, F u, F
     return lerp(lerp(above.first, above.second, s), lerp(below.first, below.second, s), t);
 }
 
-// The lags of tapLags(), of a texel to the right and one below.
+// The lags of tapLags(), metres, to a texel to the right and to one below.
 struct Lags {
     F right, below;
 };
@@ -110,27 +110,28 @@ STEREONAV_INLINE Lags lagsOf(const SweepLight& light, float middle, F x, F y) {
             scale * (v * per * F(-light.perY) - along * below)};
 }
 
-// Row of texels: everything of a packet that does not depend on the plane.
+// A packet of texels in a row: everything that does not depend on the plane.
 struct TexelRow {
-    std::int64_t index;  // of the first texel in a plane
+    std::int64_t index;  // index of the first texel in a plane
     F x, y;              // centres
-    F offsetSquare;      // of the blur, in texels
+    F offsetSquare;      // square of the blur's offset, in texels
     I column, line;
     int slab;
     Lags lags;  // where slabs lean
 };
-// V11: a tap whose ray is met later has lost more of its light on the way. depth: tau_i there.
+// Returns light as V11 has it: a tap whose ray is met later has lost more of its light on the way. depth:
+// tau_i there, a metre; later: metres.
 STEREONAV_INLINE F leveled(F light, F depth, F later) {
     return mulAdd(light, clamp(depth * later, F(-1.0f), F(1.0f)), light);
 }
-// The depth of the texel that a place lies in; beyond the edge there is none.
+// Returns the depth of the texel that a place lies in; beyond the edge there is none.
 STEREONAV_INLINE F depthAt(const SweepLight& light, const float* depths, F u, F v, M m) {
     const F least(-1.0f);
     const I i = floorToInt(clamp(u, least, F(static_cast<float>(light.width)))),
             j = floorToInt(clamp(v, least, F(static_cast<float>(light.height))));
     return gather(depths, j * I(light.stride) + i, m, F(0.0f));
 }
-// The sum of four taps on a circle. depths: null where slabs do not lean.
+// Returns the sum of four taps on a circle. depths: null where slabs do not lean.
 [[gnu::noinline]] inline F circleTaps(const SweepLight& light, const float* plane, const float* depths,
                                       const TexelRow& row, M m) {
     const F radius = sqrt(max(min(row.offsetSquare, F(1e12f)) - F(1.0f / 3), F(1.0f)));

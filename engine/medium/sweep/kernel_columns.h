@@ -9,6 +9,7 @@
 
 namespace stereonav::STEREONAV_ISA {
 
+// Returns shares of light, 0 to 1, as 0..32767.
 STEREONAV_INLINE I inFifteenBits(F v) {
     return truncateToInt(mulAdd(v, F(32767.0f), F(0.5f)));
 }
@@ -16,18 +17,19 @@ STEREONAV_INLINE std::uint32_t* packedAt(const SweepLight& light, int inChunk, i
     return light.packed + 2 * inChunk * light.packedPlane +
            static_cast<std::int64_t>(y + 1) * light.packedStride + x + 1;
 }
-// Direct light is there.
+// Adds scattered light to words that hold direct light already.
 STEREONAV_INLINE void packIndirect(std::uint32_t* first, std::int64_t plane, const F (&indirect)[3],
                                    M lanes) {
     store(first, loadI(first) | shiftLeft<16>(inFifteenBits(indirect[0])), lanes);
     store(first + plane, inFifteenBits(indirect[1]) | shiftLeft<16>(inFifteenBits(indirect[2])), lanes);
 }
 
+// Returns light after an optical depth; 0 where less than kNothing is left.
 STEREONAV_INLINE F weakened(F light, F depth) {
     const F left = light * decayOf(depth).passes;
     return select(left < F(kNothing), F(0.0f), left);
 }
-// The same of three colours, of lanes m; asked once whether any is thick.
+// Weakens three colours of lanes m in the same way; asked once whether any is thick.
 STEREONAV_INLINE void weakenAll(F (&light)[3], const F (&depth)[3], M m) {
     const F limit(0.5f), zero(0.0f);
     F passes[3];
@@ -42,7 +44,7 @@ STEREONAV_INLINE void weakenAll(F (&light)[3], const F (&depth)[3], M m) {
     }
 }
 
-// Where a column of the table is: of places from 0 on.
+// Returns where a column of the table is, for places from 0 on.
 STEREONAV_INLINE Column columnAt(F place) {
     const I entry = min(truncateToInt(place), I(SweepTable::kColumns - 2));
     return {entry, place - toFloat(entry), I(0), F(0.0f)};
@@ -50,8 +52,8 @@ STEREONAV_INLINE Column columnAt(F place) {
 
 // Texels of a row that a packet has met, row by row down a tile.
 struct ColumnRows {
-    const float* from[3];
-    float* to[3];
+    const float* from[3];  // light before the slab
+    float* to[3];          // and after it
     F above[3], here[3];
     std::int64_t stride;
 
@@ -65,7 +67,8 @@ struct ColumnRows {
             here[k] = loadF(from[k]);
         }
     }
-    // Spread to the neighbours, and on to the next row; `here` is then the next row's.
+    // Spreads the row to its neighbours, and goes on to the next row; `here` is then the next row's. share: 0
+    // to 1, quarter: a fourth of it.
     STEREONAV_INLINE void spread(F share, F quarter, F (&spread)[3]) {
         for (int k = 0; k < 3; ++k) {
             const F below = loadF(from[k] + stride);
@@ -84,7 +87,7 @@ struct ColumnRows {
     }
 };
 
-// Whether passEvenTile does: parallel light, taps at the four neighbours.
+// Whether passEvenTile passes the tile: parallel light, taps at the four neighbours.
 STEREONAV_INLINE bool passesEvenly(const SweepLight& light, const LightPass& pass) {
     const float offset = light.blur / (light.perX > 1e-30f ? light.perX : 1e-30f);
     return light.parallel && pass.thickness * light.length * offset * offset <= 4.0f / 3;

@@ -7,10 +7,11 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-constexpr float kLeastLeft = 1.0f / 1024;
-constexpr float kNothing = 1e-20f;  // below it numbers become 0 before they get denormal and slow
+constexpr float kLeastLeft = 1.0f / 1024;  // share of the light: with less left a ray ends
+constexpr float kNothing = 1e-20f;         // below it numbers become 0 before they get denormal and slow
 constexpr int kEmission = 0, kSurface = 1, kDirect = 2, kIndirect = 3;
 
+// What rays have gathered: linear RGB, the share of what lies behind that is seen, and view depth, metres.
 struct Gathered {
     F light[3], left, depth;
 };
@@ -33,7 +34,7 @@ struct EyePacket {
     const SweepChunk& chunk;
     EyeRays rays;
     V3 voxel, voxelWay;  // kGridAlone: the rays among the voxels
-    Colors phase;        // of parallel light
+    Colors phase;        // for parallel light
     V3 toEye;
 
     STEREONAV_INLINE EyePacket(const SweepScene& s, const SweepEye& e, const SweepChunk& c, F x, F y)
@@ -49,7 +50,7 @@ struct EyePacket {
             if (s.light.parallel) phase = phaseAt(s.look, dotWith(toEye, s.light.forward), rays.valid);
     }
 
-    // What a slab sends to the eye, of lanes m; x: its optical depth along the rays.
+    // Returns what a slab sends to the eye, for lanes m; x: its optical depth along the rays.
     STEREONAV_INLINE Colors scattered(const Properties& p, int n, const V3& place,
                                       const SurfaceAlone& surface, F x, const Decay& own, M m) const {
         const SweepLight& light = scene.light;
@@ -91,7 +92,7 @@ struct EyePacket {
     }
 
     STEREONAV_INLINE F depthAt(int n) const { return mulAdd(F(chunk.middle[n]), rays.perDepth, rays.depth); }
-    // Slab n of the chunk, of lanes m.
+    // Looks at slab n of the chunk, for lanes m; start: view depth before which nothing is.
     STEREONAV_INLINE Sighting look(int n, M m, F start, const PacketShading& shading) const {
         const F t(chunk.middle[n]), zero(0.0f);
         const F depth = depthAt(n);
@@ -160,7 +161,7 @@ struct EyePacket {
     }
 };
 
-// A packet through `slabs` of a tile. Gives the lanes that go on.
+// Sees `slabs` of a tile along a packet. Returns the lanes that go on.
 template <int kModel, bool kGridAlone>
 STEREONAV_INLINE M seeSlabs(const EyePacket<kModel, kGridAlone>& packet, const EyeTile& tile,
                             std::uint32_t slabs, const SharedReader& reader, const SharedPlace& place,

@@ -7,17 +7,17 @@ namespace stereonav::STEREONAV_ISA {
 
 constexpr float kLongest = 1e4f;  // 1 / kLeastCosine
 
-// Rays by the distance along the axis from the chunk's reference: place = at + t way.
+// Rays by the distance along the axis from the chunk's reference, metres: place = at + t way.
 struct EyeRays {
     V3 at, way;
-    F length;           // of way
+    F length;           // that of way
     F depth, perDepth;  // view depth = depth + t perDepth
     M valid;
 
     STEREONAV_INLINE V3 placeAt(F t) const {
         return {mulAdd(t, way.x, at.x), mulAdd(t, way.y, at.y), mulAdd(t, way.z, at.z)};
     }
-    // Unit.
+    // Returns the unit direction from the places to the eye.
     STEREONAV_INLINE V3 toEye(const SweepEye& eye) const {
         const F back = (eye.forward ? F(-1.0f) : F(1.0f)) / length;
         return {way.x * back, way.y * back, way.z * back};

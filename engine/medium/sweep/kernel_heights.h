@@ -7,8 +7,8 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Height above the layer's base; NaN where unknown. Lanes may be of different levels, and of four samples
-// those with weight 0 do not count.
+// Returns metres above the layer's base; NaN where unknown. u, v: samples of level 0. Lanes may be of
+// different levels, and of four samples those with weight 0 do not count.
 [[gnu::noinline]] inline F heightInAny(const SweepLayer& layer, F u, F v, I level, M m) {
     const F zero(0.0f), one(1.0f), half(0.5f);
     const F perSize = asFloat(shiftLeft<23>(I(127) - level));
@@ -27,8 +27,8 @@ namespace stereonav::STEREONAV_ISA {
     }
     return sum;
 }
-// The same of lanes of one level without holes: neighbours along x are one load. In a level one sample wide
-// the second of them is another number, with weight 0.
+// Returns the same for lanes of one level without holes: neighbours along x are one load. In a level one
+// sample wide the second of them is another number, with weight 0.
 STEREONAV_INLINE F heightIn(const SweepLayer& layer, F u, F v, int level, M m) {
     const F zero(0.0f), half(0.5f);
     const int width = static_cast<int>(layer.width[level]), height = static_cast<int>(layer.height[level]);
@@ -49,7 +49,8 @@ STEREONAV_INLINE int firstOf(I a, M m) {
     store(lanes, a);
     return lanes[__builtin_ctz(bits(m))];
 }
-// Between the levels that suit the footprint, of lanes m, of which there are some.
+// Returns heights between the levels that suit the footprint, for lanes m, of which there are some. size: the
+// footprint in samples.
 [[gnu::noinline]] inline F heightOfFootprint(const SweepLayer& layer, F u, F v, F size, M m) {
     const F zero(0.0f), one(1.0f), coarsest(static_cast<float>(layer.levels - 1));
     const F level = select(size > one, min(log2(max(size, one)), coarsest), zero);
@@ -66,7 +67,7 @@ STEREONAV_INLINE int firstOf(I a, M m) {
     if (!any(between)) return height;
     return lerp(height, heightIn(layer, u, v, first + 1, between), share);
 }
-// NaN beyond the edge and where unknown.
+// Returns heights at places; NaN beyond the edge and where unknown. footprint: metres.
 [[gnu::noinline]] inline F heightAt(const SweepLayer& layer, const V3& place, F footprint, M m) {
     const F zero(0.0f), none(__builtin_nanf(""));
     const F u = mulAdd(place.x, F(layer.perMetre), F(layer.zero[0])),

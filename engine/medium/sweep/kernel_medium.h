@@ -12,7 +12,7 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Parts that are seldom needed are functions of their own: inlined everywhere they take minutes to compile.
+// Whether places among the voxels lie within the grid.
 STEREONAV_INLINE M insideGrid(const SweepGrid& grid, const V3& v) {
     const F zero(0.0f);
     return (v.x >= zero) & (v.y >= zero) & (v.z >= zero) & (v.x <= F(grid.last[0])) &
@@ -29,7 +29,7 @@ STEREONAV_INLINE V3 voxelOf(const SweepGrid& grid, const V3& place) {
     return transformed(grid.fromPlace, grid.zero, place);
 }
 
-// Trilinear, of places inside the grid. Two neighbours along x are one word; their weights have 14 bits.
+// Cells of the grid. Trilinear values take two neighbours along x in one word; their weights have 14 bits.
 struct GridCell {
     I x, y, z;
 };
@@ -51,14 +51,14 @@ STEREONAV_INLINE F gridValue(const SweepGrid& grid, const V3& v, M m) {
     const F far = lerp(pair(next), pair(next + grid.strideY), fy);
     return lerp(near, far, fz) * F(1.0f / 16384);
 }
-// The same of places that mostly lie close together.
+// Returns gridValue() at places that mostly lie close together.
 STEREONAV_INLINE F valueNearby(const SweepGrid& grid, const V3& v, M m) {
     const GridCell cell = cellOf(grid, v);
     F value;
     return blockValue(grid, v, cell.x, cell.y, cell.z, m, value) ? value : gridValue(grid, v, m);
 }
-// Differences over two voxels to both sides, of places with two voxels around their cells. A row's neighbours
-// along x are two words, from which the one between is put together.
+// Returns differences over two voxels to both sides, at places with two voxels around their cells. A row's
+// neighbours along x are two words, from which the one between is put together.
 STEREONAV_INLINE V3 innerDifferences(const SweepGrid& grid, const V3& v, I x, I y, I z, M m) {
     const I high = truncateToInt(mulAdd(v.x - toFloat(x), F(16384.0f), F(0.5f)));
     const I weights = shiftLeft<16>(high) + (I(16384) - high);
@@ -85,7 +85,7 @@ STEREONAV_INLINE V3 innerDifferences(const SweepGrid& grid, const V3& v, I x, I 
                   at(2 * next + down) - here[1]) *
                 unit};
 }
-// Value units a metre, along the grid's own axes; at the faces the outermost voxels count on.
+// Returns value units a metre, along the grid's own axes; at the faces the outermost voxels count on.
 [[gnu::noinline]] inline V3 gridGradient(const SweepGrid& grid, const V3& v, M m) {
     const F zero(0.0f), one(1.0f);
     const I x = truncateToInt(v.x), y = truncateToInt(v.y), z = truncateToInt(v.z), first(1);
@@ -149,7 +149,8 @@ STEREONAV_INLINE F noiseChannel(I half) {
             noiseChannel(shiftRight<16>(sum.odd))};
 }
 
-// What the noise of all scales does at a place.
+// What the noise of all scales does at a place: a way in metres, and factors on extinction, colour and
+// scattered light's extinction.
 struct Disturbance {
     V3 way;  // metres
     F extinction, color[3], indirect[3];
@@ -172,7 +173,7 @@ STEREONAV_INLINE Disturbance disturbanceAt(const SweepNoise& noise, const V3& pl
     return d;
 }
 
-// A layer's own colours, of lanes m: what HeightLayer::colorAt says.
+// A layer's own colours for lanes m, linear RGB 0..1: what HeightLayer::colorAt says.
 struct PlaceColor {
     F linear[3];
 };
@@ -190,8 +191,8 @@ struct PlaceColor {
     return {{square(c.redBlue & low), square(c.green & low), square(shiftRight<16>(c.redBlue) & low)}};
 }
 
-// What lanes m, where a layer has this extinction, add to what is there. read: a member, where its table is
-// read. tint: what its colours are multiplied by; null: nothing.
+// Adds what lanes m, where a layer has this extinction, have there. read: a member, where its table is read.
+// tint: what its colours are multiplied by; null: nothing.
 template <bool kColors, bool kIndirect, typename Read>
 STEREONAV_INLINE void addProperties(const SweepTable& table, F extinction, F weight, M m, const Read& read,
                                     const PlaceColor* tint, Properties& sum) {
@@ -251,7 +252,7 @@ template <bool kColors, bool kIndirect, bool kTinted>
     });
 }
 
-// The long way: noise, layers, gradients. Gives the displaced place; what is not asked for is 0.
+// Samples the long way: noise, layers, gradients. Returns the displaced place; what is not asked for is 0.
 template <bool kColors, bool kIndirect>
 [[gnu::noinline]] V3 sampleAny(const SweepScene& scene, const V3& place, F footprint, M m, Properties& p) {
     const F zero(0.0f), one(1.0f);
@@ -290,7 +291,7 @@ template <bool kColors, bool kIndirect>
     return there;
 }
 
-// The upward normal of the layer nearest to a place; 0 where there is none.
+// Returns the upward normal of the layer nearest to a place; 0 where there is none.
 [[gnu::noinline]] inline V3 layerNormal(const SweepScene& scene, const V3& place, M m) {
     const F zero(0.0f);
     V3 normal{zero, zero, zero};
@@ -320,7 +321,7 @@ STEREONAV_INLINE V3 worldGradient(const SweepGrid& grid, const V3& g) {
     };
     return {row(0), row(1), row(2)};
 }
-// Along world axes, any length; place: displaced.
+// Returns the gradient along world axes, any length; place: displaced.
 [[gnu::noinline]] inline V3 gradientAt(const SweepScene& scene, const V3& place, M m) {
     if (!scene.grid.values) return layerNormal(scene, place, m);
     const V3 voxel = voxelOf(scene.grid, place);
@@ -329,8 +330,8 @@ STEREONAV_INLINE V3 worldGradient(const SweepGrid& grid, const V3& g) {
     const V3 g = worldGradient(scene.grid, gridGradient(scene.grid, voxel, in));
     return {select(in, g.x, zero), select(in, g.y, zero), select(in, g.z, zero)};
 }
-// (1 - exp(-z)) / z and exp(-z), z >= 0. A series where z is small: the difference would lose digits, and it
-// costs less. Its first term left out is below 2e-7 at the limit.
+// Means over a slab: (1 - exp(-z)) / z and exp(-z), z >= 0. A series where z is small: the difference would
+// lose digits, and it costs less. Its first term left out is below 2e-7 at the limit.
 struct Decay {
     F mean, passes;
 };
@@ -357,13 +358,13 @@ STEREONAV_INLINE Decay decayOf(F z) {
     }
     return {mean, passes};
 }
-// V5 and V6 of docs/volume_light.md; x: of the eye's ray.
+// Returns V5 and V6 of docs/volume_light.md; x, y: optical depths along the eye's and the light's ray.
 STEREONAV_INLINE F slabShareOf(F x, F y, bool forward) {
     if (forward) return x * decayOf(x + y).mean;
     return x * decayOf(min(x, y)).passes * decayOf(abs(x - y)).mean;
 }
 
-// Angles by Abramowitz and Stegun 4.4.46, error below 2e-8 and the rounding.
+// Returns radians by Abramowitz and Stegun 4.4.46, error below 2e-8 and the rounding.
 STEREONAV_INLINE F arcCosine(F cosine) {
     const F a = min(abs(cosine), F(1.0f));
     F p = mulAdd(a, F(-0.0012624911f), F(0.0066700901f));
@@ -379,6 +380,7 @@ STEREONAV_INLINE F arcCosine(F cosine) {
 struct Colors {
     F c[3];
 };
+// Returns the phase function's weight of each colour.
 STEREONAV_INLINE Colors phaseAt(const SweepLook& look, F cosine, M m) {
     if (!look.phase[0]) return {{F(1.0f), F(1.0f), F(1.0f)}};
     const F at = clamp(arcCosine(cosine) * F(1024.0f / 3.14159265f), F(0.0f), F(1024.0f));

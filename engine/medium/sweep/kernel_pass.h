@@ -8,11 +8,12 @@
 
 namespace stereonav::STEREONAV_ISA {
 
+// Keeps direct light of a row, 0 to 1, for the eyes.
 STEREONAV_INLINE void packDirect(const SweepLight& light, int inChunk, int x, int y, F direct, M lanes) {
     store(packedAt(light, inChunk, x, y), inFifteenBits(direct), lanes);
 }
 
-// Where nothing is: scattered light is spread.
+// Spreads a row of scattered light, where nothing is too. way: metres; size: metres across a texel.
 template <bool kLeans>
 STEREONAV_INLINE void spreadRow(const SweepLight& light, const LightPass& pass, int x, TexelRow& row, F way,
                                 F size, M crossed, F (&indirect)[3]) {

@@ -10,8 +10,8 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Patches: half a tile, 16 x 8 pixels, and its two halves. Places lie at the middles of its outermost pixels
-// and evenly between.
+// Places of a patch, half a tile, 16 x 8 pixels, or one of its two halves: they lie at the middles of its
+// outermost pixels and evenly between.
 struct ShadingPatch {
     static constexpr int kSide = 4, kPlaces = 16, kPackets = kPlaces / kLanes, kHeight = EyeTile::kHalf;
     EyeRays rays[kPackets];
@@ -19,8 +19,8 @@ struct ShadingPatch {
 };
 // A slab's shades at the places of a patch.
 struct ShadedPlaces {
-    float length[ShadingPatch::kPlaces];   // of the gradient
-    float weighed[ShadingPatch::kPlaces];  // times what Blinn-Phong makes of it
+    float length[ShadingPatch::kPlaces];   // the gradient's length
+    float weighed[ShadingPatch::kPlaces];  // that times what Blinn-Phong makes of it
 };
 
 // Places of the half of a tile that is being walked, found when the first sample of a slab asks for them.
@@ -30,9 +30,9 @@ public:
                                  const EyeTile& tile)
         : mScene(scene), mEye(eye), mChunk(chunk), mTile(tile) {}
 
-    // The gradient's length and what Blinn-Phong makes of it in slab n of the chunk, of lanes m of the packet
-    // at (x, y) of the tile; false: the places are too far apart, or only some have a gradient: Blinn-Phong
-    // jumps between them.
+    // Finds the gradient's length and what Blinn-Phong makes of it in slab n of the chunk, for lanes m of the
+    // packet at (x, y) of the tile; false: the places are too far apart, or only some have a gradient:
+    // Blinn-Phong jumps between them.
     STEREONAV_INLINE bool at(int n, int x, int y, M m, F& length, F& shade) {
         const int width = widthFor(n);
         if (width == 0) return false;
@@ -81,7 +81,7 @@ private:
         mRays = mShaded[0] = mShaded[1] = 0;
     }
 
-    // Pixels across of the patch whose places lie close enough together in slab n; 0: none do.
+    // Returns the pixels across of the patch whose places lie close enough together in slab n; 0: none do.
     STEREONAV_INLINE int widthFor(int n) {
         if (!mMeasured) measure();
         const double away = mChunk.middle[n] + (mChunk.reference - mEye.start);
@@ -90,8 +90,8 @@ private:
         return mLargestStep[1] <= most ? EyeTile::kHalf : 0;
     }
 
-    // How far apart places lie at the tile's middle: the squares, in voxels, a metre along the axis from the
-    // eye.
+    // Measures how far apart places lie at the tile's middle: the squares, in voxels, a metre along the axis
+    // from the eye.
     [[gnu::noinline]] void measure() {
         mMeasured = true;
         constexpr double kMiddle = EyeTile::kSide / 2;
@@ -167,7 +167,7 @@ private:
     bool mMeasured = false;
     int mTop = -1;
     std::uint32_t mRays = 0, mShaded[2] = {};  // bits of patches; of slabs, by patch
-    double mLargestStep[2];                    // of half a tile's patch, and of its halves
+    double mLargestStep[2];                    // that of half a tile's patch, and of its halves
     ShadingPatch mPatches[3];
     ShadedPlaces mPlaces[2][SweepChunk::kMost];
 };
@@ -184,7 +184,7 @@ struct SurfaceAlone {
     F shade;
     bool isShaded;
 };
-// The surface weight of places in a grid alone, and what shades them where it is not 0.
+// Returns what shades places in a grid alone where their surface weight is not 0, and sets that.
 [[gnu::noinline]] inline SurfaceAlone surfaceAlone(const SweepGrid& grid, const V3& voxel,
                                                    const TablePlaces& places, const PacketShading& shading,
                                                    int slab, Properties& p) {

@@ -9,9 +9,9 @@ namespace stereonav::STEREONAV_ISA {
 // What a slab shows to lanes: light that it sends of itself, and how opaque it is along the ray.
 struct Sighting {
     Colors sent;
-    F opacity, passes;  // 1 - opacity
-    F depth;
-    M looked, seen;  // seen: something is there
+    F opacity, passes;  // 0 to 1: 1 - passes
+    F depth;            // view depth, metres
+    M looked, seen;     // seen: something is there
 };
 STEREONAV_INLINE Sighting nothingSeen(F depth, M looked) {
     const F zero(0.0f);
@@ -20,11 +20,12 @@ STEREONAV_INLINE Sighting nothingSeen(F depth, M looked) {
 
 // Where a packet's numbers are kept: four columns, kLanes / 4 rows, slab after slab.
 struct SharedPlace {
-    float* first = nullptr;  // of slab 0: light's first colour; then the others, the opacity
+    float* first = nullptr;  // slab 0: light's first colour; then the others, the opacity
 };
 constexpr int kSharedSlab = SharedRows::kNumbers * kLanes;
 constexpr int kSharedPacket = SweepChunk::kMost * kSharedSlab;
-// x: of the picture's columns, a multiple of four; row: of the rows that are kept.
+// Returns where a packet's numbers are. x: of the picture's columns, a multiple of four; row: of the rows
+// that are kept.
 STEREONAV_INLINE SharedPlace sharedPlace(const SharedRows& rows, int x, int row) {
     const std::int64_t packets = rows.columns / 4;
     return {rows.numbers + (row / (kLanes / 4) * packets + x / 4) * kSharedPacket};
@@ -37,20 +38,21 @@ STEREONAV_INLINE void keepSighting(const SharedPlace& at, int n, const Sighting&
     for (int k = 0; k < 3; ++k) store(to + k * kLanes, select(s.seen, s.sent.c[k], zero));
     store(to + 3 * kLanes, select(s.looked, select(s.seen, s.opacity, zero), F(kNotLooked)));
 }
-// Slabs of which is known that nothing is there.
+// Keeps that nothing is in these slabs.
 STEREONAV_INLINE void keepNothing(const SharedPlace& at, std::uint32_t slabs) {
     for (; slabs; slabs &= slabs - 1) {
         float* to = at.first + __builtin_ctz(slabs) * kSharedSlab;
         for (int k = 0; k < SharedRows::kNumbers; ++k) store(to + k * kLanes, F(0.0f));
     }
 }
+// Keeps that these slabs were not looked at.
 STEREONAV_INLINE void keepNotLooked(const SharedPlace& at, std::uint32_t slabs) {
     for (; slabs; slabs &= slabs - 1)
         store(at.first + __builtin_ctz(slabs) * kSharedSlab + 3 * kLanes, F(kNotLooked));
 }
 
-// Columns i and i + 1 of a packet's rows, of lanes m. In AVX-512 two packets are loaded and looked up where
-// all lie in them, as they do but where the slabs are seen along.
+// Reads columns i and i + 1 of a packet's rows, for lanes m. In AVX-512 two packets are loaded and looked up
+// where all lie in them, as they do but where the slabs are seen along.
 class SharedColumns {
 public:
     STEREONAV_INLINE SharedColumns(I i, M lanes) : mLanes(lanes), mColumn(i) {
@@ -65,7 +67,7 @@ public:
         mSecond = mRow + (next & I(3)) + shiftLeft<4>(shiftRight<2>(next));
 #endif
     }
-    // from: of column 0.
+    // Reads both columns; from: column 0.
     STEREONAV_INLINE FPair read(const float* from) const {
 #if defined(STEREONAV_ISA_avx512)
         if (mNear) {
@@ -90,15 +92,15 @@ private:
 #endif
 };
 
-// What is left of a ray's light where one of the two pixels it lies between is enough, and where none is
-// needed any more. With 1/4 and 1/256 (own samples where the rest is brighter).
+// Shares of a ray's light that are left where one of the two pixels it lies between is enough, and where none
+// is needed any more. With 1/4 and 1/256 (own samples where the rest is brighter).
 constexpr float kFaint = 1.0f / 4, kFaintest = 1.0f / 256;
 
 // How the other eye's packet reads.
 struct SharedReader {
     const SharedRows* rows = nullptr;
-    SharedPlace at{};  // of column 0
-    F column = 0.0f;   // of a place infinitely far away
+    SharedPlace at{};  // column 0
+    F column = 0.0f;   // column of a place infinitely far away
     F cosine = 0.0f;   // axis . ray, of depth 1
     F bend = 0.0f;     // how the ray's length changes with the parallax
 
@@ -112,8 +114,8 @@ struct SharedReader {
         bend = wx / mulAdd(wx, wx, mulAdd(wy, wy, F(1.0f)));
     }
 
-    // Reads slab n at that depth of lanes m, of whose light `left` is left; looked: lanes that the first eye
-    // has looked at.
+    // Reads slab n at that view depth for lanes m, of whose light the share `left` is left; looked: lanes
+    // that the first eye has looked at.
     STEREONAV_INLINE Sighting read(int n, F depth, F left, M m) const {
         const F parallax = cosine * F(rows->parallax[n]);
         const F x = mulAdd(parallax, F(rows->perParallax), column);

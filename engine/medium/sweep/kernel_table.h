@@ -6,13 +6,14 @@
 
 namespace stereonav::STEREONAV_ISA {
 
+// OpticalProperties in packets.
 struct Properties {
     F extinction;
     F indirect[3], color[3], glow[3];
     F surface;
 };
 
-// Where a table is read: an entry, how far to the next, and the same of rows.
+// Where a table is read: an entry, how far to the next (0 to 1), and the same of rows.
 struct Column {
     I entry;
     F share;
@@ -41,15 +42,15 @@ STEREONAV_INLINE void setRow(const SweepTable& table, F gradient, Column& at) {
     at.row = low * I(SweepTable::kColumns);
     at.rowShare = row - toFloat(low);
 }
-// All but the extinction, of lanes m.
+// Reads all but the extinction, for lanes m.
 STEREONAV_INLINE void readColors(const SweepTable& table, const Column& at, M m, Properties& p) {
     const F zero(0.0f);
     for (int k = 0; k < 3; ++k) p.color[k] = memberAt(table, table.color[k], at, m);
     p.surface = table.surface ? memberAt(table, table.surface, at, m) : zero;
     for (int k = 0; k < 3; ++k) p.glow[k] = table.glow[k] ? memberAt(table, table.glow[k], at, m) : zero;
 }
-// The same of grids alone, where rows have the same colours; the surface weight is not read. read: a member,
-// where the table is read.
+// Reads the same for grids alone, where rows have the same colours; the surface weight is not read. read: a
+// member, where the table is read.
 template <typename Read>
 STEREONAV_INLINE void readColorsAlone(const SweepTable& table, const Read& read, Properties& p) {
     const F zero(0.0f);
@@ -68,7 +69,8 @@ STEREONAV_INLINE void readIndirectAlone(const SweepTable& table, const Column& a
 STEREONAV_INLINE void readIndirect(const SweepTable& table, const Column& at, M m, Properties& p) {
     for (int k = 0; k < 3; ++k) p.indirect[k] = memberAt(table, table.indirect[k], at, m);
 }
-// Between the entries of a word of 15-bit halves, with a weight of 14 bits.
+// Returns what lies between the entries of a word of 15-bit halves, 0 to 1. share: 0 to 1, a weight of 14
+// bits.
 STEREONAV_INLINE F betweenHalves(I pair, F share) {
     const I high = truncateToInt(mulAdd(share, F(16384.0f), F(0.5f)));
     return toFloat(dotHalves(pair, shiftLeft<16>(high) + (I(16384) - high))) * F(1.0f / (16384 * 32767.0f));

@@ -12,7 +12,7 @@ namespace stereonav::STEREONAV_ISA {
 
 class TableWindow {
 public:
-    // Around `entry` of lanes m.
+    // Loads entries around `entry` of lanes m.
     STEREONAV_INLINE TableWindow(I entry, M m)
         : mFirst(leastOf(entry, m, SweepTable::kColumns - kEntries)), mOffset(entry - I(mFirst)) {
         mHolds = !any(m & ~within(mOffset, I(kEntries - 2)));
@@ -61,7 +61,7 @@ struct TablePlaces {
         m = lanes;
         if (!window.holds()) window = TableWindow(at.entry, lanes);
     }
-    // use: of what reads a member; the choice is made once for all that it reads.
+    // Calls use(read); the choice between window and gathering is made once for all that it reads.
     template <typename Use>
     STEREONAV_INLINE void read(const Use& use) const {
         if (window.holds())

@@ -13,12 +13,12 @@
 
 namespace stereonav {
 
-// Immutable but for the look, which changes between frames.
+// A scene, immutable but for the look, which changes between frames.
 struct MediumScene {
     Medium medium;
     MediumLook look;
     SweepSetting sweep;
-    // Linear RGB of what lies behind, by a unit world direction; empty: look.background.
+    // Returns linear RGB of what lies behind, by a unit world direction; empty: look.background.
     std::function<glm::vec3(const glm::dvec3& direction)> sky;
 
     // The medium with the surface weight 1 everywhere: what the surface model (eq. 2) shades.
@@ -32,11 +32,11 @@ struct MediumScene {
             if (scale.velocity != glm::dvec3(0.0)) return true;
         return false;
     }
-    // Where parallel light comes from, radians: clockwise from north, above the horizon.
+    // Sets where parallel light comes from, radians: clockwise from north, above the horizon.
     void turnLight(double azimuth, double elevation);
 };
 
-// The same functions, but for the surface weight, which is 1.
+// Return the same functions, but for the surface weight, which is 1.
 MediumTransfer allSurface(const MediumTransfer& transfer);
 Medium allSurface(const Medium& layers);  // of height layers alone
 

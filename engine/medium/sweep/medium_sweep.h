@@ -14,7 +14,7 @@ namespace stereonav {
 
 struct SweepTimings {
     double light_ms = 0, eye_ms = 0;
-    // Looked at: those of tiles and slabs that were not left out as empty, as passed or as dark.
+    // Samples: those of tiles and slabs that were not left out as empty, as passed or as dark.
     long long lightTexels = 0, eyeSamples = 0;
 };
 
@@ -24,19 +24,20 @@ public:
     explicit MediumSweep(const Medium& medium, SimdTarget target = SimdTarget::Auto);
     ~MediumSweep();
 
-    // pictures: one for each eye, resized. startDepths: empty, or one plane an eye: a view depth before which
-    // nothing is expected (0: unknown; infinite: nothing at all), as a depth splat gives it (W12 of
-    // docs/ledger.md); what lies more than a slab before it is left out.
+    // Makes the pictures. pictures: one for each eye, resized. head: world, metres; time: seconds.
+    // startDepths: empty, or one plane an eye: a view depth before which nothing is expected (0: unknown;
+    // infinite: nothing at all), as a depth splat gives it (W12 of docs/ledger.md); what lies more than a
+    // slab before it is left out. Throws Error for settings, lights and sizes that do not fit.
     SweepTimings render(const MediumLook& look, const SweepSetting& setting, std::span<const EyeView> eyes,
                         const glm::dvec3& head, double time, std::span<MediumPicture> pictures,
                         std::span<const Plane<float>> startDepths = {});
 
-    // The same with slices that were made elsewhere.
+    // Makes the same with slices that were made elsewhere.
     SweepTimings render(const MediumLook& look, const SweepSetting& setting, const SweepGeometry& geometry,
                         double time, std::span<MediumPicture> pictures,
                         std::span<const Plane<float>> startDepths = {});
 
-    // For comparisons: all of the light passes, also what no eye reads any more.
+    // Passes all of the light, also what no eye reads any more: for comparisons.
     void passAllLight(bool all);
 
     SimdTarget target() const;

@@ -16,14 +16,14 @@ public:
     // Throws Error where a grid has more voxels than 32-bit numbers count.
     explicit SweepData(const Medium& medium);
 
-    // All but the light's buffers.
+    // Returns all that kernels read but the light's buffers.
     SweepScene sceneFor(const MediumLook& look, const SweepSetting& setting, const SweepGeometry& geometry,
                         double time);
     std::size_t heldBytes() const;
 
 private:
     struct Table {
-        std::vector<float> members[12];
+        std::vector<float> members[12];  // rows of MediumTable's entries
         std::vector<std::uint32_t> surfacePairs, sharePairs;
         SweepTable data;
     };
@@ -40,9 +40,9 @@ private:
     Table mGridTable;
     bool mNarrow = false;  // differences of values fit 16 bits
     std::vector<Table> mLayerTables;
-    std::vector<std::vector<float>> mHeights;
+    std::vector<std::vector<float>> mHeights;  // metres above mBase, by layer
     std::vector<SweepLayer> mLayers;
-    std::vector<float> mPhase[3];
+    std::vector<float> mPhase[3];  // PhaseFunction's entries, by colour
 };
 
 SweepEye sweepEye(const RayFan& fan, const SweepGeometry& geometry);

@@ -25,13 +25,12 @@ public:
     // space and kernels must outlive it.
     SweepEyes(const SweepSpace& space, const SweepKernels& kernels) : mSpace(space), mKernels(kernels) {}
 
-    // Nothing gathered yet. geometry must outlive the frame.
-    // starts: see MediumSweep::render.
+    // Forgets what was gathered. geometry must outlive the frame. starts: see MediumSweep::render.
     void start(const SweepGeometry& geometry, const SweepSharing& sharing,
                std::span<const Plane<float>> starts);
-    // Through `count` slabs from `first` on. Gives how many samples tiles looked at.
+    // Sees `count` slabs from `first` on. Returns how many samples tiles looked at.
     long long seeChunk(const SweepScene& scene, const SweepChunk& chunk, int first, int count);
-    // Tiles of which no ray goes on read no light any more.
+    // Tells `reach` the tiles of which no ray goes on: they read no light any more.
     void dropPassed(SweepReach& reach) const;
     void readPicture(std::size_t eye, MediumPicture& picture) const;
     std::size_t heldBytes() const;
@@ -40,7 +39,7 @@ private:
     // One eye's tiles.
     struct Eye {
         int across = 0, down = 0;
-        std::vector<float> states;
+        std::vector<float> states;  // as EyeTile::state
         std::vector<std::uint8_t> fresh, done;
         std::vector<SweepBeam> beams;      // of the quarters of each tile
         std::vector<std::uint32_t> slabs;  // of a chunk, where quarters may meet something

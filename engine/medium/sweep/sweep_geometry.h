@@ -25,7 +25,7 @@ namespace stereonav {
 // origin on. Parallel: origin + right * (xMin + x * perX) + up * (yMax - y * perY) + k forward.
 struct RayFan {
     bool parallel = false;
-    glm::dvec3 origin{0.0};                                     // relative to the anchor
+    glm::dvec3 origin{0.0};                                     // metres, relative to the anchor
     glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  // orthonormal
     double xMin = 0, yMax = 0, perX = 0,
            perY = 0;  // at unit distance along forward, or metres where parallel
@@ -33,7 +33,7 @@ struct RayFan {
 
     glm::dvec3 start(double x, double y) const;      // a point on the ray
     glm::dvec3 direction(double x, double y) const;  // unit length
-    // Buffer coordinates of a point; behind a perspective origin: NaN.
+    // Returns buffer coordinates of a point; behind a perspective origin: NaN.
     glm::dvec2 project(const glm::dvec3& place) const;
     // Distance of the place from the origin along forward, and the width of a pixel there: metres.
     double depthOf(const glm::dvec3& place) const;
@@ -47,46 +47,48 @@ struct SweepGeometry {
     glm::dvec3 anchor{0.0};    // world: the place of the medium's box that is nearest to the head
     glm::dvec3 axis{0, 0, 1};  // unit
     bool forward = true;
-    // Slab k lies between faces[k] and faces[k + 1], sampled at their mean. Ascending, at least two, or none
-    // where there is nothing to see. Even over the medium's whole box, so that they stay where they are as
-    // one flies, with more faces at eyes and lamp where these are inside: a slab is wholly before or behind
-    // them. Slabs that no eye sees, nor light crosses on its way to one that is seen, are left out.
+    // Metres along the axis: slab k lies between faces[k] and faces[k + 1], sampled at their mean. Ascending,
+    // at least two, or none where there is nothing to see. Even over the medium's whole box, so that they
+    // stay where they are as one flies, with more faces at eyes and lamp where these are inside: a slab is
+    // wholly before or behind them. Slabs that no eye sees, nor light crosses on its way to one that is seen,
+    // are left out.
     std::vector<double> faces;
     std::vector<RayFan> eyes;
     // Rays of the light's buffer, which holds the box, or what a lamp's cone meets of it, and where light is
     // scattered also what it may spread to beside the cone; width 0: the model needs none, but the light's
     // place and way are still origin and forward.
     RayFan light;
-    double lightStart = 0;     // t before which a lamp lights nothing (-infinity for parallel light)
-    glm::vec3 radiance{1.0f};  // of the light
-    double falloff = 0;
-    double lampCosine = -1;  // of half the lamp's cone
+    // Metres along the axis before which a lamp lights nothing (-infinity for parallel light).
+    double lightStart = 0;
+    glm::vec3 radiance{1.0f};  // the light's, linear RGB
+    double falloff = 0;        // metres, MediumLight's
+    double lampCosine = -1;    // cosine of half the lamp's cone
     // How far V11 counts for scattered light, 0..1: from 50 to 75 degrees between view and light.
     double leaning = 0;
 
     int slabs() const { return faces.empty() ? 0 : static_cast<int>(faces.size()) - 1; }
 };
 
-// For one or several eyes at once. Axis: with beta the angle between the light's way and the middle view
-// direction (turned round where their dot product is negative), a = clamp((beta + light's half angle - eyes'
-// half angle) / 2, 0, beta) from the view towards the light; the paper's half angle where both half angles
-// are equal. Eye rays then stay below 85 degrees from the axis for frusta up to 100 degrees across the
-// corners; for wide lamps a is lowered to that, though not below (beta - eyes' half angle) / 2. Throws Error
-// for settings and lights out of range.
+// Makes the geometry for one or several eyes at once. Axis: with beta the angle between the light's way and
+// the middle view direction (turned round where their dot product is negative), a = clamp((beta + light's
+// half angle - eyes' half angle) / 2, 0, beta) from the view towards the light; the paper's half angle where
+// both half angles are equal. Eye rays then stay below 85 degrees from the axis for frusta up to 100 degrees
+// across the corners; for wide lamps a is lowered to that, though not below (beta - eyes' half angle) / 2.
+// Throws Error for settings and lights out of range.
 SweepGeometry makeSweepGeometry(const Medium& medium, const MediumLook& look, const SweepSetting& setting,
                                 std::span<const EyeView> eyes, const glm::dvec3& head);
 
-// Offset of scattered light's taps over the root of the way (V9), root of metres.
+// Returns the offset of scattered light's taps over the root of the way (V9), root of metres.
 double blurOf(const Medium& medium, const SweepSetting& setting);
 
-// In a slab that leans against the light's way, rays of the light are met after different lengths (V11): how
-// much later the next texel to the right, and the next below, meets the plane at t than the texel at (x, y)
-// does; metres, times `leaning`, even about the texel.
+// Returns how much later the next texel to the right, and the next below, meets the plane at t than the texel
+// at (x, y) does: in a slab that leans against the light's way, rays of the light are met after different
+// lengths (V11); metres, times `leaning`, even about the texel.
 glm::dvec2 tapLags(const SweepGeometry& geometry, double x, double y, double t);
 
-// Scattered light as it sets out, for the buffer and a ring of texels around it, rows of light.width + 2 from
-// (-1, -1) on: the part of a texel that lies within the lamp's cone. Empty where that is 1 everywhere. The
-// ring stays as it is, and what lies farther outside is like the nearest texel of it.
+// Returns scattered light, 0 to 1, as it sets out, for the buffer and a ring of texels around it, rows of
+// light.width + 2 from (-1, -1) on: the part of a texel that lies within the lamp's cone. Empty where that is
+// 1 everywhere. The ring stays as it is, and what lies farther outside is like the nearest texel of it.
 std::vector<float> scatteredAtStart(const SweepGeometry& geometry);
 
 // How the light's buffer is blurred while it passes a slab (row K3 of docs/ledger.md): taps at `radius`
@@ -99,13 +101,13 @@ struct BlurTaps {
     double share = 0;   // 0..1
 };
 BlurTaps blurTaps(double offset_texels);
-// The turn of the taps of a texel: radians in [0, pi / 2). Texels and slab as whole numbers.
+// Returns the turn of the taps of a texel: radians in [0, pi / 2). Texels and slab as whole numbers.
 double tapTurn(int x, int y, int slab);
 
-// (1 - exp(-x)) / x for x >= 0, 1 at 0.
+// Returns (1 - exp(-x)) / x for x >= 0, 1 at 0.
 double meanTransmittance(double x);
-// What a slab sends to the eye of light that enters it (docs/volume_light.md, eq. V5 and V6): eyeDepth and
-// lightDepth are optical depths of the slab along both rays. Between 0 and 1.
+// Returns the share, 0 to 1, of light that enters a slab which it sends to the eye (docs/volume_light.md, eq.
+// V5 and V6): eyeDepth and lightDepth are optical depths of the slab along both rays.
 double slabShare(double eyeDepth, double lightDepth, bool forward);
 
 }  // namespace stereonav

@@ -15,13 +15,14 @@ namespace stereonav {
 
 class SweepLightBuffers {
 public:
-    // All light; sets the pointers of scene.light. space: null: nothing is left out. Gives how many slabs the
-    // eyes' light can be kept for, 1 or more.
+    // Begins with all light; sets the pointers of scene.light. space: null: nothing is left out. Returns how
+    // many slabs the eyes' light can be kept for, 1 or more. Throws Error where memory is short.
     int start(SweepScene& scene, const SweepGeometry& geometry, const SweepSpace* space);
-    // Before the slabs of a chunk are passed. reach: what eyes may still read, chunks as here; null: all.
+    // Prepares for the slabs of a chunk. reach: what eyes may still read, chunks as here; null: all. Returns
+    // texels looked at.
     long long beginChunk(const SweepScene& scene, const SweepGeometry& geometry, int first, int count,
                          const SweepKernels& kernels, SweepReach* reach = nullptr);
-    // Past a slab, the `inChunk`-th that is kept. Gives texels looked at.
+    // Passes a slab, the `inChunk`-th that is kept. Returns texels looked at.
     long long pass(const SweepScene& scene, const SweepGeometry& geometry, int slab, int inChunk,
                    const SweepKernels& kernels);
     std::size_t heldBytes() const;

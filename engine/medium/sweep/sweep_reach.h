@@ -17,13 +17,13 @@ public:
     // read.
     void start(const SweepGeometry& geometry, const SweepSpace* space, int chunk, int eyeSide, int lightSide);
     bool known() const { return !mRects.empty(); }
-    // A tile of an eye reads no more for itself. Of two eyes the first may sample for the second along the
-    // same row of tiles: there its tiles count until none of the second's reads on. Tiles are numbered row by
-    // row.
+    // Notes that a tile of an eye reads no more for itself. With two eyes the first may sample for the second
+    // along the same row of tiles: there its tiles count until none of the second's reads on. Tiles are
+    // numbered row by row.
     void drop(std::size_t eye, int tile);
-    // Before a chunk is passed; chunks follow each other.
+    // Begins a chunk, before it is passed; chunks follow each other.
     void begin(int chunk);
-    // The last slab from that chunk on in which a tile of light may be read; below its first: none.
+    // Returns the last slab from that chunk on in which a tile of light may be read; below its first: none.
     int lastRead(int lightTile) const { return (mLast[lightTile] + 1) * mChunk - 1; }
     std::size_t heldBytes() const;
 

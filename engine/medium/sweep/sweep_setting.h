@@ -4,10 +4,11 @@
 namespace stereonav {
 
 struct SweepSetting {
-    int slices = 256;        // across the medium along the sweep's axis; 1 to 65536
-    double turn = 0;         // shares of a slab by which slices lie nearer to the sweep's start; 0 to below 1
-    int lightSize = 256;     // texels a side of the light's buffer; 8 to 4096
-    double coneAngle = 0.6;  // theta of eq. 9, radians, full angle; 0: scattered light stays on its way
+    int slices = 256;     // across the medium along the sweep's axis; 1 to 65536
+    double turn = 0;      // share of a slab by which slices lie nearer to the sweep's start; 0 to below 1
+    int lightSize = 256;  // texels a side of the light's buffer; 8 to 4096
+    // Full angle theta of eq. 9, radians, below 3; 0: scattered light stays on its way.
+    double coneAngle = 0.6;
     // Metres of way at which the blur is the paper's offset d tan(theta / 2) (d: their slice distance).
     // Offsets are sqrt(step * blurLength) tan(theta / 2), so that the light spreads as much in many thin
     // steps as in few thick ones; the paper's spread less and less as slices are added. 0: 1/64 of the

@@ -9,9 +9,9 @@
 
 namespace stereonav {
 
-// The width of what is told apart in a medium: of a voxel, a texel of noise that does something, a sample of
-// a height layer, its taper or a texel of its colours. Metres; 0 where a layer has sharp faces, infinite
-// where nothing is.
+// Returns the width of what is told apart in a medium: the least of a voxel, a texel of noise that does
+// something, a sample of a height layer, its taper or a texel of its colours. Metres; 0 where a layer has
+// sharp faces, infinite where nothing is.
 double finestDetail(const Medium& medium);
 
 class SweepSharing {
@@ -22,7 +22,8 @@ public:
     SweepSharing(const SweepGeometry& geometry, const WorldBox& box, double widestPixel);
 
     bool any() const { return mAny; }
-    // Which slabs of a chunk are shared, as bits, and where the second eye finds in them what the first saw.
+    // Returns which slabs of a chunk are shared, as bits, and where the second eye finds in them what the
+    // first saw.
     std::uint32_t slabsOf(const SweepChunk& chunk, int count, SharedRows& rows) const;
 
 private:
@@ -30,12 +31,12 @@ private:
 
     bool mAny = false;
     bool mForward = true;
-    double mSeparation = 0;               // of the eyes along `right`: metres
-    double mStart = 0, mAxisRight = 0;    // the second eye along the axis; right . axis
+    double mSeparation = 0;               // metres between the eyes along `right`
+    double mStart = 0, mAxisRight = 0;    // metres: the second eye along the axis; right . axis
     double mCosines[4] = {};              // axis . rays of depth 1 through the picture's corners
-    double mNearest = 0, mFarthest = 0;   // depths of the medium's box
+    double mNearest = 0, mFarthest = 0;   // metres: depths of the medium's box
     double mPixel = 0, mWidestPixel = 0;  // at depth 1; metres
-    float mColumn = 0;
+    float mColumn = 0;                    // SharedRows::column, pixels
     int mWidth = 0;
 };
 

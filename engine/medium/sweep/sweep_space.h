@@ -16,8 +16,8 @@ namespace stereonav {
 // The rays of a block of a buffer's pixels among the cells of a SweepSpace: at t along the axis they lie in
 // the box origin + s way -+ (spread + |s| perWay), s = t - start.
 struct SweepBeam {
-    glm::dvec3 origin{0.0}, way{0.0}, spread{0.0}, perWay{0.0};
-    double start = 0;
+    glm::dvec3 origin{0.0}, way{0.0}, spread{0.0}, perWay{0.0};  // in cells
+    double start = 0;                                            // metres along the axis
     int side = 0;        // the rays are where s has this sign; 0: everywhere
     bool known = false;  // false: some ray hardly crosses the slabs; it may be anywhere
     // Footprints there, metres: the largest of `least` and of both constant + gradient . place.
@@ -34,16 +34,16 @@ public:
     SweepSpace() = default;
     explicit SweepSpace(const Medium& medium);
 
-    // From the world to cells; of layers to metres from the bounds' corner.
+    // From the world to cells; with layers alone to metres from the bounds' corner.
     glm::dvec3 cellFromWorld(const glm::dvec3& world) const { return mTurn * (world - mOrigin); }
     glm::dvec3 cellDirection(const glm::dvec3& world) const { return mTurn * world; }
-    // forward: the fan's rays go to larger t.
+    // Returns the beam of a block of pixels. forward: the fan's rays go to larger t.
     SweepBeam beamOf(const SweepGeometry& geometry, const RayFan& fan, bool forward, double x0, double y0,
                      double x1, double y1) const;
-    // The beam of the light, which must be known wherever an eye samples the medium, with the eye's footprint
-    // too.
+    // Returns the beam of the light, which must be known wherever an eye samples the medium, with the eye's
+    // footprint too.
     SweepBeam lightBeamOf(const SweepGeometry& geometry, double x0, double y0, double x1, double y1) const;
-    // Bits of those of up to 32 planes, at ascending t, where a beam may meet something.
+    // Returns bits of those of up to 32 planes, at ascending t, where a beam may meet something.
     std::uint32_t planesMet(const SweepBeam& beam, const double* t, int count) const;
     // Whether a beam may meet something between two planes on its rays' side.
     bool mayMeet(const SweepBeam& beam, double t0, double t1) const {
@@ -69,7 +69,7 @@ private:
     }
 
     glm::dmat3 mTurn{1.0};
-    glm::dvec3 mOrigin{0.0};
+    glm::dvec3 mOrigin{0.0};  // world, metres
     glm::ivec3 mSize{0};
     std::vector<std::uint8_t> mFull;
     std::vector<std::int32_t> mSums;  // of full cells before (x, y, z), (size + 1)^3

@@ -22,11 +22,12 @@ struct SweepTask {
     const MediumLook& look;
     const SweepSetting& setting;
     std::span<const EyeView> eyes;
-    const glm::dvec3& head;
-    double time;
+    const glm::dvec3& head;  // world, metres
+    double time;             // seconds
     std::span<MediumPicture> pictures;
 };
-// Sweeps elsewhere, or calls cpu(), which does it here; true: what the pictures hold was made elsewhere.
+// A function that sweeps elsewhere, or calls cpu(), which does it here; true: what the pictures hold was made
+// elsewhere.
 using SweepChooser = std::function<bool(const SweepTask& task, const std::function<void()>& cpu)>;
 
 // Methods of SweptFrames.
@@ -53,10 +54,11 @@ public:
     std::string_view whatMethodsMake() const override { return "both eyes"; }
     void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) override;
     void makeOne(const EyeView& view, double time, EyePair& frame) override;
-    // What sweeps read and write, and their pictures before they are packed.
+    // Lists what sweeps read and write, and their pictures before they are packed.
     std::vector<HeldBytes> held() const override;
 
-    // Asked at each sweep from now on, but for those of the depth splat, whose rays start in depths.
+    // Sets who is asked at each sweep from now on, but for those of the depth splat, whose rays start in
+    // depths.
     void setSweep(SweepChooser chooser) { mChooser = std::move(chooser); }
     bool sweptElsewhere() const { return mElsewhere; }  // the last one
 
@@ -89,7 +91,7 @@ private:
     std::unique_ptr<Surface> mSurface;  // made when it is first shown
     RightEye mSplat;
     std::vector<MediumPicture> mPictures;
-    double mEffort = 1, mTurn = 0;
+    double mEffort = 1, mTurn = 0;           // as SlicedFrames has them
     bool mHere = false, mElsewhere = false;  // the chooser is not asked; it swept elsewhere
     SweepChooser mChooser;                   // last: it ends before the media that it was asked for
 };
