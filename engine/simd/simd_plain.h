@@ -37,6 +37,7 @@ STEREONAV_INLINE M operator~(M a) {
 STEREONAV_INLINE M andNot(M a, M b) {
     return {a.v & ~b.v};
 }  // a and not b
+// Returns a bit for each lane, lane 0 lowest; maskFromBits() does the reverse.
 STEREONAV_INLINE std::uint32_t bits(M a) {
 #if defined(__SSE2__)
     return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(a.v)));
@@ -55,6 +56,7 @@ STEREONAV_INLINE M maskFromBits(std::uint32_t b) {
     const auto every = static_cast<std::int32_t>(b);
     return {(IntLanes{every, every, every, every} & IntLanes{1, 2, 4, 8}) != 0};
 }
+// Sets the first `count` lanes.
 STEREONAV_INLINE M firstLanes(int count) {
     return {IntLanes{0, 1, 2, 3} < IntLanes{count, count, count, count}};
 }
@@ -103,7 +105,7 @@ STEREONAV_INLINE I select(M m, I yes, I no) {
 STEREONAV_INLINE F select(M m, F yes, F no) {
     return asFloat(select(m, asInt(yes), asInt(no)));
 }
-// 0 where m is clear.
+// Returns a where m is set, else 0.
 STEREONAV_INLINE I keep(M m, I a) {
     return a.v & m.v;
 }
@@ -145,12 +147,14 @@ STEREONAV_INLINE F sqrt(F a) {
                       __builtin_sqrtf(a.v[3])};
 }
 #endif
+// Relative errors: none here, below 2^-21 in the other sets.
 STEREONAV_INLINE F approxReciprocal(F a) {
     return F(1.0f) / a;
 }
 STEREONAV_INLINE F approxRsqrt(F a) {
     return F(1.0f) / sqrt(a);
 }
+// Memory need not be aligned; with a mask only its lanes are written.
 STEREONAV_INLINE F loadF(const float* p) {
     F r;
     std::memcpy(&r.v, p, sizeof r.v);
@@ -195,7 +199,7 @@ STEREONAV_INLINE M operator>(I a, I b) {
 STEREONAV_INLINE M operator==(I a, I b) {
     return {a.v == b.v};
 }
-// 0 <= a <= last
+// Whether 0 <= a <= last.
 STEREONAV_INLINE M within(I a, I last) {
     return {(a.v >= 0) & (a.v <= last.v)};
 }
@@ -232,7 +236,7 @@ STEREONAV_INLINE I truncateToInt(F a) {
     return select(fits, I(__builtin_convertvector(select(fits, a, F(0.0f)).v, IntLanes)), I(INT32_MIN));
 #endif
 }
-// Largest integer <= a, for |a| < 2^31.
+// Returns the largest integer <= a, for |a| < 2^31.
 STEREONAV_INLINE I floorToInt(F a) {
     const I t = truncateToInt(a);
     return t - select(a < toFloat(t), I(1), I(0));
@@ -287,7 +291,7 @@ struct IPair {
 STEREONAV_INLINE IPair gatherPair(const std::uint32_t* base, I index, M m) {
     return {gather(base, index, m), gather(base + 1, index, m)};
 }
-// load(index) of each lane of m, 0 of the others.
+// Returns load(index) for each lane of m, 0 for the others.
 template <typename Load>
 STEREONAV_INLINE I loadLanes(I index, M m, Load load) {
     const std::uint32_t on = bits(m);
@@ -306,7 +310,7 @@ STEREONAV_INLINE I gatherHalves(const void* base, I index, M m) {
         return two;
     });
 }
-// Lanes of m to base[index]; indices differ.
+// Writes lanes of m to base[index]; indices differ.
 STEREONAV_INLINE void scatter(float* base, I index, F a, M m) {
     for (std::uint32_t k = 0, on = bits(m); k < kLanes; ++k)
         if ((on >> k & 1u) != 0) base[index.v[k]] = a.v[k];
@@ -333,7 +337,7 @@ struct ToFront {
         return IntLanes{a.v[order[0]], a.v[order[1]], a.v[order[2]], a.v[order[3]]};
     }
 };
-// The other way: the lanes of m get a's first, in their order; the others any of a's numbers.
+// Does the reverse: the lanes of m get a's first, in their order; the others any of a's numbers.
 STEREONAV_INLINE I fromFront(I a, M m) {
     const std::uint32_t set = bits(m);
     return IntLanes{a.v[0], a.v[set & 1], a.v[__builtin_popcount(set & 3)], a.v[__builtin_popcount(set & 7)]};
@@ -343,8 +347,8 @@ STEREONAV_INLINE I lookup16(const std::int32_t* table, I index) {
     return IntLanes{table[index.v[0]], table[index.v[1]], table[index.v[2]], table[index.v[3]]};
 }
 #if defined(__SSE2__)
-// Sixteen-bit halves of each lane: a + (b - a) * t / 2^15, rounded; t in [0, 2^15), |b - a| < 2^15. With the
-// product p = high * 2^16 + low, (p + 2^14) >> 15 is 2 high + ((low >> 14) + 1 >> 1).
+// Returns a + (b - a) * t / 2^15 for the sixteen-bit halves of each lane, rounded; t in [0, 2^15), |b - a| <
+// 2^15. With the product p = high * 2^16 + low, (p + 2^14) >> 15 is 2 high + ((low >> 14) + 1 >> 1).
 STEREONAV_INLINE I lerpHalves(I a, I b, I t) {
     const auto from = reinterpret_cast<__m128i>(a.v), by = reinterpret_cast<__m128i>(t.v);
     const __m128i d = _mm_sub_epi16(reinterpret_cast<__m128i>(b.v), from);
@@ -352,7 +356,7 @@ STEREONAV_INLINE I lerpHalves(I a, I b, I t) {
     const __m128i rest = _mm_srli_epi16(_mm_add_epi16(low, _mm_set1_epi16(1)), 1);
     return reinterpret_cast<IntLanes>(_mm_add_epi16(from, _mm_add_epi16(_mm_add_epi16(high, high), rest)));
 }
-// Sums of the products of sixteen-bit halves.
+// Returns the sums of the products of sixteen-bit halves.
 STEREONAV_INLINE I dotHalves(I a, I b) {
     return reinterpret_cast<IntLanes>(
         _mm_madd_epi16(reinterpret_cast<__m128i>(a.v), reinterpret_cast<__m128i>(b.v)));

@@ -249,7 +249,8 @@ STEREONAV_INLINE int lastLane(I a) {
     return firstLane(everyLane<kLanes - 1>(a));
 }
 
-// The minimum of each lane and all above it; beyond the last there is only `most`, the largest there is.
+// Returns the minimum of each lane and all above it; beyond the last there is only `most`, the largest there
+// is.
 template <int step = 1>
 STEREONAV_INLINE F suffixMinimum(F a, F most) {
     const F wider = min(a, lanesFrom<step>(a, most));
@@ -258,7 +259,7 @@ STEREONAV_INLINE F suffixMinimum(F a, F most) {
     else
         return wider;
 }
-// The maximum of each lane and all below it; before the first there is only `least`.
+// Returns the maximum of each lane and all below it; before the first there is only `least`.
 template <int step = 1>
 STEREONAV_INLINE I prefixMaximum(I a, I least) {
     const I wider = max(a, lanesFrom<kLanes - step>(least, a));

@@ -22,24 +22,25 @@ constexpr std::array<NamedSimdTarget, 4> kSimdTargets{{{"auto", SimdTarget::Auto
                                                        {"avx2", SimdTarget::Avx2},
                                                        {"avx512", SimdTarget::Avx512}}};
 
-// One of the names above.
+// Returns one of the names above.
 std::string_view nameOf(SimdTarget target);
 
-// The widest set of this processor.
+// Returns the widest set of this processor.
 SimdTarget widestOfProcessor();
 
-// The narrower of `has` and what `limit` names; a null or empty limit hides nothing. Throws Error for a limit
-// that is no set's name.
+// Returns the narrower of `has` and what `limit` names; a null or empty limit hides nothing. Throws Error for
+// a limit that is no set's name.
 SimdTarget limitedTarget(SimdTarget has, const char* limit);
 
-// What Auto becomes here; another target as it is. Throws Error when the processor does not have it or
-// STEREONAV_SIMD hides it.
+// Returns what Auto becomes here; another target as it is. Throws Error when the processor does not have it
+// or STEREONAV_SIMD hides it.
 SimdTarget availableTarget(SimdTarget target);
 
 // All sets that may be used here, narrowest first; Plain is always one.
 std::vector<SimdTarget> simdTargets();
 
-// Those of the set that availableTarget gives; STEREONAV_EACH_SET (kernel_sets.h) declares them.
+// Returns the kernels of the set that availableTarget() gives, and throws as it does; STEREONAV_EACH_SET
+// (kernel_sets.h) declares them.
 template <typename Kernels>
 const Kernels& kernelsOf(SimdTarget target, const Kernels& plain, const Kernels& avx2,
                          const Kernels& avx512) {
