@@ -17,7 +17,7 @@ class PhaseTexture {
 public:
     void set(const PhaseFunction& phase);  // uploads where it differs from what was set last
     void bind() const;
-    static glm::vec2 scale();  // texture coordinate = x * that + y
+    static glm::vec2 scale();  // texture coordinate of x = x * scale().x + scale().y
 
 private:
     GlTexture mTexture;               // RGB32F

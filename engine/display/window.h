@@ -91,9 +91,9 @@ public:
     void toggleFullScreen();  // on the monitor that the window is on
 
     bool keyDown(int key) const;
-    std::vector<KeyPress> takeKeys();
-    double takeWheel();     // notches, upwards is positive
-    glm::dvec2 takeDrag();  // screen units, x right, y down, while a button is held or captured
+    std::vector<KeyPress> takeKeys();  // that were pressed since the last call
+    double takeWheel();                // notches, upwards is positive
+    glm::dvec2 takeDrag();             // screen units, x right, y down, while a button is held or captured
     // Places where the left button went down and up without the pointer moving away: shares of the
     // window's size, (0, 0) top left.
     std::vector<glm::dvec2> takeClicks();
@@ -106,7 +106,7 @@ public:
     void close();                     // as if the user had
     void setCaptured(bool captured);  // hide the pointer and take all its motion
     bool captured() const { return mCaptured; }
-    Gamepad gamepad() const;
+    Gamepad gamepad() const;  // the first one's state now; without one, not present
 
     GLFWwindow* handle() const { return mHandle; }
 

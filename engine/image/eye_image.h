@@ -20,6 +20,7 @@ enum class ViewDependence {
 
 constexpr float kMissDepth = std::numeric_limits<float>::infinity();  // view depth where nothing is hit
 
+// The planes of a picture of one eye, all of one size or empty.
 struct EyeImage {
     Plane<PackedColor> color;
     // Metres along the viewing axis (not along the ray); kMissDepth where the ray hit nothing;

@@ -29,8 +29,8 @@ struct LateSource {
 // an inverse depth i is seen at u = a + i (shift.x - shift.z a), v = b + i (shift.y - shift.z b), where (a,
 // b) is the place of what is infinitely far: a = row 0 / row 2, b = row 1 / row 2 of rows * (x, y, 1).
 struct LateMove {
-    float rows[3][3] = {};
-    float shift[3] = {};  // x and y: pixels times metres; z: metres
+    float rows[3][3] = {};  // without unit
+    float shift[3] = {};    // x and y: pixels times metres; z: metres
 };
 
 // How a tile of the new picture is looked up.

@@ -26,7 +26,7 @@ struct Body {
         return meanRadius <= 0 ||
                (meanRadius > (1 - kAlike) * kEarthRadius && meanRadius < (1 + kAlike) * kEarthRadius);
     }
-    constexpr double radius() const { return isEarth() ? kEarthRadius : meanRadius; }
+    constexpr double radius() const { return isEarth() ? kEarthRadius : meanRadius; }  // metres
     // The refraction where none is said, 0 to 1: air is known of the Earth alone.
     constexpr double usualRefraction() const { return isEarth() ? kUsualRefraction : 0; }
 };
@@ -38,6 +38,7 @@ constexpr double curvatureFall(double refraction, const Body& body = {}) {
     return (1 - refraction) / (2 * body.radius());
 }
 
+// The Earth's bend as an eye sees it.
 struct EarthBend {
     glm::dvec2 middle{0.0};  // world: below the head, so that both eyes see one surface
     double fall = 0;         // 1 / metres, >= 0; 0: the Earth is level

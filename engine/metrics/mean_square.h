@@ -12,6 +12,7 @@
 
 namespace stereonav {
 
+// A sum of squared differences.
 struct MeanSquare {
     double sum = 0;  // squared sRGB levels (0 to 255) over the three channels
     long long pixels = 0;

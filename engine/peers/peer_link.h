@@ -11,6 +11,7 @@ namespace stereonav {
 
 enum class PeerKind : int { Hello, Welcome, Request, Order, Done, Result, Tell, Failure, Leave };
 
+// A message that came from the process of rank `from`.
 struct PeerMessage {
     int from = 0;
     PeerKind kind = PeerKind::Hello;

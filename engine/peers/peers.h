@@ -65,7 +65,7 @@ public:
     // stopped has none but the first one's.
     [[noreturn]] void fail(const std::string& line);
 
-    PieceDesk* desk() { return mDesk.get(); }
+    PieceDesk* desk() { return mDesk.get(); }  // null but for the first of several
 
 private:
     void greet(const std::string& greeting);

@@ -18,6 +18,7 @@ struct PixelRect {
     int height() const { return y1 - y0; }
 };
 
+// A pixel of a picture, (0, 0) top left.
 struct PixelIndex {
     std::uint16_t x, y;
 };

@@ -31,6 +31,7 @@ PackedTexel packTexel(const glm::vec3& light, float weight);  // what is not fin
 glm::vec3 texelLight(PackedTexel texel);                      // linear RGB
 float texelWeight(PackedTexel texel);                         // 0 to 1
 
+// Baked light on a grid of texels.
 struct IlluminationVolume {
     VolumeFrame frame;  // the texels' grid
     TexelLayout layout;

@@ -124,6 +124,7 @@ STEREONAV_INLINE F inCell(F eye, F t, F direction, I cell) {
     return clamp(mulAdd(t, direction, eye) - toFloat(cell), F(0.0f), F(1.0f));
 }
 
+// Returns the way through the cells `at`, from view depth `nearest` on.
 STEREONAV_INLINE Crossing crossingOf(const Grid& grid, const Rays& r, const Cells& at, F nearest) {
     const V3 far = farPlanes(r, at);
     Crossing c;

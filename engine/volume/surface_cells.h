@@ -60,6 +60,7 @@ constexpr std::uint8_t kCellNear = 1;    // none, but the next cell may: walk on
 constexpr std::uint32_t kDenseBrick = 1u << 31;
 constexpr int kDenseSide = 17, kDenseCorners = kDenseSide * kDenseSide * kDenseSide;
 
+// Cells of a volume, and what is kept of them.
 struct SurfaceCells {
     VolumeFrame frame;  // the voxels' grid
     BrickLayout layout;
@@ -93,6 +94,7 @@ struct SurfaceCells {
     SurfaceCells share() const;     // the same in the same memory (LazyArray::share)
 };
 
+// What a surface is, and how its cells are found.
 struct SurfaceSetting {
     float isovalue = 0;  // stored numbers of the volume
     // Cells are active when the range of their values meets [lowest, highest], ends included. For the

@@ -9,6 +9,7 @@
 
 namespace stereonav {
 
+// Colour and opacity at one value.
 struct TransferPoint {
     double value = 0;       // a volume's value (HU for CT)
     glm::vec3 color{1.0f};  // linear RGB

@@ -9,6 +9,7 @@
 
 namespace stereonav {
 
+// A histogram over stored numbers.
 struct ValueCounts {
     std::vector<std::uint64_t> counts;  // by stored number + 32768; empty: nothing was counted
     double scale = 1, offset = 0;       // value = stored * scale + offset

@@ -30,7 +30,7 @@ struct CellData {
     std::int32_t last[3] = {};  // the last cell along each axis
     float leapUnit = 0;         // metres
     float isovalue = 0;         // stored number
-    bool leaping = true;
+    bool leaping = true;        // else cell by cell
     // World directions of slopes of 1 a voxel along each axis, turned to smaller values: at most 1 long.
     float downX[3] = {}, downY[3] = {}, downZ[3] = {};
 };
@@ -56,9 +56,10 @@ struct TexelGrid {
     std::int32_t last[3] = {};               // the last texel
     float offset[3] = {}, perVoxel[3] = {};  // texel = (voxel - offset) * perVoxel
 };
+// Baked light, and how it counts.
 struct BakedData : TexelGrid {
     TexelGrid beyond;  // light where these texels are not known, itself known everywhere; texels null: none
-    bool openness = false;
+    bool openness = false;              // weakens the lamp instead: BakedLook::Use
     float exposure = 1, lampShare = 0;  // factor, at most kMostExposure; share, 0 to 1
 };
 

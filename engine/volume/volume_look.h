@@ -40,6 +40,7 @@ struct AmbientLook {
     float lampShare = 0;
 };
 
+// What a volume looks like.
 struct VolumeLook {
     glm::vec3 surface{0.75f, 0.42f, 0.34f};     // linear RGB albedo
     glm::vec3 background{0.0f};                 // linear RGB where nothing is hit

@@ -85,6 +85,7 @@ const BlockPieces& blockPieces(std::uint8_t pattern);
 // The cheapest ways from one node to all others.
 struct VoxelPaths {
     static constexpr VoxelGraph::Node kNone = 0xffffffff;
+    // The way to a node.
     struct Way {
         float cost, length;         // length: metres along the cheapest way; both infinite where not reached
         float weight;               // cost a metre at the node itself

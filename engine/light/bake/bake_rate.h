@@ -23,6 +23,7 @@ std::vector<TexelPiece> inSmallPieces(const std::vector<TexelPiece>& pieces);
 // change much.
 double processorSeconds();
 
+// What was measured, and what a whole bake would take.
 struct BakeRate {
     double all_s = 0;        // for all texels, by the clock
     double part = 0;         // share of the texels that was measured; 1: all, and all_s is what they took

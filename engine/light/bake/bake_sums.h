@@ -23,6 +23,7 @@ enum class BakeKind : std::uint32_t {
 };
 std::string_view nameOf(BakeKind kind);
 
+// What a texel's sums hold.
 struct BakeShape {
     BakeKind kind = BakeKind::Irradiance;
     int order = 5, channels = 1;  // for transfer: 1 to kMaxHarmonicsOrder, 1 or 3

@@ -16,6 +16,7 @@ enum class BoxResult { Reconstructed, DrawnIn, Gaussian, Chebyshev, Variance };
 // boxes are padded to whole strips. A multiple of the lanes of every kernel.
 constexpr int kOcclusionStrip = 64;
 
+// A band of rows of the volume, and the boxes that it goes through.
 struct OcclusionBand {
     const std::int16_t* values = nullptr;  // the volume, i fastest
     std::uint8_t* to = nullptr;            // the same grid

@@ -32,6 +32,7 @@ struct ModulationSetting {
 };
 constexpr double kSteepestOpenness = 1;  // a voxel
 
+// The factor on opacity, and the scale that it was made with.
 struct OpacityModulation {
     Volume<std::uint8_t> share;  // that opacity is multiplied with, 0..255 for 0..1
     double sigma = 0;            // given, or chosen, as ModulationSetting::sigma

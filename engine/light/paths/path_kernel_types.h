@@ -19,6 +19,7 @@ struct PathField {
     std::int32_t shift = 1;       // at least 1
 };
 
+// The volume, in stored numbers.
 struct PathVolume {
     const std::int16_t* values = nullptr;
     std::int32_t size[3] = {};  // voxels, at least 2
@@ -26,6 +27,7 @@ struct PathVolume {
     float axes[9] = {};         // world directions of the axes, one after the other
 };
 
+// Distant light by direction: LightProbe's tables.
 struct PathProbe {
     const float* pixels = nullptr;   // red, green, blue (linear), density a steradian; null: no probe
     const float* rows = nullptr;     // running chance of rows, 0 to 1, height + 1
@@ -69,8 +71,8 @@ struct PathStart {
 // Moments of one texel's samples: the mean of each channel, and the sum of squared distances of luminance
 // from its mean.
 struct PathMoments {
-    float mean[3] = {};
-    float squares = 0;
+    float mean[3] = {};  // linear RGB
+    float squares = 0;   // luminance squared
 };
 
 // Working memory of one thread.

@@ -83,6 +83,7 @@ STEREONAV_INLINE V3 axesFromWorld(const float* axes, const V3& v) {
     return {along(0), along(1), along(2)};
 }
 
+// What is seen of the probe in a direction.
 struct ProbeSight {
     V3 radiance;
     F density;  // per steradian
@@ -106,6 +107,7 @@ STEREONAV_INLINE ProbeSight probeTowards(const PathProbe& probe, const V3& world
     return pixelAt(probe, part(mulAdd(azimuth, F(0.5f / kPiF), F(0.5f)), probe.width), row, m);
 }
 
+// An entry of a running sum, and where in it, 0 to 1.
 struct Choice {
     I index;
     F fraction;
@@ -125,6 +127,7 @@ STEREONAV_INLINE Choice chooseEntry(const float* sums, I start, int count, int s
     return {low, clamp((u - from) / max(width, F(1e-30f)), F(0.0f), F(1.0f))};
 }
 
+// A direction that was chosen, unit, world, and what is seen there.
 struct ProbeChoice {
     V3 world;
     ProbeSight sight;

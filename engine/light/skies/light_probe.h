@@ -28,6 +28,7 @@ public:
     };
     Seen seen(const glm::vec3& direction) const;
 
+    // A direction that was chosen, and what is seen there.
     struct Sample {
         glm::vec3 direction, radiance;  // unit; linear RGB
         float density;                  // per steradian; > 0 unless the probe is black

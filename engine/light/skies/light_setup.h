@@ -10,6 +10,7 @@
 
 namespace stereonav {
 
+// A light that shines evenly from a place.
 struct PointLight {
     glm::dvec3 position{0.0};   // world, metres
     glm::vec3 intensity{0.0f};  // W/sr in units of the probe: irradiance at distance d is intensity / d^2
@@ -23,6 +24,7 @@ inline double lightWeight(const PointLight& light) {
     return luminance(glm::dvec3(light.intensity));
 }
 
+// All light of a bake, and the surface that it falls on.
 struct LightSetup {
     std::shared_ptr<const LightProbe> probe;  // may be null
     glm::vec3 sky{0.0f};                      // the same radiance from everywhere, beside the probe

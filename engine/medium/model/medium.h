@@ -13,6 +13,7 @@
 
 namespace stereonav {
 
+// A box along the world's axes.
 struct WorldBox {
     glm::dvec3 low{0.0}, high{0.0};  // world, metres
     bool empty() const { return !(low.x < high.x && low.y < high.y && low.z < high.z); }

@@ -34,6 +34,7 @@ struct MediumRegion {
     MediumMaterial material;
 };
 
+// The transfer function of a medium; renderers read it as a MediumTable.
 class MediumTransfer {
 public:
     static constexpr double kDensest = 1.0 - 1e-6;  // largest opacity

@@ -38,6 +38,7 @@ struct NoiseScale {
     glm::dvec3 velocity{0.0};  // metres a second
 };
 
+// Noise of several sizes; none: the medium is not perturbed.
 struct Perturbation {
     static constexpr int kMostScales = 4;
     std::vector<NoiseScale> scales;  // up to kMostScales

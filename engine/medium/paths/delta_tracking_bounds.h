@@ -18,6 +18,7 @@ struct ExtinctionRange {
     float least = 0, most = 0;  // 1/m
 };
 
+// Cells over a medium, and the extinctions between which it lies in each.
 struct ExtinctionBounds {
     glm::ivec3 size{0};            // cells; 0: the medium is empty
     glm::dvec3 extent{0.0};        // the medium's size in cells: at most `size`, the last ones may be cut

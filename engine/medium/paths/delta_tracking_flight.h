@@ -40,6 +40,7 @@ struct TrackedMedium {
     OpticalProperties at(const glm::dvec3& world) const { return medium.at(world, time); }
 };
 
+// A place where light met the medium.
 struct MediumCollision {
     glm::dvec3 place{0.0};  // world, metres
     OpticalProperties properties;

@@ -76,6 +76,7 @@ struct Arriving {
     a.length = distance / max(past, F(1e-4f) * distance);
     return a;
 }
+// Returns parallel light, which arrives everywhere alike.
 STEREONAV_INLINE Arriving sunAt(const SweepLight& light, const V3& place, M m) {
     const V3 way{F(light.forward[0]), F(light.forward[1]), F(light.forward[2])};
     return {way,

@@ -15,6 +15,7 @@ struct TexelPlaces {
     M crosses;  // rays that cross slabs
     M valid;    // those of them that do so past a lamp
 };
+// Returns right x + up y of the light's fan.
 STEREONAV_INLINE V3 alongFan(const SweepLight& light, F x, F y) {
     const auto axis = [&](int k) { return mulAdd(F(light.right[k]), x, mulAdd(F(light.up[k]), y, F(0.0f))); };
     return {axis(0), axis(1), axis(2)};
@@ -81,6 +82,7 @@ STEREONAV_INLINE F turnOf(I x, I y, int slab) {
     return toFloat(logicalRight<8>(h)) * F(1.57079633f / 16777216);
 }
 
+// Returns what a plane of light holds at continuous coordinates, bilinearly.
 STEREONAV_INLINE F readPlane(const SweepLight& light, const float* plane, F u, F v, M m) {
     const F half(0.5f), least(-1.0f), one(1.0f);
     const F x = clamp(u - half, least, F(static_cast<float>(light.width)));
@@ -145,6 +147,7 @@ STEREONAV_INLINE F depthAt(const SweepLight& light, const float* depths, F u, F 
     };
     return (tap(c, s) + tap(zero - s, c)) + (tap(zero - c, zero - s) + tap(s, zero - c));
 }
+// Returns the sum of the four neighbours, each leveled() where slabs lean.
 STEREONAV_INLINE F fourTaps(const SweepLight& light, const float* plane, const float* depths,
                             const TexelRow& row) {
     const float* p = plane + row.index;
@@ -155,6 +158,7 @@ STEREONAV_INLINE F fourTaps(const SweepLight& light, const float* plane, const f
     return (tap(-1, zero - row.lags.right) + tap(1, row.lags.right)) +
            (tap(-light.stride, zero - row.lags.below) + tap(light.stride, row.lags.below));
 }
+// Returns a plane's light, 0 to 1, after it has spread over the slab.
 STEREONAV_INLINE F blurred(const SweepLight& light, const float* plane, const float* depths,
                            const TexelRow& row, M m) {
     const F here = loadF(plane + row.index), quarter(0.25f), one(1.0f), wideFrom(4.0f / 3);

@@ -13,6 +13,7 @@ namespace stereonav::STEREONAV_ISA {
 STEREONAV_INLINE I inFifteenBits(F v) {
     return truncateToInt(mulAdd(v, F(32767.0f), F(0.5f)));
 }
+// Returns the word of a texel among those that eyes read.
 STEREONAV_INLINE std::uint32_t* packedAt(const SweepLight& light, int inChunk, int x, int y) {
     return light.packed + 2 * inChunk * light.packedPlane +
            static_cast<std::int64_t>(y + 1) * light.packedStride + x + 1;
@@ -92,6 +93,7 @@ STEREONAV_INLINE bool passesEvenly(const SweepLight& light, const LightPass& pas
     const float offset = light.blur / (light.perX > 1e-30f ? light.perX : 1e-30f);
     return light.parallel && pass.thickness * light.length * offset * offset <= 4.0f / 3;
 }
+// Passes a tile; returns whether scattered light of it differs from 1 afterwards.
 inline bool passEvenTile(const SweepScene& scene, const LightPass& pass, const LightTile& tile) {
     const SweepLight& light = scene.light;
     const F way = F(pass.thickness) * F(light.length), one(1.0f), zero(0.0f);

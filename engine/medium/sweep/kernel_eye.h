@@ -28,6 +28,7 @@ STEREONAV_INLINE void storeGathered(const Gathered& g, float* to) {
 }
 
 template <int kModel, bool kGridAlone>
+// Rays of 4 columns and kLanes / 4 rows of pixels, and how they see a slab.
 struct EyePacket {
     const SweepScene& scene;
     const SweepEye& eye;
@@ -145,6 +146,7 @@ struct EyePacket {
         for (int k = 0; k < 3; ++k) s.sent.c[k] = mulAdd(p.glow[k], s.opacity, s.sent.c[k]);
         return s;
     }
+    // Adds what a slab shows to what was gathered.
     STEREONAV_INLINE void collect(const Sighting& s, Gathered& g) const {
         const F zero(0.0f), tiny(kNothing);
         if (eye.forward) {
@@ -232,6 +234,7 @@ bool seeTile(const SweepScene& scene, const SweepEye& eye, const SweepChunk& chu
     return goesOn;
 }
 
+// Copies a tile's states into its picture.
 inline void readTile(const float* state, const PictureTile& tile) {
     constexpr int kRows = kLanes / 4, kAcross = EyeTile::kSide / 4;
     for (int y = 0; y < tile.height; ++y)

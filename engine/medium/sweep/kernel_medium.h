@@ -18,6 +18,7 @@ STEREONAV_INLINE M insideGrid(const SweepGrid& grid, const V3& v) {
     return (v.x >= zero) & (v.y >= zero) & (v.z >= zero) & (v.x <= F(grid.last[0])) &
            (v.y <= F(grid.last[1])) & (v.z <= F(grid.last[2]));
 }
+// Returns rows * place + zero.
 STEREONAV_INLINE V3 transformed(const float (&rows)[3][3], const float (&zero)[3], const V3& place) {
     const auto row = [&](int k) {
         return mulAdd(place.x, F(rows[k][0]),
@@ -130,6 +131,7 @@ STEREONAV_INLINE NoiseWords mixNoise(const NoiseWords& a, const NoiseWords& b, I
 STEREONAV_INLINE F noiseChannel(I half) {
     return mulAdd(toFloat(half & I(0xFFFF)), F(1.0f / (127.5f * 128)), F(-1.0f));
 }
+// Returns a scale's noise at places, trilinear.
 [[gnu::noinline]] inline NoiseValue noiseAt(const SweepNoise& noise, const SweepNoise::Scale& scale,
                                             const V3& place, M m) {
     const F perMetre(scale.perMetre);
@@ -314,6 +316,7 @@ template <bool kColors, bool kIndirect>
     }
     return normal;
 }
+// Turns a gradient along the grid's axes into the world's.
 STEREONAV_INLINE V3 worldGradient(const SweepGrid& grid, const V3& g) {
     const auto row = [&](int k) {
         const float(&a)[3] = grid.axes[k];
@@ -335,6 +338,7 @@ STEREONAV_INLINE V3 worldGradient(const SweepGrid& grid, const V3& g) {
 struct Decay {
     F mean, passes;
 };
+// Returns (1 - exp(-s)) / s and exp(-s) for s up to 0.5.
 STEREONAV_INLINE F thinMean(F s) {
     F mean = mulAdd(s, F(1.0f / 5040), F(-1.0f / 720));
     mean = mulAdd(mean, s, F(1.0f / 120));

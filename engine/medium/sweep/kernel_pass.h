@@ -108,6 +108,7 @@ STEREONAV_INLINE void findTexels(const SweepScene& scene, const LightColumns& at
     store(numbers, left);
     storePatch(direct, light.stride, numbers, patch);
 }
+// Finds the columns of a tile, patch by patch.
 inline void findColumns(const SweepScene& scene, const LightColumns& at) {
     const int right = at.x0 + LightTile::kSide, below = at.y0 + LightTile::kSide;
     for (int y = at.y0; y < below && y < scene.light.height; y += kPatchRows)
@@ -142,6 +143,7 @@ STEREONAV_INLINE M passedThere(const SweepScene& scene, const LightTile& tile, c
     }
 }
 
+// Returns the packet of texels from (x, y) on.
 STEREONAV_INLINE TexelRow rowOf(const SweepLight& light, int x, int y) {
     TexelRow row;
     row.index = static_cast<std::int64_t>(y) * light.stride + x;

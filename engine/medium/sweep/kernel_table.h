@@ -21,21 +21,25 @@ struct Column {
     F rowShare;
 };
 
+// Returns a member between entries `index` and the next.
 STEREONAV_INLINE F entryOf(const float* member, I index, F share, M m) {
     const FPair both = gatherPair(member, index, m);
     return lerp(both.first, both.second, share);
 }
+// Returns a member where the table is read.
 STEREONAV_INLINE F memberAt(const SweepTable& table, const float* member, const Column& at, M m) {
     if (table.rows == 1) return entryOf(member, at.entry, at.share, m);
     const I index = at.row + at.entry;
     return lerp(entryOf(member, index, at.share, m),
                 entryOf(member + SweepTable::kColumns, index, at.share, m), at.rowShare);
 }
+// Returns the column of a value, in the first row.
 STEREONAV_INLINE Column columnOf(const SweepTable& table, F value) {
     const F at = clamp(mulAdd(value, F(table.perValue), F(table.zero)), F(0.0f), F(1024.0f));
     const I entry = min(truncateToInt(at), I(SweepTable::kColumns - 2));
     return {entry, at - toFloat(entry), I(0), F(0.0f)};
 }
+// Sets the rows between which a gradient's magnitude, value units a metre, lies.
 STEREONAV_INLINE void setRow(const SweepTable& table, F gradient, Column& at) {
     const F row = clamp(gradient * F(table.perGradient), F(0.0f), F(static_cast<float>(table.rows - 1)));
     const I low = min(truncateToInt(row), I(table.rows - 2));

@@ -43,6 +43,7 @@ struct RayFan {
 // Rays with a smaller cosine to the axis, or that go against their sweep, cross no slab.
 constexpr double kLeastCosine = 1e-4;
 
+// The slices of a sweep, its eyes and its light.
 struct SweepGeometry {
     glm::dvec3 anchor{0.0};    // world: the place of the medium's box that is nearest to the head
     glm::dvec3 axis{0, 0, 1};  // unit

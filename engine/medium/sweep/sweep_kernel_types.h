@@ -43,6 +43,7 @@ struct SweepGrid {
     SweepTable table;
 };
 
+// A HeightLayer, heights relative to its base.
 struct SweepLayer {
     static constexpr int kMostLevels = 32;
     const float* heights = nullptr;  // all levels; metres above `base`
@@ -58,6 +59,7 @@ struct SweepLayer {
     TextureData color;  // by places; its colours multiply the table's
 };
 
+// A Perturbation.
 struct SweepNoise {
     static constexpr int kMostScales = 4;
     const std::uint32_t* texels = nullptr;  // null: not perturbed
@@ -69,6 +71,7 @@ struct SweepNoise {
     Scale scale[kMostScales];
 };
 
+// A MediumLook.
 struct SweepLook {
     int model = 0;           // as MediumModel
     float radiance[3] = {};  // linear RGB
@@ -141,6 +144,7 @@ struct SweepChunk {
     float thickness[kMost] = {};  // metres
 };
 
+// An eye's RayFan, relative to the anchor.
 struct SweepEye {
     bool forward = true;
     double origin[3] = {}, right[3] = {}, up[3] = {}, ahead[3] = {};  // metres, relative to the anchor; unit

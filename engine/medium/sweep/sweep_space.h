@@ -22,10 +22,10 @@ struct SweepBeam {
     bool known = false;  // false: some ray hardly crosses the slabs; it may be anywhere
     // Footprints there, metres: the largest of `least` and of both constant + gradient . place.
     struct Footprint {
-        glm::dvec3 gradient{0.0};
-        double constant = 0;
+        glm::dvec3 gradient{0.0};  // a metre of place
+        double constant = 0;       // metres
     };
-    double least = 0;
+    double least = 0;  // metres
     Footprint footprint[2];
 };
 
