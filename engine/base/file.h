@@ -68,11 +68,11 @@ public:
 
 private:
     void checkNotRead() const;
-    void intoPlace();              // of a stream
+    void intoPlace();              // copies into a stream
     unsigned modeInPlace() const;  // permissions
 
     std::filesystem::path mPlace, mTarget, mTemporary;
-    std::filesystem::path mOwnFolder;  // of the temporary of a stream; "" where it lies beside its place
+    std::filesystem::path mOwnFolder;  // where a stream's temporary lies; "" where it lies beside its place
     Over mOver;
     Readers mReaders;
     std::optional<UnfinishedFile> mUnfinished, mUnfinishedFolder;

@@ -19,9 +19,9 @@ public:
     // Name and purpose are HelperProgram's. mostIdle: helpers beyond so many are not kept.
     HelperPool(std::string name, std::string purpose, std::size_t mostIdle);
 
-    // From any thread. A helper that has seen what comes from one folder sees nothing from another: whoever
-    // took it over by a file may not change what is read of somebody else's. Throws Error where none can be
-    // started, and Cancelled.
+    // Asks a helper, from any thread. A helper that has seen what comes from one folder sees nothing from
+    // another: whoever took it over by a file may not change what is read of somebody else's. Throws Error
+    // where none can be started, and Cancelled.
     HelperAnswer ask(const std::filesystem::path& folder, std::string_view request,
                      const HelperLimits& limits);
 

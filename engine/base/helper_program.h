@@ -25,12 +25,13 @@ namespace stereonav {
 struct HelperLimits {
     std::uint64_t answer = 0;                                 // bytes; a longer one counts as Ended
     std::uint64_t memory = std::uint64_t{1} << 30;            // bytes, beyond those that it has
-    std::chrono::seconds work{60};                            // of its processor's time
+    std::chrono::seconds work{60};                            // processor time
     std::chrono::milliseconds wait{std::chrono::minutes(5)};  // by the clock
 };
-// For a picture of so many pixels that comes in so many bytes: what a sound one takes at most, and far more.
+// Returns the limits for a picture of so many pixels that comes in so many bytes: far more than a sound one
+// takes at most.
 HelperLimits limitsForPicture(std::uint64_t pixels, std::uint64_t packed, std::uint64_t answer);
-// From now on no answer is waited for longer than this, whatever the limits say; for tests.
+// Lets no answer be waited for longer than this from now on, whatever the limits say; for tests.
 void waitForHelpersAtMost(std::chrono::milliseconds longest);
 
 class HelperProgram {

@@ -23,8 +23,8 @@ struct HelperAnswer {
 
 // What stands before the bytes of a message.
 struct HelperHead {
-    std::uint64_t bytes = 0;  // that follow
-    std::uint64_t kind = 0;   // of answers: HelperAnswer::Kind, but Ended
+    std::uint64_t bytes = 0;  // how many follow
+    std::uint64_t kind = 0;   // HelperAnswer::Kind of answers, but Ended
 };
 
 // The program's end of the connection to a helper.

@@ -12,7 +12,7 @@ namespace stereonav {
 // root: where proc and sys are; another one for tests.
 double availableMemory(const std::filesystem::path& root = "/");
 
-// From now on no more than these bytes are taken in all, for what is asked for here; 0: what the system
+// Lets no more than these bytes be taken in all from now on, for what is asked for here; 0: what the system
 // gives.
 void limitMemory(double bytes);
 

@@ -55,7 +55,8 @@ std::filesystem::path programFile(const std::filesystem::path& root = "/");
 
 // Where modules are: ../lib/stereonav from the program's own folder, so that it can be moved as a whole.
 std::filesystem::path moduleFolder();
-// For programs that lie elsewhere: before the first call of a module's function, while no other thread runs.
+// Sets the folder, for programs that lie elsewhere: before the first call of a module's function, while no
+// other thread runs.
 void setModuleFolder(const std::filesystem::path& folder);
 
 // The files of all shared libraries that this process has loaded, itself left out.

@@ -22,7 +22,7 @@ public:
     PlacedFile(PlacedFile&& other) noexcept;
     PlacedFile& operator=(PlacedFile&& other) noexcept;
 
-    int error() const { return mError; }  // of opening, as errno; 0: it is open
+    int error() const { return mError; }  // why it is not open, as errno; 0: it is
     // Reads `bytes` bytes from byte `at` on. Returns 0, or the error as errno; ENODATA where the file ends
     // before.
     int read(std::uint64_t at, void* to, std::size_t bytes) const;

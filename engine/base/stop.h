@@ -13,8 +13,8 @@ constexpr int kMostStopping_ms = 700;
 // so that the whole ends within a second. 7.9 GB took 0.26 s.
 int stoppingTime_ms(double bytes);
 
-// From here on SIGINT, SIGTERM and SIGHUP are wishes to stop, unless whoever started the program had them
-// ignored. A second one ends the run at once. Beyond a limit on the size of files (SIGXFSZ) writing fails.
+// Makes SIGINT, SIGTERM and SIGHUP wishes to stop, unless whoever started the program had them ignored. A
+// second one ends the run at once. Beyond a limit on the size of files (SIGXFSZ) writing fails.
 void catchStopSignals();
 
 bool stopWished();

@@ -25,7 +25,7 @@ public:
     double length() const { return mAlong.back(); }          // metres
 
 private:
-    // From one keyframe to the next.
+    // The curve from one keyframe to the next.
     struct Piece {
         glm::dvec3 fromTangent{0.0}, toTangent{0.0};  // metres over the piece's own parameter, 0 to 1
         std::vector<double> lengths;                  // metres from its start at some parameters,

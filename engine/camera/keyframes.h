@@ -9,7 +9,7 @@
 
 namespace stereonav {
 
-// In order of time.
+// Keyframes in order of time.
 using Keyframes = std::vector<PathSample>;
 
 // Each changes the list and returns the place of the keyframe in it. Throw Error, and change nothing, for

@@ -41,7 +41,7 @@ struct StereoViews {
     }
 };
 
-// Both eyes, each half the separation from the head. Throws Error on sizes, angles or distances that
+// Returns both eyes, each half the separation from the head. Throws Error on sizes, angles or distances that
 // are not finite or out of range.
 StereoViews makeStereoViews(const Pose& head, const Lens& lens, const StereoSetting& setting);
 

@@ -12,7 +12,7 @@ enum class BackBuffer { Both, Left, Right };
 
 // One drawing of the composed picture.
 struct EyePass {
-    ComposeSetting setting;  // its mode is one that is composed
+    ComposeSetting setting;  // with a mode that is composed
     BackBuffer buffer = BackBuffer::Both;
 
     bool operator==(const EyePass&) const = default;

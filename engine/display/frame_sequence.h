@@ -24,8 +24,8 @@ public:
     // for the refresh themselves; where they do not, the clock stands in for it.
     double wait(double seconds) const;
 
-    long long refreshes() const { return mRefresh; }     // that came since the first swap
-    long long dropped() const { return mDropped; }       // of them without a swap
+    long long refreshes() const { return mRefresh; }     // refreshes since the first swap
+    long long dropped() const { return mDropped; }       // refreshes without a swap
     bool synchronised() const { return mSynchronised; }  // swaps wait for the refresh
     double toldRate() const { return mTold; }            // Hz, as given
     double period() const { return mPeriod; }            // seconds, as measured

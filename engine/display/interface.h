@@ -38,7 +38,7 @@ public:
     Interface(const Interface&) = delete;
     Interface& operator=(const Interface&) = delete;
 
-    // Takes effect with the next layout. A font is made anew where the scale changes: some 0.1 s.
+    // Sets the look of the next layout. A font is made anew where the scale changes: some 0.1 s.
     void setLook(const InterfaceLook& look);
     const InterfaceLook& look() const;
 
@@ -52,7 +52,7 @@ public:
     // What is shown of the program's own doing, the caller knows.
     bool waits(const InterfacePlaces& places) const;
 
-    glm::vec2 size() const;                             // of the layout, units
+    glm::vec2 size() const;                             // units of the layout
     void use() const;                                   // Dear ImGui's calls that follow are of this one
     glm::vec2 textSize(const std::string& text) const;  // units
     // Whether the pointer is over the picture, and where, in shares of the interface's size; false while it

@@ -31,7 +31,7 @@ public:
     // Keeps it from a part that is drawn. whole: pixels of the framebuffer.
     void keep(std::uint64_t digest, const InterfaceOpening& opening, const InterfacePart& part,
               const glm::ivec2& whole);
-    void put(const InterfacePart& part) const;  // of the same size; into the framebuffer
+    void put(const InterfacePart& part) const;  // part: of the same size, in the framebuffer
     void forget() { mDigest.reset(); }
 
 private:

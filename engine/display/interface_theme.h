@@ -22,6 +22,6 @@ void applyTheme(const InterfaceLook& look);
 // attention.
 ImVec4 accentColor(const InterfaceLook& look);
 ImVec4 warningColor(const InterfaceLook& look);
-ImVec4 quietColor(const InterfaceLook& look);  // for what explains
+ImVec4 quietColor(const InterfaceLook& look);  // sRGB, for texts that explain
 
 }  // namespace stereonav

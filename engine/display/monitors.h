@@ -22,7 +22,7 @@ struct Monitor {
     std::string name;                 // "DP-1"; two may have the same
     ScreenRect area;                  // all of it; its video mode's size
     ScreenRect workArea;              // without panels and docks
-    int width_mm = 0, height_mm = 0;  // as it tells; 0: unknown
+    int width_mm = 0, height_mm = 0;  // what it tells; 0: unknown
     double refreshRate = 0;           // Hz; 0: unknown
     double contentScale = 1;          // 2 with twice the usual density
 };

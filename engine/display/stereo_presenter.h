@@ -78,7 +78,7 @@ private:
     void drawPass(Pass pass, int first, int second, const Viewport& viewport, int pictureWidth,
                   int pictureHeight, const ComposeSetting& setting, int turnX, int turnY) const;
 
-    // With layers and without; made when first drawn.
+    // Programs with layers and without; made when first drawn.
     mutable std::map<std::pair<Pass, bool>, ShaderProgram> mPrograms;
     GlVertexArray mVertices;
     // An eye, left or right: what it shows, and what of that is uploaded.

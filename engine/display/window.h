@@ -31,7 +31,7 @@ struct Gamepad {
     glm::dvec2 leftStick{0.0}, rightStick{0.0};  // shares of full tilt
     double leftTrigger = 0, rightTrigger = 0;    // shares of full pull
     bool a = false, b = false, x = false, y = false, leftBumper = false, rightBumper = false;
-    bool up = false, down = false, left = false, right = false;  // of the cross
+    bool up = false, down = false, left = false, right = false;  // the cross
 };
 
 // What lies over the picture and is asked first: what it takes does not reach the picture. Places are shares
@@ -91,7 +91,7 @@ public:
     void toggleFullScreen();  // on the monitor that the window is on
 
     bool keyDown(int key) const;
-    std::vector<KeyPress> takeKeys();  // that were pressed since the last call
+    std::vector<KeyPress> takeKeys();  // pressed since the last call
     double takeWheel();                // notches, upwards is positive
     glm::dvec2 takeDrag();             // screen units, x right, y down, while a button is held or captured
     // Places where the left button went down and up without the pointer moving away: shares of the

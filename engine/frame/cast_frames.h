@@ -44,7 +44,7 @@ private:
     std::optional<RightEyeMethod> mUncompared;
     RightEye mRightEye;
     EdgeRays mEdges;
-    RightEyeMethod mLast = kDefaultRightEyeMethod;  // that the right eye was made by
+    RightEyeMethod mLast = kDefaultRightEyeMethod;  // how the last right eye was made
 };
 
 }  // namespace stereonav

@@ -22,8 +22,8 @@ namespace stereonav {
 // How the eyes are to be made.
 struct FrameWay {
     std::string_view method;  // one of FrameMaker::methods(); "": the default
-    WarpSetting warp{};       // for methods that warp: all but which one it is
-    EdgeSetting edges{};      // for scenes whose rays are cast
+    WarpSetting warp{};       // how methods that warp do it: all but which one it is
+    EdgeSetting edges{};      // rays at edges, where rays are cast
 };
 
 // Returns the way of a setting, its method too.
@@ -46,7 +46,7 @@ struct EyePair {
 };
 
 // Memory that is held between frames beside the pictures.
-struct HeldBytes {  // in words for the window's figures
+struct HeldBytes {
     const char* what;
     std::size_t bytes;
 };
@@ -54,7 +54,7 @@ struct HeldBytes {  // in words for the window's figures
 // Where the last right eye was not taken from the left one.
 struct RightHoles {
     const Plane<std::uint8_t>& mask;  // 255 there, 0 elsewhere; until the next right eye is made
-    bool open = false;                // they are black, instead of cast
+    bool open = false;                // holes are black, instead of cast
 };
 
 // Methods that take one left eye as it is and differ in the right one alone: that one by itself, so that many
@@ -73,7 +73,7 @@ public:
     virtual RightHoles holes() const = 0;
 };
 
-// Not for two threads at once; the work inside runs on all threads.
+// Makes frames. Not for two threads at once; the work inside runs on all threads.
 class FrameMaker {
 public:
     virtual ~FrameMaker() = default;

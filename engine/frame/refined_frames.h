@@ -8,7 +8,7 @@
 namespace stereonav {
 
 constexpr int kMostRays = 256;       // a pixel, where there is a limit
-constexpr int kMostRaysAtRest = 64;  // in the window
+constexpr int kMostRaysAtRest = 64;  // the same, in the window
 
 // Gathers frames of one pose and gives their mean.
 class RefinedFrames {

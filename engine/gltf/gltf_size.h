@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-constexpr std::size_t kMostGltfObjects = 2'000'000;  // in braces: nodes, meshes, primitives, accessors...
+constexpr std::size_t kMostGltfObjects = 2'000'000;  // what stands in braces: nodes, meshes, primitives...
 constexpr std::size_t kMostGltfMaterials = 100'000;  // each takes ten times the time and memory of a node
 
 // json: the description. binary: bytes of the .glb's own buffer, which each buffer without a file copies; 0

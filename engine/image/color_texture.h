@@ -58,7 +58,7 @@ public:
 
     int levelCount() const { return static_cast<int>(mOffsets.size()); }
     Level level(int k) const { return {mTexels.data() + mOffsets[k], widthOf(k), heightOf(k)}; }
-    std::int32_t offset(int k) const { return mOffsets[k]; }  // of level k, in texels from data()
+    std::int32_t offset(int k) const { return mOffsets[k]; }  // texels from data() to level k
     const PackedColor* data() const { return mTexels.data(); }
     // Level-0 texel coordinates (continuous, centre of texel 0 at 0.5) = (grid - origin) / perTexel.
     glm::dvec2 gridOrigin() const { return mGridOrigin; }

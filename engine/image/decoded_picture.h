@@ -17,7 +17,7 @@ struct DecodedPicture {
     std::string samples;  // width * height * 3 numbers of sampleBytes bytes
 
     template <typename Sample>
-    const Sample* pixels() const {  // Sample: of sampleBytes
+    const Sample* pixels() const {
         return reinterpret_cast<const Sample*>(samples.data());
     }
 };

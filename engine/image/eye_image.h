@@ -26,13 +26,14 @@ struct EyeImage {
     // Metres along the viewing axis (not along the ray); kMissDepth where the ray hit nothing;
     // 0 where nothing is known yet (a hole in a warped image).
     Plane<float> viewDepth;
-    // Only with view-dependent shading, else empty. Highlight: colour without the view-dependent part, and
-    // the unit world normal (octahedral, see packed_normal.h). Normal: only the normal, as three channels
-    // like a colour's (10 bits each, x lowest, 0..1023 for -1..1), so that it is resampled like one.
+    // Planes of view-dependent shading, else empty. Highlight: baseColor is the colour without the
+    // view-dependent part, normal the unit world normal (octahedral, see packed_normal.h). Normal: only the
+    // normal, as three channels like a colour's (10 bits each, x lowest, 0..1023 for -1..1), so that it is
+    // resampled like one.
     Plane<PackedColor> baseColor;
     Plane<std::uint32_t> normal;
-    // Only with Depths: how far behind viewDepth a pixel's light comes from, in metres: the root of the mean
-    // square by shares of light; 0 where it comes from nowhere.
+    // Metres behind viewDepth that a pixel's light comes from, with Depths alone: the root of the mean square
+    // by shares of light; 0 where it comes from nowhere.
     Plane<float> depthSpread;
 
     int width() const { return color.width(); }

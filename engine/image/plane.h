@@ -53,7 +53,7 @@ public:
 
     int width() const { return mWidth; }
     int height() const { return mHeight; }
-    int stride() const { return mStride; }  // in elements
+    int stride() const { return mStride; }  // elements from row to row
     bool empty() const { return mStride == 0; }
     std::size_t byteCount() const { return sizeof(T) * static_cast<std::size_t>(mStride) * mHeight; }
 

@@ -8,10 +8,10 @@ namespace stereonav {
 
 struct TextureData {
     const std::uint32_t* texels = nullptr;                 // null: none
-    std::int32_t offset[16] = {};                          // of a level's first texel, in texels
+    std::int32_t offset[16] = {};                          // texels to a level's first one
     int levels = 0, width = 0, height = 0;                 // width and height of level 0
     float scaleX = 1, scaleY = 1, shiftX = 0, shiftY = 0;  // texel = place * scale + shift
-    float texelsPerMetre = 1;                              // of level 0
+    float texelsPerMetre = 1;                              // those of level 0
 };
 
 }  // namespace stereonav

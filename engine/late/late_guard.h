@@ -23,8 +23,8 @@ glm::dvec2 seenBeyond(const LateEye& eye, const glm::ivec2& guard, const EyeView
 // and it goes by steps: frames of one size use memory again.
 class GuardBand {
 public:
-    static constexpr double kStep = 0.03, kMost = 0.12;  // of the width or the height, at each side
-    static constexpr double kRemembered_s = 1;           // for which what was seen counts
+    static constexpr double kStep = 0.03, kMost = 0.12;  // shares of the width or the height, at each side
+    static constexpr double kRemembered_s = 1;           // how long what was seen counts
     static constexpr double kHold_s = 2;                 // less has been enough for so long before it shrinks
 
     // Notes a picture that was shown: seenBeyond() of it, at `now_s` of a clock that never goes back.

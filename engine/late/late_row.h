@@ -8,7 +8,7 @@ namespace stereonav {
 
 // Pictures are cut into tiles; of each is known what depths lie in it.
 constexpr int kLateTileWidth = 16, kLateTileHeight = 8;  // pixels
-constexpr int kMostLateSteps = 32;                       // of a search along a ray
+constexpr int kMostLateSteps = 32;                       // steps of a search along a ray
 
 // Inverse depths of a tile, 1 / metres: 0 is infinitely far.
 struct LateTile {
@@ -25,9 +25,10 @@ struct LateSource {
     int colorStride = 0;
 };
 
-// From a pixel of the new picture, (x, y) continuous, to the one that was cast: a point that is seen there at
-// an inverse depth i is seen at u = a + i (shift.x - shift.z a), v = b + i (shift.y - shift.z b), where (a,
-// b) is the place of what is infinitely far: a = row 0 / row 2, b = row 1 / row 2 of rows * (x, y, 1).
+// The way from a pixel of the new picture, (x, y) continuous, to the one that was cast: a point that is seen
+// there at an inverse depth i is seen at u = a + i (shift.x - shift.z a), v = b + i (shift.y - shift.z b),
+// where (a, b) is the place of what is infinitely far: a = row 0 / row 2, b = row 1 / row 2 of rows * (x, y,
+// 1).
 struct LateMove {
     float rows[3][3] = {};  // without unit
     float shift[3] = {};    // x and y: pixels times metres; z: metres
@@ -36,7 +37,7 @@ struct LateMove {
 // How a tile of the new picture is looked up.
 struct LatePlan {
     float farthest = 0, nearest = 0;  // inverse depths that may be seen there
-    int steps = 0;                    // of the search along the rays; 0: the surface is smooth; -1: and flat
+    int steps = 0;                    // steps along the rays; 0: the surface is smooth; -1: and flat
 };
 
 // A row of tiles of the new picture.

@@ -30,7 +30,7 @@ public:
     // Makes ready() false; the memory stays.
     void forget() { mReady = false; }
     bool ready() const { return mReady; }          // something is prepared
-    const EyeView& view() const { return mView; }  // that it was cast from
+    const EyeView& view() const { return mView; }  // where it was cast from
     // Returns what depths lie around a place of the picture, or of its border where that is beside it.
     // ready() holds.
     const LateTile& tileAt(double x, double y) const;

@@ -13,7 +13,7 @@
 namespace stereonav {
 
 constexpr double kEarthRadius = 6371008.8;  // metres: the mean one of WGS 84 (IUGG)
-constexpr double kUsualRefraction = 0.13;   // of the curvature: Gauss's coefficient, in the Earth's air
+constexpr double kUsualRefraction = 0.13;   // share of the curvature: Gauss's coefficient, in the Earth's air
 
 // What ground lies on.
 struct Body {

@@ -24,7 +24,7 @@ public:
     double place(double value) const;
 
     struct Tick {
-        double value;  // in the unit of the axis
+        double value;  // a value of the axis
         std::string text;
     };
     // Returns two to about seven ticks, all within the scale.

@@ -17,14 +17,14 @@
 namespace stereonav {
 
 struct ComparisonSetting {
-    std::vector<std::string_view> methods;  // of FrameMaker::methods()
+    std::vector<std::string_view> methods;  // some of FrameMaker::methods()
     int repeats = 3;                        // timed runs of a frame, >= 1; the fastest counts
     int truthFactor = 8;                    // at least 1: finer truths have truthFactor^2 rays a pixel
     int edgeRadius = 2;                     // pixels by which the edge mask is grown
     std::vector<StereoSetting> eyes;        // one a pose; empty: the same at all
     // The neighbour of each pose in the flight (timedBeside), for flicker; empty: there is no such figure.
     std::vector<TimedPose> beside;
-    EdgeSetting edges;         // for both eyes, by every method, where rays are cast; times are with them
+    EdgeSetting edges;         // rays at both eyes' edges, by every method that casts; times are with them
     bool butteraugli = false;  // Butteraugli too, which takes longer than most methods
 };
 
@@ -48,12 +48,12 @@ struct MethodFigures {
     // warped, or made; or where nothing is warped at all.
     double holesOfWarped_percent = 0;
     double surface_psnr_db = 0;
-    // From the finer truths, or, where there are none, from each eye by itself: change from frame to frame
-    // (flicker.h), NaN without neighbours; and between the eyes, in the whole and in the edge mask
-    // (rivalry.h).
+    // Changes from frame to frame (flicker.h), NaN without neighbours, and differences between the eyes, in
+    // the whole and in the edge mask (rivalry.h): dB from the finer truths, or, where there are none, from
+    // each eye by itself.
     double flicker_db = 0, rivalry_db = 0, edge_rivalry_db = 0;
-    // From the same truths (butteraugli.h), inside the edge mask and outside it; NaN where it was not asked
-    // for.
+    // Butteraugli's distance from the same truths (butteraugli.h), also inside the edge mask and outside it;
+    // NaN where it was not asked for.
     double butteraugli = 0, butteraugli_max = 0, edge_butteraugli = 0, flat_butteraugli = 0;
 };
 

@@ -25,7 +25,8 @@ std::vector<std::size_t> frontOf(const std::vector<Way>& ways);
 // How a way stands to the front.
 struct ParetoVerdict {
     bool onFront = false;
-    // Not on the front, but nothing beats it by more than the spread of its time and kSameError of its error.
+    // Whether it is not on the front, but nothing beats it by more than the spread of its time and kSameError
+    // of its error.
     bool withinNoise = false;
     // The ways that beat it: the fastest, and the share of time it saves; the one with the least error, and
     // the share of error it saves. "" where none does.

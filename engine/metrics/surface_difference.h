@@ -10,13 +10,13 @@
 namespace stereonav {
 
 struct SurfaceDifference {
-    long long surfacePixels = 0;  // that show the scene in the full cast
+    long long surfacePixels = 0;  // pixels that show the scene in the full cast
     long long holePixels = 0;     // those of them that were cast again, or left open
     // "The ratio between the number of hole pixels and the warped ones", of pixels that show the scene.
     // NaN where none of them is warped.
     double holesOfWarped_percent = 0;
-    // Over those that were not left open, the three channels together; kIdenticalPsnr_db at most. NaN where
-    // there is none.
+    // The PSNR over those that were not left open, the three channels together; kIdenticalPsnr_db at most.
+    // NaN where there is none.
     double psnr_db = 0;
 };
 

@@ -14,8 +14,8 @@ namespace stereonav {
 
 struct ChartPoint {
     std::string name;
-    Spread x, y;             // in the units that the axes' labels say
-    bool isDefault = false;  // of the program: drawn with a ring
+    Spread x, y;             // values in the units that the axes' labels say
+    bool isDefault = false;  // the program's default: drawn with a ring
 };
 
 struct ChartSeries {

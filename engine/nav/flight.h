@@ -67,7 +67,7 @@ public:
     }
     // Whether `forward` goes to where the line starts.
     virtual bool goesBack() const { return false; }
-    // From now on `forward` goes along the line the other way; the view turns by half a turn while time
+    // Lets `forward` go along the line the other way from now on; the view turns by half a turn while time
     // passes. False where nothing leads it.
     virtual bool turnRound() { return false; }
 };

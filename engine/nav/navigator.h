@@ -45,7 +45,7 @@ public:
     // Places the viewer (lifted to the clearance where needed) at rest.
     void setPose(const Pose& pose) override;
     void goHome() override { setPose(mHome); }
-    // Over ground the height that the pose has is kept from then on.
+    // Keeps, over ground, the height that the pose has from then on.
     void moveTo(const Pose& pose) override;
 
     // FollowGround takes up the present height above the ground, but not below followHeight.

@@ -45,18 +45,19 @@ public:
     // Throws Error where the processes were not given the same.
     void check() const;
 
-    // For the others: makes what the first one deals (a PieceDealer) until it closes. Throws what `make`
-    // does, and Cancelled.
+    // A function that makes a piece by its order.
     using Make = std::function<PeerBytes(std::size_t piece, std::span<const std::byte> order)>;
+    // Makes, in the other processes, what the first one deals (a PieceDealer) until it closes. Throws what
+    // `make` does, and Cancelled.
     void serve(const Make& make);
     // Returns what the first one told all, in the order that it was told in. Throws Cancelled, and Error for
     // another message.
     PeerBytes hear();
-    // For the first: tells what all others hear. Returns when it has been sent. Throws PeerFailure and
-    // Cancelled.
+    // Tells all others, from the first one, what they hear. Returns when it has been sent. Throws PeerFailure
+    // and Cancelled.
     void tellAll(const PeerBytes& bytes);
 
-    // For the first: throws PeerFailure where another one has failed.
+    // Throws PeerFailure in the first one where another one has failed.
     void throwIfFailed() const;
     bool failed() const;
     // Ends the run well, called by all: the others wait for the first one. Throws PeerFailure and Cancelled.

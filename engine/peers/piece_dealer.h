@@ -17,10 +17,10 @@ struct PieceWork {
     std::function<PeerBytes(std::size_t piece)> order;
     // Makes a piece in this process, as others do in serve().
     Peers::Make make;
-    // Takes what a piece came to. Where `inOrder` by ascending pieces, else as they come.
+    // Takes what a piece came to: where `inOrder` by ascending pieces, else as they come.
     std::function<void(std::size_t piece, std::span<const std::byte> result)> take;
     bool inOrder = false;
-    // In order: how far pieces may be begun beyond the first that is not taken yet, which bounds what waits.
+    // How far, in order, pieces may be begun beyond the first that is not taken yet, which bounds what waits.
     std::size_t ahead = std::numeric_limits<std::size_t>::max();
     // Whether no more pieces are to be begun; may be empty. Those that others have are waited for shortly.
     std::function<bool()> ended;

@@ -61,10 +61,10 @@ public:
     // mean nothing then.
     virtual bool startsAtKnownDepth() const { return false; }
 
-    // False only if no ray through the rectangle hits anything before its view depth
-    // maxDepth(x) = parallaxScale / (column - x) for x the pixel's right edge (infinite where
-    // x >= column): the part of the ray that lies outside the other eye's window edge (region V of
-    // Wan et al. 2004, fig. 2). Conservative: true may mean nothing is there.
+    // Returns false only if no ray through the rectangle hits anything before its view depth maxDepth(x) =
+    // parallaxScale / (column - x) for x the pixel's right edge (infinite where x >= column): the part of the
+    // ray that lies outside the other eye's window edge (region V of Wan et al. 2004, fig. 2). Conservative:
+    // true may mean nothing is there.
     virtual bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
                                   double parallaxScale) const = 0;
     // The same question, for rectangles that lie in each other. freeDepth: a view depth up to which no ray

@@ -9,13 +9,13 @@ namespace stereonav {
 // Contrast classes: 0 for none, then four to an octave of the largest difference of a channel (of 1023) from
 // the four neighbours that are known.
 constexpr int kContrastClasses = 41;
-constexpr std::uint8_t kNoContrast = 255;  // of a hole
+constexpr std::uint8_t kNoContrast = 255;  // the class of a hole
 
 // What the kernel reads of three rows, and the classes that it writes.
 struct ContrastRow {
     const std::uint32_t *above, *row, *below;             // packed colours; at the border the row itself
     const std::uint8_t *holesAbove, *holes, *holesBelow;  // 255 where nothing is known; the same
-    std::uint8_t* classes;                                // of each pixel
+    std::uint8_t* classes;                                // each pixel's
     int width;                                            // >= 1
 };
 

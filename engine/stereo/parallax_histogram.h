@@ -27,7 +27,7 @@ struct ParallaxHistogram {
     std::int32_t unknown = 0;                  // holes and what is no depth: in none of the others
 
     std::int64_t known() const;                // all pixels that are counted
-    double shareOf(std::int32_t count) const;  // of known(), 0 to 1; 0 where there are none
+    double shareOf(std::int32_t count) const;  // share of known(), 0 to 1; 0 where there are none
     // Returns the share of known() that lies in a bin, 0 to 1.
     double share(int bin) const { return shareOf(counts[static_cast<std::size_t>(bin)]); }
 };

@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-constexpr int kParallaxBins = 64;                                       // of ParallaxHistogram
+constexpr int kParallaxBins = 64;                                       // ParallaxHistogram's
 constexpr std::int32_t kFirstDepthKey = 1, kLastDepthKey = 0x7f800000;  // the smallest above 0; infinity
 
 // Classes of depths, and counts that rows are added to.

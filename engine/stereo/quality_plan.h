@@ -17,9 +17,9 @@ namespace stereonav {
 struct QualityWish {
     std::optional<double> quality =
         std::nullopt;  // share of the first way's expected squared error that is to go, 0 to 1
-    std::optional<double> targetPsnr_db = std::nullopt;  // for 95 of 100 frames; 0 to kMostPsnr_db
-    std::optional<double> target_ms = std::nullopt;  // of both eyes, above 0; alone it is spent as a whole
-    bool firstAlone = false;                         // no other way is to be taken, nor all pixels cast
+    std::optional<double> targetPsnr_db = std::nullopt;  // reached by 95 of 100 frames; 0 to kMostPsnr_db
+    std::optional<double> target_ms = std::nullopt;      // both eyes, above 0; alone it is spent as a whole
+    bool firstAlone = false;                             // no other way is to be taken, nor all pixels cast
 
     bool wantsError() const { return quality || targetPsnr_db; }
 };
@@ -32,12 +32,12 @@ struct MeasuredWarp {
     std::vector<ContrastCounts> counts;
     std::vector<double> holes;  // pixels cast anyway
     double right_ms = 0;        // mean frame, the least of the repeats
-    double ray_ns = 0;          // of a pixel cast beside the holes
+    double ray_ns = 0;          // a pixel cast beside the holes
 };
 // All ways that were measured on the same frames.
 struct MeasuredWarps {
     std::vector<MeasuredWarp> warps;  // the scene's default first, the full cast last
-    double pixels = 0;                // of one eye
+    double pixels = 0;                // pixels of one eye
     double left_ms = 0;               // mean frame
 };
 

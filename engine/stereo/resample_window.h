@@ -20,7 +20,7 @@ struct FarWindow {
 };
 
 #if defined(STEREONAV_PERMUTES)
-// All that is read lies within 2 * kLanes elements from `base` on.
+// Sources that lie, with what is read beside them, within 2 * kLanes elements from `base` on.
 struct NearWindow {
     int base;
     I index;  // from base on

@@ -51,7 +51,7 @@ public:
     StereoSetting released(StereoSetting wanted, double dt);
     // Limits settings from now on as if they had never been limited: for who begins with what is shown.
     void restart() { mShare = 1; }
-    double share() const { return mShare; }  // of the separation that was wanted last, 0 to 1
+    double share() const { return mShare; }  // share of the separation that was wanted last
 
 private:
     static constexpr double kLeastShare = 0.2;  // a wall that is touched leaves some stereo

@@ -5,7 +5,7 @@
 
 namespace stereonav {
 
-constexpr int kSubpixels = 8;                  // of a pixel
+constexpr int kSubpixels = 8;                  // subpixels of a pixel
 constexpr int kSplatWidth = 2 * kSubpixels;    // subpixels of a splat: two pixels
 constexpr float kSplatSigma = 0.5f;            // pixels; the paper gives none: the kernel ends at two sigma
 constexpr int kSplatMargin = 2 * kSplatWidth;  // subpixels kept on each side of the scanline

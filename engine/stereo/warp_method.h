@@ -49,8 +49,8 @@ using WarpRowFunction = void (*)(const WarpJob& job, ResampleFunction resample, 
 
 // What becomes of the pixels that the warp marked.
 enum class AfterWarp {
-    Cast,            // they are cast
-    Leave,           // they are left black
+    Cast,            // holes are cast
+    Leave,           // holes are left black
     CastFromDepths,  // every pixel is cast, those not marked from the depth that was written
 };
 

@@ -13,7 +13,7 @@ struct NumberRange {
     bool openLow = false, openHigh = false;
     const char* unit = "";  // "degrees", "metres"; "": none
 
-    // False for NaN and what is infinite.
+    // Returns false for NaN and what is infinite.
     bool holds(double number) const;
 };
 

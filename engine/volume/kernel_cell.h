@@ -34,7 +34,7 @@ STEREONAV_INLINE Cubic cubicAlong(const Corners& c, const V3& start, const V3& w
             mulAdd(d2, start.z, mulAdd(d1, way.z, q2[0])), d2 * way.z};
 }
 
-constexpr float kCloseEnough = 1e-6f;  // of the way through a cell
+constexpr float kCloseEnough = 1e-6f;  // share of the way through a cell
 // After a step of Newton's as short as this the next would be of the order of its square.
 constexpr float kQuadratic = 1e-4f;
 
@@ -108,7 +108,7 @@ STEREONAV_INLINE Root firstRoot(const Cubic& f, M m) {
 // Where packets of rays meet the surface.
 struct Hits {
     F t;       // view depth, metres; infinite where nothing is hit
-    V3 local;  // in the cell, 0..1
+    V3 local;  // place in the cell, 0..1
     I word;    // Places::word
     M hit;
 };
@@ -116,7 +116,7 @@ struct Hits {
 // A ray's way through its cell.
 struct Crossing {
     F in, out;      // view depths
-    V3 start, way;  // in the cell's own coordinates, 0..1; way: from where the ray enters to where it leaves
+    V3 start, way;  // coordinates in the cell, 0..1; way: from entering to leaving
 };
 
 // Returns a coordinate of the ray at t in its cell, 0..1.

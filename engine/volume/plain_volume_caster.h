@@ -20,7 +20,7 @@ struct PlainRay {
 
 // The first place where a ray meets the surface.
 struct PlainHit {
-    double t = std::numeric_limits<double>::infinity();  // as in PlainRay; infinity: nothing hit
+    double t = std::numeric_limits<double>::infinity();  // PlainRay's t; infinity: nothing hit
     glm::ivec3 cell{0};
     glm::dvec3 local{0.0};  // where in the cell, each in [0, 1]
     bool hit() const { return t < std::numeric_limits<double>::infinity(); }

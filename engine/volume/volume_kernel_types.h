@@ -113,7 +113,7 @@ struct VolumeData {
 // unit view depth: position = eye + t * direction, t the view depth in metres.
 struct VolumeView {
     std::int32_t base[3] = {};  // the eye's cell
-    float eye[3] = {};          // in it, 0..1
+    float eye[3] = {};          // place in that cell, 0..1
     double direction[3] = {}, perX[3] = {},
            perY[3] = {};                               // voxels a metre: pixel (0, 0)'s centre, a pixel on
     float forward[3] = {}, right[3] = {}, up[3] = {};  // world, unit

@@ -54,7 +54,7 @@ struct VolumeLook {
     float varyingAmbient = 0;          // share by which ambient light grows towards +z and falls towards -z
     float fog = 0;                     // metres in which all but 1/e is lost in the background; 0: no fog
     BakedLook baked;
-    AmbientLook occlusion;      // in place of `ambient` and varyingAmbient
+    AmbientLook occlusion;      // replaces `ambient` and varyingAmbient
     TransferFunction transfer;  // empty: the opaque surface alone
     // Factor on the transfer function's extinction, 0..255 for 0..1, trilinear between the voxels of the
     // scene's field (see engine/light/occlusion/occlusion_modulation.h); null: nothing.

@@ -15,7 +15,7 @@ namespace stereonav {
 // Everything that the texels' light depends on; bakes with the same key may go on from each other.
 struct BakeInputs {
     std::uint64_t content = 0;  // the volume's contentHash(), or what stands for it
-    LightSetup light;           // for irradiance; for transfer the albedo and bounces alone count
+    LightSetup light;           // all of it for irradiance; for transfer albedo and bounces
     TexelSampling sampling;
     VolumeFrame texels;
     TexelChoice choice;  // the region counts as a part of `content`

@@ -24,9 +24,9 @@ BakeSource sourceOf(const TexelLighter& lighter);  // the lighter must outlive i
 
 // Limits of a bake: the first that is reached ends it; 0: no such limit.
 struct BakeGoal {
-    int samples = 0;     // that each texel has
+    int samples = 0;     // samples of each texel
     double error = 0;    // estimated relative RMSE, 0.01: 1 %
-    double minutes = 0;  // that this run takes
+    double minutes = 0;  // minutes of this run
 };
 
 // What is done with the sums while a bake runs.

@@ -25,11 +25,11 @@ double processorSeconds();
 
 // What was measured, and what a whole bake would take.
 struct BakeRate {
-    double all_s = 0;        // for all texels, by the clock
+    double all_s = 0;        // seconds by the clock, for all texels
     double part = 0;         // share of the texels that was measured; 1: all, and all_s is what they took
     double texels = 0;       // measured ones per second, those without a surface included
     double onSurface = 0;    // share of the measured texels
-    double processor_s = 0;  // for all texels, of all threads together
+    double processor_s = 0;  // seconds of all threads together, for all texels
     double samples_s = 0;    // samples a second of processor time, for texels on a surface
 };
 

@@ -18,7 +18,7 @@ namespace stereonav {
 
 enum class BakeKind : std::uint32_t {
     Irradiance = 0,  // under a light setup
-    Transfer = 1,    // for distant light, in harmonics
+    Transfer = 1,    // distant light, in harmonics
     Openness = 2,    // irradiance under a sky of 1 without bounces: 0..1
 };
 std::string_view nameOf(BakeKind kind);
@@ -26,7 +26,7 @@ std::string_view nameOf(BakeKind kind);
 // What a texel's sums hold.
 struct BakeShape {
     BakeKind kind = BakeKind::Irradiance;
-    int order = 5, channels = 1;  // for transfer: 1 to kMaxHarmonicsOrder, 1 or 3
+    int order = 5, channels = 1;  // transfer: 1 to kMaxHarmonicsOrder, 1 or 3
     int numbersPerTexel() const { return kind == BakeKind::Transfer ? order * order * channels : 0; }
     std::size_t bytesPerTexel() const {
         return kind == BakeKind::Transfer ? numbersPerTexel() * sizeof(float) + 1 : sizeof(TexelSum);

@@ -18,7 +18,7 @@
 namespace stereonav {
 
 struct LazyBakeSetting {
-    int samples = 64;   // that a texel gets before others get more
+    int samples = 64;   // samples of a texel before others get more
     int refineTo = 64;  // most samples, reached in doubling passes
     int threads = 1;
     BakeShape shape{};  // irradiance, or transfer, which setLight() lights

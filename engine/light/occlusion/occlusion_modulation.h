@@ -11,8 +11,8 @@
 namespace stereonav {
 
 enum class ModulatedBy {
-    Variance,  // that of the values in the box
-    Gradient,  // that of the openness which is estimated from it
+    Variance,  // variance of the values in the box
+    Gradient,  // gradient of the openness that is estimated from it
 };
 
 // Share of the voxels that keep all their opacity where no sigma is given, among those that the transfer
@@ -22,7 +22,7 @@ constexpr double kWhollyOpaque = 0.1;
 struct ModulationSetting {
     ModulatedBy by = ModulatedBy::Variance;
     glm::ivec3 radius{10};       // voxels, as estimateOpenness takes it
-    OcclusionEstimate openness;  // for Gradient
+    OcclusionEstimate openness;  // how it is estimated, for Gradient
     // The measure from where on opacity stays whole, above 0. Variance: the paper's sigma_max, a standard
     // deviation in the volume's values; Gradient: a change of openness a voxel, at most kSteepestOpenness.
     // None: chosen.
@@ -34,7 +34,7 @@ constexpr double kSteepestOpenness = 1;  // a voxel
 
 // The factor on opacity, and the scale that it was made with.
 struct OpacityModulation {
-    Volume<std::uint8_t> share;  // that opacity is multiplied with, 0..255 for 0..1
+    Volume<std::uint8_t> share;  // factor on opacity, 0..255 for 0..1
     double sigma = 0;            // given, or chosen, as ModulationSetting::sigma
 };
 

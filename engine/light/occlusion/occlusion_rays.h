@@ -21,7 +21,8 @@ struct TracedOpenness {
     double visible = 1;  // eq. 2: the share of directions without a hit within R
     double sphere =
         1;  // eq. 3: the share of the tangent sphere of diameter R that is below the voxel's value
-    // False where the gradient is zero, so that there is no surface: nothing was traced and all three are 1.
+    // Whether there is a surface: false where the gradient is zero; nothing was traced then and all three are
+    // 1.
     bool surface = false;
 };
 

@@ -31,7 +31,7 @@ struct PathVolume {
 struct PathProbe {
     const float* pixels = nullptr;   // red, green, blue (linear), density a steradian; null: no probe
     const float* rows = nullptr;     // running chance of rows, 0 to 1, height + 1
-    const float* columns = nullptr;  // that of columns within their row, width + 1 a row
+    const float* columns = nullptr;  // chance of columns within their row, width + 1 a row
     const float* edges = nullptr;    // cosine at the upper edge of each row, height + 1
     std::int32_t width = 0, height = 0;
     std::int32_t rowSteps = 0, columnSteps = 0;  // those of a binary search

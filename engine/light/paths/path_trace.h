@@ -65,7 +65,7 @@ STEREONAV_INLINE Corners cornersIn(const PathVolume& volume, const I3& cell, F i
 // Rays along one axis. Those towards smaller cells are mirrored (cell c is `flip` ^ c), so that all go
 // towards larger ones. Units of way to a plane x of the mirrored grid are (x - base) * inverse + first.
 struct Rail {
-    F origin, direction;  // of the ray itself: in its first cell, 0..1; cells a unit
+    F origin, direction;  // the ray itself: place in its first cell, 0..1; cells a unit
     F inverse, first;     // inverse: of the direction's size
     I base, at, end;      // first cell, present cell, the first beyond the volume
     I plane;              // at which the ray leaves the box it is in
@@ -113,7 +113,7 @@ struct Rays3 {
     F t, limit, isovalue;  // units of way, units of way, stored numbers
     I path, field;
     I block, octant;  // where the walking ones are
-    I corner;         // of the cells
+    I corner;         // first corner of the cells
     M walking, fresh, parked;
 };
 

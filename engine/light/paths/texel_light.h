@@ -68,7 +68,7 @@ public:
     // A point between texels, on a surface that is shown.
     struct SurfacePoint {
         glm::dvec3 voxel{0.0};       // place in the volume's grid; clamped to its box
-        double isovalue = 0;         // that of the surface, a stored number
+        double isovalue = 0;         // the surface's, a stored number
         glm::dvec3 towardsEye{0.0};  // unit, world: the normal where the gradient vanishes
         std::uint64_t number = 0;    // chooses its random numbers, as a texel's place in the grid does
     };

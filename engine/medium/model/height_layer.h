@@ -21,8 +21,8 @@ struct HeightLayer {
     double below = 1, above = 0;  // metres: the layer reaches from height - below to height + above
     double taper = 0;             // metres at both faces over which extinction falls to 0 linearly
     MediumTable table;            // over the height in metres
-    // Null: none. Else the table's colours are multiplied by this one's at the place, whose grid coordinates
-    // count from the origin, colorSpacing metres each.
+    // Colours that the table's are multiplied by at the place, whose grid coordinates count from the origin,
+    // colorSpacing metres each. Null: none.
     std::shared_ptr<const ColorTexture> color;
     glm::dvec2 colorSpacing{1.0};  // metres
 

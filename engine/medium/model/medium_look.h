@@ -38,7 +38,7 @@ enum class MediumModel {
 struct MediumLook {
     MediumModel model = MediumModel::Indirect;
     MediumLight light;
-    PhaseFunction phase;         // for direct light
+    PhaseFunction phase;         // how direct light is scattered
     float indirectShare = 1;     // factor, 0 or more, on scattered light in what is seen
     glm::vec3 background{0.0f};  // linear RGB
     // Blinn-Phong, for the surface weight S: shares of the light for ambient, diffuse and highlight, and the

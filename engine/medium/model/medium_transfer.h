@@ -1,4 +1,4 @@
-// From a value, and how steeply it changes, to optical properties (Kniss et al. 2003, section 3.3; row K5 of
+// Optical properties by value, and by how steeply it changes (Kniss et al. 2003, section 3.3; row K5 of
 // docs/ledger.md). One dimension: points over the value, linear between. Two: regions over value and gradient
 // magnitude, added up by extinction.
 #pragma once

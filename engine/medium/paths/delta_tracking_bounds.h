@@ -1,4 +1,4 @@
-// Between what extinctions a medium lies in each cell of a coarse grid: the majorants and minorants of delta
+// Bounds of a medium's extinction in each cell of a coarse grid: the majorants and minorants of delta
 // tracking, and how a ray walks them (digital differential analyser of Amanatides and Woo 1987). Empty cells
 // cost a step, homogeneous ones no reading of the medium.
 #pragma once

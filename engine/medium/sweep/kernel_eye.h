@@ -35,7 +35,7 @@ struct EyePacket {
     const SweepChunk& chunk;
     EyeRays rays;
     V3 voxel, voxelWay;  // kGridAlone: the rays among the voxels
-    Colors phase;        // for parallel light
+    Colors phase;        // parallel light's weights
     V3 toEye;
 
     STEREONAV_INLINE EyePacket(const SweepScene& s, const SweepEye& e, const SweepChunk& c, F x, F y)

@@ -52,7 +52,7 @@ STEREONAV_INLINE F loadPatch(const float* from, std::int64_t stride) {
 // Texels' rays among the voxels: voxel + t way at t from a plane on.
 struct PatchRays {
     V3 voxel, way;
-    F length;  // as TexelPlaces
+    F length;  // TexelPlaces'
     M valid;   // past a lamp
 };
 STEREONAV_INLINE PatchRays patchRays(const SweepScene& scene, float plane, F x, F y) {

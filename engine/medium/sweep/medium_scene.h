@@ -38,6 +38,6 @@ struct MediumScene {
 
 // Return the same functions, but for the surface weight, which is 1.
 MediumTransfer allSurface(const MediumTransfer& transfer);
-Medium allSurface(const Medium& layers);  // of height layers alone
+Medium allSurface(const Medium& layers);  // layers: without a grid
 
 }  // namespace stereonav

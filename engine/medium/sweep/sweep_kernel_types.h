@@ -73,21 +73,21 @@ struct SweepNoise {
 
 // A MediumLook.
 struct SweepLook {
-    int model = 0;           // as MediumModel
+    int model = 0;           // a MediumModel
     float radiance[3] = {};  // linear RGB
     float indirectShare = 0;
     float ambient = 0, diffuse = 0, specular = 0, shininess = 1;  // shares of the light; exponent
     const float* phase[3] = {};  // null: the same everywhere; by the angle, 1025 entries
     BakedData
         baked;  // as kernel_baked.h reads it, by its own texels: texel = texelFromPlace[row] . place + zero
-    float texelFromPlace[3][3] = {}, texelZero[3] = {};  // of the scene's places, metres
+    float texelFromPlace[3][3] = {}, texelZero[3] = {};  // places: metres
 };
 
 // The light, and its buffer. Buffer coordinates: texel centres at (x + 0.5, y + 0.5).
 struct SweepLight {
     bool parallel = true;
     float origin[3] = {}, right[3] = {}, up[3] = {}, forward[3] = {};  // metres, relative to the anchor; unit
-    float xMin = 0, yMax = 0, perX = 0, perY = 0;                      // as RayFan's
+    float xMin = 0, yMax = 0, perX = 0, perY = 0;                      // RayFan's
     int width = 0, height = 0;
     float axis[3] = {};                                // right, up, forward . the sweep's axis
     float length = 0;                                  // parallel: metres of way for one along the axis
@@ -113,7 +113,7 @@ struct LightColumns {
     int x0 = 0, y0 = 0, count = 0;
     double middle[kMost] = {};    // metres along the axis
     float thickness[kMost] = {};  // metres
-    unsigned strips[kMost] = {};  // as LightTile's
+    unsigned strips[kMost] = {};  // LightTile's
     float* columns = nullptr;     // a slab's tile, kSide^2 row by row
     std::int64_t next = 0;        // numbers from a slab to the next
 };
@@ -148,7 +148,7 @@ struct SweepChunk {
 struct SweepEye {
     bool forward = true;
     double origin[3] = {}, right[3] = {}, up[3] = {}, ahead[3] = {};  // metres, relative to the anchor; unit
-    double xMin = 0, yMax = 0, perX = 0, perY = 0;                    // as RayFan's
+    double xMin = 0, yMax = 0, perX = 0, perY = 0;                    // RayFan's
     double axis[3] = {}, start = 0;  // right, up, ahead . the axis; the eye along it
     int width = 0, height = 0;
     float footprint = 0;  // metres across a pixel at depth 1
@@ -158,8 +158,8 @@ struct SweepEye {
 // opacity (-1 where it was not looked at), laid out as in kernel_shared.h. See sweep_sharing.h.
 struct SharedRows {
     static constexpr int kRows = 8, kNumbers = 4;  // half a tile
-    float* numbers = nullptr;  // for each column, row and slab of a chunk; kReadAhead columns more
-    std::int32_t columns = 0;  // of whole tiles
+    float* numbers = nullptr;  // each column, row and slab of a chunk; kReadAhead columns more
+    std::int32_t columns = 0;  // columns of whole tiles
     std::uint32_t slabs = 0;   // bits of the slabs that are kept
     static constexpr int kReadAhead = 4;
     // A ray of the second eye with the cosine c finds its place at x + column + c parallax perParallax, where

@@ -34,7 +34,8 @@ public:
     SweepSpace() = default;
     explicit SweepSpace(const Medium& medium);
 
-    // From the world to cells; with layers alone to metres from the bounds' corner.
+    // Turn places and directions of the world into cells; with layers alone into metres from the bounds'
+    // corner.
     glm::dvec3 cellFromWorld(const glm::dvec3& world) const { return mTurn * (world - mOrigin); }
     glm::dvec3 cellDirection(const glm::dvec3& world) const { return mTurn * world; }
     // Returns the beam of a block of pixels. forward: the fan's rays go to larger t.
