@@ -31,6 +31,7 @@ SurfaceDifference surfaceDifference(const EyeImage& full, const EyeImage& right,
 struct GapPixels {
     long long rightEnd = 0, middle = 0, leftEnd = 0;
 };
-GapPixels gapPixels(const EyeImage& full, const Plane<std::uint8_t>& holeMask);
+GapPixels gapPixels(const EyeImage& full,
+                    const Plane<std::uint8_t>& holeMask);  // throws Error where sizes differ
 
 }  // namespace stereonav

@@ -15,10 +15,10 @@ constexpr double kSlowestShare = 0.02, kFastestShare = 4.0;
 // second, > 0.
 double speedFor(double depthAhead, double base);
 
+constexpr double kSpeedSeconds = 0.5;  // for 63 % of a change of speed
 // Returns the speed, metres a second, on its way to the wanted one, dt seconds later: by their logarithms,
 // 63 % of the way in kSpeedSeconds, in closed form, so that edges that pass through the picture's middle are
 // no jolts. Where one of them is not above 0 and finite the other counts; dt below 0 or NaN is nothing.
-constexpr double kSpeedSeconds = 0.5;
 double dampedSpeed(double now, double wanted, double dt);
 
 }  // namespace stereonav

@@ -144,10 +144,9 @@ STEREONAV_INLINE void stepCell(const Rays& r, Walk& w, M m) {
     w.at.z = w.at.z + select(m & (far.z <= next), r.stepZ, I(0));
 }
 
-// Leaps and steps until most active rays stand in active cells, or have left: a few that still have far to go
-// do not hold up the others. Returns the lanes that stand in one and the cells' indices.
-constexpr int kStragglers =
-    2;  // rays under way for each that has arrived, at which the others wait no longer
+// Rays under way for each that has arrived, at which the others wait no longer.
+constexpr int kStragglers = 2;
+// Lanes that stand in active cells, and the cells' indices.
 struct Parked {
     M lanes;
     I index;
@@ -195,6 +194,8 @@ private:
     Parked mParked;
 };
 
+// Leaps and steps until most active rays stand in active cells, or have left: a few that still have far to go
+// do not hold up the others.
 STEREONAV_INLINE Parked leap(const Grid& grid, const Rays& r, Walk& w) {
     Leaper leaper(grid, r, w);
     while (leaper.goesOn()) leaper.step();

@@ -31,9 +31,9 @@ public:
     const std::vector<TransferPoint>& points() const { return mPoints; }
     double referenceLength() const { return mReferenceLength; }  // metres
 
-    TransferPoint at(double value) const;  // at the ends: the outermost point
-    // Returns the optical depth a metre: -ln(1 - opacity) / referenceLength; opacity 1 counts as kDensest.
+    TransferPoint at(double value) const;           // beyond the ends: the outermost point
     static constexpr double kDensest = 1.0 - 1e-6;  // largest opacity
+    // Returns the optical depth a metre: -ln(1 - opacity) / referenceLength; opacity 1 counts as kDensest.
     double extinction(double value) const;
 
     // The values between which something is not transparent; lowest > highest where all is. The ends may be

@@ -97,11 +97,11 @@ struct VoxelPaths {
     std::vector<VoxelGraph::Node> to(VoxelGraph::Node end) const;  // way from the start; empty if not reached
 };
 
+constexpr float kLargestWeight = 16384.0f;  // cost a metre
 // Finds ways by Dijkstra's algorithm with a circular queue of buckets (Dial 1969), on one thread: the same
 // result always. weights: cost a metre at each node, at least 1 and at most kLargestWeight, a step costs
 // their mean; empty: lengths alone; they go once they are taken over. Stops once the cost of `end` is final
 // (kNone: never). Calls `poll` now and then, which may throw to end the search.
-constexpr float kLargestWeight = 16384.0f;
 VoxelPaths findVoxelPaths(const VoxelGraph& graph, std::vector<float> weights, VoxelGraph::Node start,
                           VoxelGraph::Node end, const std::function<void()>& poll);
 

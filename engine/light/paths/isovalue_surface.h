@@ -13,10 +13,10 @@
 
 namespace stereonav {
 
+constexpr float kAboveLeast = 1.0f / 16;  // stored numbers, which are whole
 // Returns the isovalue that is traced for a stored value: the value itself but for the volume's least, at
 // which all would be solid. There it is a little more, so that the surface lies where the values begin to
 // rise.
-constexpr float kAboveLeast = 1.0f / 16;  // stored numbers, which are whole
 inline double tracedIsovalue(double value, double leastOfVolume) {
     const double least = leastOfVolume + kAboveLeast;
     return value < least ? least : value;
@@ -50,10 +50,10 @@ glm::dvec3 liftedStart(const GreyVolume& volume, double isovalue, const glm::dve
 // there would be that of either side.
 bool thinnerThanVoxel(const GreyVolume& volume, const glm::dvec3& voxel, double value);
 
+constexpr double kNearSurface = 1.75;  // voxels
 // Returns the nearest place where the trilinear value is `value`, along the normal or, where it is not there,
 // along the 26 directions to voxels around, within kNearSurface voxels; none where there is none. voxel:
 // inside the volume.
-constexpr double kNearSurface = 1.75;
 std::optional<glm::dvec3> nearestOfValue(const GreyVolume& volume, const glm::dvec3& voxel, double value,
                                          const glm::dvec3& normal);
 

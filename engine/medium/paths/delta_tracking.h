@@ -29,17 +29,17 @@ struct TrackedPicture {
     Plane<glm::vec3> variance;
 };
 
-// Rays go through the pixels' centres, as those of the sweeps. Does not depend on the thread count. The
-// surface weight S, Blinn-Phong and baked light have no counterpart here: throws Error unless the medium's S
-// is 0, for that model, and unless samples and mostScatters are at least 1. With model Direct paths end at
-// the first scatter. Light that was scattered more than once counts times indirectShare, so 1 is the truth.
-// Light enters as radiance * 4 pi across its way (see MediumLight::radiance).
-//
-// Rows from `first` to before `end` are traced alone; the others stay 0. bounds: of the medium at that time
-// (delta_tracking_bounds.h), made once for who traces it in parts. time: seconds.
+// Rows from `first` to before `end`.
 struct PictureRows {
     int first = 0, end = 0;
 };
+// Traces these rows of a picture; the others stay 0. Rays go through the pixels' centres, as those of the
+// sweeps. bounds: of the medium at that time (delta_tracking_bounds.h), made once for who traces it in parts.
+// time: seconds. Does not depend on the thread count. The surface weight S, Blinn-Phong and baked light have
+// no counterpart here: throws Error unless the medium's S is 0, for that model, and unless samples and
+// mostScatters are at least 1. With model Direct paths end at the first scatter. Light that was scattered
+// more than once counts times indirectShare, so 1 is the truth. Light enters as radiance * 4 pi across its
+// way (see MediumLight::radiance).
 TrackedPicture trackRows(const Medium& medium, const ExtinctionBounds& bounds, const MediumLook& look,
                          const EyeView& view, const TrackingSetting& setting, double time,
                          const PictureRows& rows);
