@@ -50,7 +50,7 @@ void setViews(const TerrainScene& terrain, Scene& scene) {
     scene.path = terrain.path;
 }
 
-TerrainSurvey::TerrainSurvey(const TerrainScene& terrain) : mTerrain(terrain) {
+TerrainSurvey::TerrainSurvey(const TerrainScene& terrain) : mTerrain(terrain), mLine(terrain) {
     const Heightfield& ground = terrain.ground;
     const glm::dvec2 low = ground.originWorld(),
                      high = ground.worldFromGrid({ground.width() - 1, ground.height() - 1});

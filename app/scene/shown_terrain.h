@@ -5,10 +5,10 @@
 
 #include "app/options/scene_options.h"
 #include "app/scene/ground_colors.h"
+#include "app/scene/terrain_line.h"
 #include "engine/frame/cast_frames.h"
 #include "engine/render/paint_legend.h"
 #include "engine/scene/capabilities.h"
-#include "engine/scene/line_measurer.h"
 #include "engine/scene/place_reader.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/surface_paint.h"
@@ -18,16 +18,15 @@
 namespace stereonav {
 
 class GroundPainting;
-class GroundSamples;
 
 // Returns a flight over the ground, with a speed that suits its extent. The terrain must outlive it.
 std::unique_ptr<Flight> flightOver(const TerrainScene& terrain);
 // Sets lens, eyes, start and flight of a terrain.
 void setViews(const TerrainScene& terrain, Scene& scene);
 
-// Capabilities of a terrain, whether it is cast or swept: a map, a box, its place on the Earth, and facts of
-// its places. The terrain must outlive this object and not move.
-class TerrainSurvey final : public MapFromAbove, public OnEarth, public PlaceReader, public LineMeasurer {
+// Capabilities of a terrain, whether it is cast or swept: a map, a box, its place on the Earth, facts of its
+// places, and what is measured on it. The terrain must outlive this object and not move.
+class TerrainSurvey final : public MapFromAbove, public OnEarth, public PlaceReader {
 public:
     explicit TerrainSurvey(const TerrainScene& terrain);
     // Calls offer(capability) for each of them.
@@ -36,7 +35,7 @@ public:
         offer(static_cast<const MapFromAbove&>(*this));
         offer(mBox);
         offer(static_cast<const PlaceReader&>(*this));
-        offer(static_cast<const LineMeasurer&>(*this));
+        offer(static_cast<const LineMeasurer&>(mLine));
         if (mTerrain.earth) offer(static_cast<const OnEarth&>(*this));
     }
 
@@ -46,20 +45,11 @@ public:
     std::optional<glm::dvec2> worldAt(const PlaceOnEarth& place) const override;
     double northAt(const glm::dvec3& world) const override;
     Facts readPlace(const glm::dvec3& world) const override;
-    // Measures in heights of the file, without exaggeration, at the finest samples (terrain_line.cpp). An
-    // area of more than kMostCoarseSamples of ground in tiles is measured at coarser samples, and a note says
-    // so.
-    MeasuredSurface measure(const std::vector<glm::dvec3>& places, bool closed,
-                            Progress& progress) const override;
-    Facts sight(const glm::dvec3& from, const glm::dvec3& to, double height) const override;
 
 private:
-    // Returns the finest samples, of which the part to measure has `count`; heights of the file.
-    GroundSamples samplesFor(double count) const;
-    void addSpacing(const GroundSamples& samples, Facts& facts) const;
-
     const TerrainScene& mTerrain;
     SceneBox mBox;
+    TerrainLine mLine;
 };
 
 // Offers RayCast, const TerrainScene, MapFromAbove, SceneBox, PlaceReader and LineMeasurer; OnEarth where its

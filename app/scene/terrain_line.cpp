@@ -1,4 +1,5 @@
-// Measures lines and areas on a terrain that is shown.
+#include "app/scene/terrain_line.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <memory>
 
 #include "app/scene/ground_figures.h"
-#include "app/scene/shown_terrain.h"
 #include "engine/base/error.h"
 #include "engine/text/length_text.h"
 #include "terrain/scene/tiled_ground.h"
@@ -38,7 +38,7 @@ void checkOnGround(const TerrainScene& terrain, const glm::dvec2& world) {
 
 }  // namespace
 
-GroundSamples TerrainSurvey::samplesFor(double count) const {
+GroundSamples TerrainLine::samplesFor(double count) const {
     if (!mTerrain.tiled) return GroundSamples(mTerrain.ground).dividedBy(mTerrain.verticalScale);
     const GroundLevels& levels = *mTerrain.tiled->levels;
     int level = 0;
@@ -48,7 +48,7 @@ GroundSamples TerrainSurvey::samplesFor(double count) const {
 }
 
 // Adds the sample spacing where the ground has other samples, finer or coarser.
-void TerrainSurvey::addSpacing(const GroundSamples& samples, Facts& facts) const {
+void TerrainLine::addSpacing(const GroundSamples& samples, Facts& facts) const {
     if (!mTerrain.tiled && !mTerrain.standIn) return;
     const glm::dvec2 finest = mTerrain.tiled ? mTerrain.tiled->levels->spacing(0) : mTerrain.standIn->spacing;
     const double spacing = samples.spacing().x;
@@ -59,8 +59,8 @@ void TerrainSurvey::addSpacing(const GroundSamples& samples, Facts& facts) const
         "m"));
 }
 
-MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bool closed,
-                                       Progress& progress) const {
+MeasuredSurface TerrainLine::measure(const std::vector<glm::dvec3>& places, bool closed,
+                                     Progress& progress) const {
     constexpr const char* kMeasuring = "measuring";
     progress.report(0, kMeasuring);
     std::vector<glm::dvec2> world;
@@ -97,7 +97,7 @@ MeasuredSurface TerrainSurvey::measure(const std::vector<glm::dvec3>& places, bo
 
 // Returns the line of sight as `viewshed --to` does, over a round Earth where pictures have one
 // (--curvature).
-Facts TerrainSurvey::sight(const glm::dvec3& from, const glm::dvec3& to, double height) const {
+Facts TerrainLine::sight(const glm::dvec3& from, const glm::dvec3& to, double height) const {
     const GroundSamples ground = samplesFor(0);
     const auto above = [&](const glm::dvec3& place) {
         const glm::dvec2 world(place);
