@@ -1,6 +1,6 @@
 // Stand-in for the window in builds without it: what needs the window throws Error.
 #include "app/options/built_without.h"
-#include "app/view/view_command.h"
+#include "app/view/window/view_command.h"
 #include "engine/display/window.h"
 
 namespace stereonav {

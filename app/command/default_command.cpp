@@ -5,7 +5,7 @@
 #include "app/command/compare_command.h"
 #include "app/command/play_command.h"
 #include "app/options/output_place.h"
-#include "app/view/view_command.h"
+#include "app/view/window/view_command.h"
 #include "engine/display/window.h"
 #include "engine/text/printed.h"
 

@@ -1,5 +1,5 @@
 // `stereonav view`, in builds with and without the window.
-#include "app/view/view_command.h"
+#include "app/view/window/view_command.h"
 
 #include "app/options/command.h"
 

@@ -23,21 +23,20 @@ bool isOfScreen(std::string_view key) {
 }  // namespace
 
 SceneChanges::SceneChanges(std::optional<ViewSession>& session, SceneSettings& settings, Notices& notices,
-                           ViewDisplay& display, PanelStage& stage)
+                           ViewDisplay& display)
     : mSession(session),
       mSettings(settings),
       mNotices(notices),
       mDisplay(display),
-      mStage(stage),
       mBenches(settings.options().bench),
       mPreparation([] { Window::wake(); }) {}
 
 void SceneChanges::begin() {
     const ViewOptions& options = mSettings.options();
     if (shownAs(options.scene).swept) mSweep = std::make_unique<ViewSweep>(options.sweep);
-    checkSize(mStage.windowSize(), options.scene, kViewBytes);
+    checkSize(mDisplay.windowSize(), options.scene, kViewBytes);
     mWorker = std::make_unique<ViewWorker>(
-        [options, size = mStage.windowSize(), sweep = mSweep.get()](Progress& progress) {
+        [options, size = mDisplay.windowSize(), sweep = mSweep.get()](Progress& progress) {
             return openScene(options, true, size, sweep, progress);
         },
         [] { Window::wake(); });
@@ -81,23 +80,23 @@ void SceneChanges::load(const ViewOptions& options, SettingTexts given, bool ano
     shown.scene.detailLater = true;
     shown.scene.standInFirst = !mBenches;
     checkMethod(shown.scene, shown.method);
-    checkSize(mStage.windowSize(), shown.scene, kViewBytes);
+    checkSize(mDisplay.windowSize(), shown.scene, kViewBytes);
     mDisplay.follow(shown);
     if (swept && !mSweep) mSweep = std::make_unique<ViewSweep>(shown.sweep);
     mAnother = mAnother || another;
     mArrival.reset();
     mSettings.begin({shown, std::move(given), fileTextsOf(options.scene.given)});
-    mWorker->reload([options = shown, size = mStage.windowSize(), sweep = swept ? mSweep.get() : nullptr](
+    mWorker->reload([options = shown, size = mDisplay.windowSize(), sweep = swept ? mSweep.get() : nullptr](
                         Progress& progress) { return openScene(options, false, size, sweep, progress); });
 }
 
 // Loads the scene again with the same settings.
 void SceneChanges::loadAgain() {
-    mWorker->reload([options = mSettings.changed(), size = mStage.windowSize(), sweep = mSweep.get()](
+    mWorker->reload([options = mSettings.changed(), size = mDisplay.windowSize(), sweep = mSweep.get()](
                         Progress& progress) { return openScene(options, false, size, sweep, progress); });
 }
 
-void SceneChanges::open(const std::string& scene) {
+bool SceneChanges::open(const std::string& scene) {
     mNotices.forgetFailure();
     mNotices.tryTo([&] {
         SettingTexts settings;
@@ -108,15 +107,16 @@ void SceneChanges::open(const std::string& scene) {
                                 "viewing-distance", "late-warp", "target-ms"})
             if (const auto kept = given.find(key); kept != given.end()) settings.insert(*kept);
         ViewOptions options = viewOptionsOf(settings);
-        options.mode = mStage.keepMode();
+        if (mSession) mDisplay.setMode(mSession->mode());
+        options.mode = mDisplay.mode();
         load(options, settingTextsOf(options.scene.given), true);
-        mStage.panels().showStart(false);
     });
+    return mNotices.failure().empty();
 }
 
 void SceneChanges::goTo(std::shared_ptr<const OpenScene> scene, const SceneMade& next, const SceneMade& flown,
                         Arrival arrival) {
-    mStage.keepMode();
+    mDisplay.setMode(mSession->mode());
     mAnother = true;
     mSettings.begin(next, flown);
     mArrival = std::move(arrival);
@@ -124,7 +124,7 @@ void SceneChanges::goTo(std::shared_ptr<const OpenScene> scene, const SceneMade&
 }
 
 void SceneChanges::cancelLoading() {
-    if (!mSession) return mStage.close();
+    if (!mSession) return mDisplay.close();
     mWorker->cancelLoading();
     if (mWorker->scene() == mScene) keepBefore();  // otherwise it was there already
 }

@@ -10,9 +10,9 @@
 
 #include "app/view/loading.h"
 #include "app/view/notices.h"
-#include "app/view/panel_stage.h"
 #include "app/view/scene_preparation.h"
 #include "app/view/scene_settings.h"
+#include "app/view/session.h"
 #include "app/view/sweep.h"
 #include "app/view/view_display.h"
 #include "app/view/worker.h"
@@ -30,7 +30,7 @@ class SceneChanges {
 public:
     // The arguments must exist from begin() to end().
     SceneChanges(std::optional<ViewSession>& session, SceneSettings& settings, Notices& notices,
-                 ViewDisplay& display, PanelStage& stage);
+                 ViewDisplay& display);
     // Loads the scene of the settings. Throws Error.
     void begin();
     // Ends loading and frames, and waits for their end.
@@ -43,7 +43,8 @@ public:
     const SceneSettings& settings() const { return mSettings; }
 
     // Changes of the scene; failures become notices.
-    void open(const std::string& scene);  // a file, a folder, or a built-in scene's name
+    // Opens a file, a folder, or a built-in scene by its name. Returns whether it is being loaded.
+    bool open(const std::string& scene);
     void set(const std::string& key, const std::optional<std::string>& text);  // empty: as it begins
     void undo();
     void redo();
@@ -91,7 +92,6 @@ private:
     SceneSettings& mSettings;
     Notices& mNotices;
     ViewDisplay& mDisplay;
-    PanelStage& mStage;
     bool mBenches;
     std::unique_ptr<ViewSweep> mSweep;  // for media; before the scenes, which use it to their end
     std::shared_ptr<const OpenScene> mScene;

@@ -10,12 +10,12 @@
 namespace stereonav {
 
 SecondSide::SecondSide(std::optional<ViewSession>& session, SceneSettings& settings, Notices& notices,
-                       SceneChanges& changes, const PanelStage& stage)
+                       SceneChanges& changes, const ViewDisplay& display)
     : mSession(session),
       mSettings(settings),
       mNotices(notices),
       mChanges(changes),
-      mStage(stage),
+      mDisplay(display),
       mSecond([] { Window::wake(); }) {}
 
 // Choices in the flown study do not apply to the other one.
@@ -36,8 +36,8 @@ void SecondSide::open(const std::string& study) {
         if (shownAs(options.scene).swept)
             throw Error(study, "", "expected a study that is shown as a surface", "name a CT study");
         options.scene.skyTurns = true;
-        options.mode = mStage.firstMode();
-        const SizeOption size = mStage.windowSize();
+        options.mode = mDisplay.mode();
+        const SizeOption size = mDisplay.windowSize();
         checkMethod(options.scene, options.method);
         checkSize(size, options.scene, kViewBytes);
         mMade = {options, settingTextsOf(options.scene.given), fileTextsOf(options.scene.given)};

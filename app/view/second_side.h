@@ -13,7 +13,7 @@ class SecondSide {
 public:
     // The arguments must outlive this object.
     SecondSide(std::optional<ViewSession>& session, SceneSettings& settings, Notices& notices,
-               SceneChanges& changes, const PanelStage& stage);
+               SceneChanges& changes, const ViewDisplay& display);
 
     SecondStudy& study() { return mSecond; }
     // Opens a study in place of the present second one. Failures become notices.
@@ -33,7 +33,7 @@ private:
     SceneSettings& mSettings;
     Notices& mNotices;
     SceneChanges& mChanges;
-    const PanelStage& mStage;
+    const ViewDisplay& mDisplay;
     SecondStudy mSecond;
     SceneMade mMade;                            // what it is made of, or is being made of
     std::shared_ptr<const SliceStudy> mSlices;  // slices of the second study, once read

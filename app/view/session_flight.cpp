@@ -13,7 +13,7 @@ namespace stereonav {
 namespace {
 
 constexpr double kSpeedStep = 1.2;  // factor per notch of the wheel
-constexpr double kSlowest = 0.01, kFastest = 100.0;
+constexpr double kSlowestSpeed = 0.01, kFastestSpeed = 100.0;
 constexpr double kEvenPace = 1e-3;  // relative difference at which the pace counts as reached
 constexpr double kStill = 1e-4;     // share of the normal speed, and radians a second: at rest
 
@@ -55,7 +55,7 @@ void SessionFlight::toggleSpeedByDistance() {
 }
 
 void SessionFlight::turnWheel(double notches) {
-    mSpeed = std::clamp(mSpeed * std::pow(kSpeedStep, notches), kSlowest, kFastest);
+    mSpeed = std::clamp(mSpeed * std::pow(kSpeedStep, notches), kSlowestSpeed, kFastestSpeed);
     mNotice.say(fmt::format("speed {}/s", lengthText(speed())));
 }
 

@@ -8,7 +8,7 @@ namespace stereonav {
 namespace {
 
 constexpr double kRestSeconds = 0.6;
-constexpr std::size_t kMostSteps = 500;
+constexpr std::size_t kMostSettings = 500;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void SettingsHistory::observe(const SettingTexts& now, bool changing, double dt)
 void SettingsHistory::keep() {
     mSteps.resize(mAt + 1);
     mSteps.push_back(*std::exchange(mPending, std::nullopt));
-    if (mSteps.size() > kMostSteps) mSteps.erase(mSteps.begin());
+    if (mSteps.size() > kMostSettings) mSteps.erase(mSteps.begin());
     mAt = mSteps.size() - 1;
 }
 

@@ -1,5 +1,6 @@
 #include "app/view/view_display.h"
 
+#include <glm/common.hpp>
 #include <utility>
 
 #include "app/view/kept_file.h"
@@ -39,6 +40,11 @@ std::optional<Monitor> ViewDisplay::monitor() const {
     const std::vector<Monitor>& all = recentMonitors();
     const auto under = monitorUnder(all, mWindow.place());
     return under ? std::optional(all[*under]) : std::nullopt;
+}
+
+SizeOption ViewDisplay::windowSize() const {
+    const glm::ivec2 size = glm::max(mWindow.framebufferSize(), glm::ivec2(1));
+    return {size.x, size.y};
 }
 
 void ViewDisplay::toggleFullScreen() {

@@ -34,9 +34,12 @@ public:
     ViewDisplay(Window& window, const ViewOptions& options);
 
     static bool wantsQuadBuffer(const ViewOptions& options) { return options.mode == OutputMode::QuadBuffer; }
-    // Returns the mode to begin with: that of the options, or its replacement where the driver does not grant
-    // it.
+    // Returns the mode that the next session begins with: at first that of the options, or its replacement
+    // where the driver does not grant it.
     OutputMode mode() const { return mMode; }
+    void setMode(OutputMode mode) { mMode = mode; }
+    SizeOption windowSize() const;  // in pixels
+    void close() { mWindow.close(); }
 
     void toggleFullScreen();  // a refusal becomes a notice
     // Applies options that were changed: the screen's size, and the monitor where it is another one.

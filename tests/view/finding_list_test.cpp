@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "app/output/eye_marks.h"
-#include "app/view/finding_marks.h"
 #include "app/view/frame_views.h"
+#include "app/view/finding_marks.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "tests/camera/temporary_folder.h"

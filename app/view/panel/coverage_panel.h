@@ -1,9 +1,9 @@
 // Coverage of a closed wall: the share that was on screen, and the way to the rest.
 #pragma once
 
+#include "app/view/asked_actions.h"
 #include "app/view/live_coverage.h"
 #include "app/view/session.h"
-#include "app/view/window_input.h"
 
 namespace stereonav {
 

@@ -2,13 +2,14 @@
 
 #include <imgui.h>
 
+#include "app/view/asked_actions.h"
 #include "app/view/clipboard.h"
 #include "app/view/flown_keyframes.h"
 #include "app/view/panel/controls.h"
-#include "app/view/panel_stage.h"
-#include "app/view/picture_marks.h"
+#include "app/view/panel/second_panel.h"
+#include "app/view/panel/unfolded_panel.h"
 #include "app/view/second_side.h"
-#include "app/view/window_input.h"
+#include "engine/display/interface.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/text/printable.h"
 
@@ -20,14 +21,15 @@ void item(const PanelParts& parts, const char* label, const char* key, ViewComma
     if (ImGui::MenuItem(label, key, checked, parts.session != nullptr)) parts.actions.ask({command});
 }
 
-void fileMenu(const PanelParts& parts, MenuWishes& wishes) {
+void fileMenu(const PanelParts& parts, ShownPanels& panels, MenuWishes& wishes) {
     if (!ImGui::BeginMenu("File")) return;
     const bool shown = parts.session != nullptr;
-    if (ImGui::MenuItem("Open...", "Ctrl+O")) wishes.openFile = true;
-    if (wishes.other && ImGui::MenuItem("Open the other study...")) wishes.openOther = true;
-    if (ImGui::MenuItem("Start page", "Ctrl+N")) wishes.start = true;
+    if (ImGui::MenuItem("Open...", "Ctrl+O")) wishes.open = FileBrowser::For::Open;
+    if (SecondPanel::has(parts.session) && ImGui::MenuItem("Open the other study..."))
+        wishes.open = FileBrowser::For::OpenOther;
+    if (ImGui::MenuItem("Start page", "Ctrl+N")) panels.start = true;
     ImGui::Separator();
-    if (ImGui::MenuItem("Save scene...", "Ctrl+S", false, shown)) wishes.saveScene = true;
+    if (ImGui::MenuItem("Save scene...", "Ctrl+S", false, shown)) wishes.open = FileBrowser::For::SaveScene;
     item(parts, "Save picture", "P", ViewCommand::Screenshot);
     if (ImGui::MenuItem("Save picture as...", nullptr, false, shown)) wishes.picture = true;
     if (ImGui::MenuItem("Copy command line", nullptr, false, shown))
@@ -55,31 +57,30 @@ void scaleMenu(const PanelParts& parts) {
     for (const float scale : {0.75f, 1.0f, 1.25f, 1.5f, 1.75f, 2.0f}) {
         char label[16];
         snprintf(label, sizeof label, "%.0f %%", 100.0 * scale);
-        InterfaceLook look = parts.stage.panelled().look();
+        InterfaceLook look = parts.interface.look();
         if (ImGui::MenuItem(label, nullptr, look.scale == scale)) {
             look.scale = scale;
-            parts.stage.panelled().setLook(look);
+            parts.interface.setLook(look);
         }
     }
     ImGui::EndMenu();
 }
 
-void viewMenu(const PanelParts& parts, MenuWishes& wishes) {
+void viewMenu(const PanelParts& parts, ShownPanels& panels) {
     if (!ImGui::BeginMenu("View")) return;
-    ImGui::MenuItem("Panels", "F2", wishes.side);
-    ImGui::MenuItem("Places, map and slices", "F3", wishes.left);
-    if (wishes.unfolded) ImGui::MenuItem("Unfolded wall", "F10", wishes.unfolded);
-    if (ImGui::MenuItem("Picture alone", "Tab")) wishes.hideAll = true;
-    item(parts, "Panels in their own window", "F7", ViewCommand::Controls, parts.stage.controls() != nullptr);
-    if (bool labels = parts.marks.showsNames(); ImGui::MenuItem("Names of places", nullptr, &labels))
-        parts.marks.showNames(labels);
+    ImGui::MenuItem("Panels", "F2", &panels.side.shown);
+    ImGui::MenuItem("Places, map and slices", "F3", &panels.left.shown);
+    if (UnfoldedPanel::has(parts.session)) ImGui::MenuItem("Unfolded wall", "F10", &panels.unfolded);
+    if (ImGui::MenuItem("Picture alone", "Tab")) panels.hidden = true;
+    item(parts, "Panels in their own window", "F7", ViewCommand::Controls, parts.ownWindow);
+    ImGui::MenuItem("Names of places", nullptr, &panels.placeNames);
     tooltip("Of kept places that are in view, over the picture.");
     item(parts, "Whole screen", "F11", ViewCommand::FullScreen, parts.display.fullScreen());
     ImGui::Separator();
-    InterfaceLook look = parts.stage.panelled().look();
+    InterfaceLook look = parts.interface.look();
     if (ImGui::MenuItem("Dark", nullptr, look.dark)) look.dark = true;
     if (ImGui::MenuItem("Light", nullptr, !look.dark)) look.dark = false;
-    if (!(look == parts.stage.panelled().look())) parts.stage.panelled().setLook(look);
+    if (!(look == parts.interface.look())) parts.interface.setLook(look);
     scaleMenu(parts);
     ImGui::EndMenu();
 }
@@ -165,15 +166,15 @@ void toolsMenu(const PanelParts& parts, MenuWishes& wishes) {
 
 }  // namespace
 
-float drawMenuBar(const PanelParts& parts, MenuWishes& wishes) {
+float drawMenuBar(const PanelParts& parts, ShownPanels& shown, MenuWishes& wishes) {
     if (!ImGui::BeginMainMenuBar()) return 0;
-    fileMenu(parts, wishes);
+    fileMenu(parts, shown, wishes);
     editMenu(parts);
-    viewMenu(parts, wishes);
+    viewMenu(parts, shown);
     stereoMenu(parts);
     flightMenu(parts, wishes);
     toolsMenu(parts, wishes);
-    if (ImGui::MenuItem("Help")) wishes.help = true;
+    if (ImGui::MenuItem("Help")) shown.help = true;
     tooltip("All keys: F1");
     // The name of the open scene, where there is room.
     const std::string name = printable(parts.changes.settings().sceneName());

@@ -1,21 +1,22 @@
 // The menu bar.
 #pragma once
 
+#include <optional>
+
+#include "app/view/panel/file_browser.h"
 #include "app/view/panel/panel_parts.h"
+#include "app/view/panel/shown_panels.h"
 
 namespace stereonav {
 
-// Parts of the interface that menus switch.
+// What menus ask for beside what is shown.
 struct MenuWishes {
-    bool openFile = false, saveScene = false, start = false, search = false, help = false, hideAll = false;
-    bool openOther = false;                 // opens another study beside this one
-    bool other = false;                     // whether there can be another study
-    bool movie = false, picture = false;    // opens the panel for a movie, for a picture
-    bool *side = nullptr, *left = nullptr;  // panels at the right; places, map and slices
-    bool* unfolded = nullptr;               // the unfolded wall; null: the scene has none
+    std::optional<FileBrowser::For> open;
+    bool search = false;
+    bool movie = false, picture = false;  // opens the panel for a movie, for a picture
 };
 
 // Draws the bar and returns its height in units of the interface.
-float drawMenuBar(const PanelParts& parts, MenuWishes& wishes);
+float drawMenuBar(const PanelParts& parts, ShownPanels& shown, MenuWishes& wishes);
 
 }  // namespace stereonav

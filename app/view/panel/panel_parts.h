@@ -1,6 +1,12 @@
 // The objects that panels show and change. A panel gets only those that it needs.
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "app/options/shared_options.h"
+#include "engine/scene/facts.h"
+
 namespace stereonav {
 
 class AskedActions;
@@ -9,11 +15,9 @@ class FileLooks;
 class FlownKeyframes;
 class FramePresenter;
 class Instruments;
+class Interface;
 class KeptPlaces;
 class Notices;
-class PanelStage;
-class PictureMarks;
-class PicturePointer;
 class SceneChanges;
 class SceneFacts;
 class SecondSide;
@@ -35,14 +39,17 @@ struct PanelParts {
     KeptPlaces& kept;
     FlownKeyframes& keyframes;
     FileLooks& looks;
-    PictureMarks& marks;
     Notices& notices;
     const FramePresenter& pictures;
-    const PicturePointer& pointer;
     SceneChanges& changes;
     SecondSide& second;
-    PanelStage& stage;
     StudyReading& study;
+    Interface& interface;  // the one that has the panels
+    bool ownWindow;        // whether that is a window of their own
+    SizeOption eyeSize;    // of the picture that is shown, in pixels
+    // The place under the pointer, and facts of it; empty where there is none.
+    std::optional<glm::dvec3> pointed;
+    Facts pointedFacts;
 };
 
 }  // namespace stereonav

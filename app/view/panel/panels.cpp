@@ -12,7 +12,6 @@
 #include "app/view/input.h"
 #include "app/view/panel/controls.h"
 #include "app/view/panel/coverage_panel.h"
-#include "app/view/panel/file_browser.h"
 #include "app/view/panel/findings_panel.h"
 #include "app/view/panel/map_panel.h"
 #include "app/view/panel/measure_panel.h"
@@ -26,8 +25,6 @@
 #include "app/view/panel/start_pictures.h"
 #include "app/view/panel/status_bar.h"
 #include "app/view/panel/unfolded_panel.h"
-#include "app/view/panel_stage.h"
-#include "app/view/picture_pointer.h"
 #include "app/view/second_side.h"
 
 namespace stereonav {
@@ -45,19 +42,8 @@ constexpr ImGuiWindowFlags kPlainBox = ImGuiWindowFlags_NoDecoration | ImGuiWind
 }  // namespace
 
 struct Panels::State {
-    // A column of panels at one side of the picture.
-    struct Column {
-        bool shown = false;
-        float width = 22;  // in heights of letters
-        float taken = 0;   // width in the last layout, in units
-    };
-    bool hidden = false, help = false;
-    Column left, side;
-    bool showsUnfolded = false;
-    float strip = 0;  // height of the strip below the picture in the last layout, in units
+    ShownPanels shown;
     UnfoldedPanel unfolded;
-    bool beside = true;          // whether columns take their room from the picture
-    float above = 0, below = 0;  // heights of menu bar and status bar in the last layout, in units
     CoveragePanel coverage;
     MapPanel map;
     PlacesPanel places;
@@ -72,7 +58,8 @@ struct Panels::State {
 
     void open(const PanelParts& parts, const std::filesystem::path& file);
     void drawHelp();
-    void drawColumn(Column& column, bool atRight, float top, const std::function<void()>& content);
+    void drawColumn(ShownPanels::Column& column, bool atRight, float top,
+                    const std::function<void()>& content);
     void drawLeft(const PanelParts& parts);
     void drawUnfolded(const PanelParts& parts);
     void drawFindings(const PanelParts& parts);
@@ -86,7 +73,8 @@ void Panels::State::open(const PanelParts& parts, const std::filesystem::path& f
     ViewSession* const session = parts.session;
     switch (files.purpose()) {
         case FileBrowser::For::Open:
-            return parts.changes.open(file.string());
+            if (parts.changes.open(file.string())) shown.start = false;
+            return;
         case FileBrowser::For::OpenOther:
             return parts.second.open(file.string());
         case FileBrowser::For::OpenPath:
@@ -105,7 +93,7 @@ void Panels::State::drawHelp() {
     const float font = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({whole.x / 2, whole.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({std::min(whole.x - font, 64 * font), std::min(whole.y - 3 * font, 40 * font)});
-    ImGui::Begin("Keys", &help,
+    ImGui::Begin("Keys", &shown.help,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoSavedSettings);
     const int columns = ImGui::GetContentRegionAvail().x > 58 * font ? 2 : 1;
@@ -128,12 +116,13 @@ void Panels::State::drawHelp() {
     ImGui::End();
 }
 
-void Panels::State::drawColumn(Column& column, bool atRight, float top,
+void Panels::State::drawColumn(ShownPanels::Column& column, bool atRight, float top,
                                const std::function<void()>& content) {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize(), height = std::max(whole.y - top, 1.0f);
-    const float other = (atRight ? left : side).taken;
-    const float most = std::max((beside ? whole.x - other - kPicture * font : whole.x - 4 * font), 4 * font);
+    const float other = (atRight ? shown.left : shown.side).taken;
+    const float most =
+        std::max((shown.beside ? whole.x - other - kPicture * font : whole.x - 4 * font), 4 * font);
     const float width = std::min(column.width * font, most);
     ImGui::PushID(atRight);
     ImGui::SetNextWindowPos({atRight ? whole.x - width : 0, top});
@@ -171,8 +160,7 @@ void Panels::State::drawLeft(const PanelParts& parts) {
         return ImGui::CollapsingHeader(label, ImGuiTreeNodeFlags_DefaultOpen);
     };
     if (open("Places")) places.draw(parts.kept, parts.actions);
-    if (MapPanel::has(*session) && open("Map"))
-        map.draw(*session, parts.keyframes.edit(), parts.stage.eyeSize());
+    if (MapPanel::has(*session) && open("Map")) map.draw(*session, parts.keyframes.edit(), parts.eyeSize);
     if (ImGui::CollapsingHeader("Measure", instruments.measuring() || !instruments.line().places().empty()
                                                ? ImGuiTreeNodeFlags_DefaultOpen
                                                : 0))
@@ -199,136 +187,69 @@ void Panels::State::drawFindings(const PanelParts& parts) {
 
 // Draws the unfolded wall between the columns, above the status bar.
 void Panels::State::drawUnfolded(const PanelParts& parts) {
-    if (!showsUnfolded || hidden || !UnfoldedPanel::has(parts.session))
+    if (!shown.unfolded || shown.hidden || !UnfoldedPanel::has(parts.session))
         return unfolded.hide(parts.session, parts.instruments);
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float height = std::min(kStrip * ImGui::GetFontSize(), 0.5f * whole.y);
-    ImGui::SetNextWindowPos({left.taken, whole.y - below - height});
-    ImGui::SetNextWindowSize({std::max(whole.x - left.taken - side.taken, 1.0f), height});
+    const float left = shown.left.taken, width = whole.x - left - shown.side.taken;
+    ImGui::SetNextWindowPos({left, whole.y - shown.below - height});
+    ImGui::SetNextWindowSize({std::max(width, 1.0f), height});
     ImGui::Begin("##unfolded", nullptr, kPlainBox);
-    unfolded.draw(*parts.session, parts.instruments, parts.pictures.frame(), parts.pointer.world());
+    unfolded.draw(*parts.session, parts.instruments, parts.pictures.frame(), parts.pointed);
     ImGui::End();
-    strip = height;
+    shown.strip = height;
 }
 
 void Panels::draw(const PanelParts& parts) {
     State& state = *mState;
-    const ImVec2 whole = ImGui::GetIO().DisplaySize;
-    state.left.taken = state.side.taken = 0;
-    state.beside = whole.x >= kBeside * ImGui::GetFontSize();
-    state.above = state.below = state.strip = 0;
-    float& top = state.above;
-    const bool sideBefore = state.side.shown;
-    if (!state.hidden) {
+    ShownPanels& shown = state.shown;
+    ShownPanels::Column &left = shown.left, &side = shown.side;
+    left.taken = side.taken = 0;
+    shown.beside = ImGui::GetIO().DisplaySize.x >= kBeside * ImGui::GetFontSize();
+    shown.above = shown.below = shown.strip = 0;
+    const bool sideBefore = side.shown;
+    if (!shown.hidden) {
         MenuWishes wishes;
-        wishes.side = &state.side.shown;
-        wishes.left = &state.left.shown;
-        wishes.other = SecondPanel::has(parts.session);
-        if (UnfoldedPanel::has(parts.session)) wishes.unfolded = &state.showsUnfolded;
-        top = drawMenuBar(parts, wishes);
-        if (wishes.openFile) state.files.open(FileBrowser::For::Open);
-        if (wishes.openOther) state.files.open(FileBrowser::For::OpenOther);
-        if (wishes.saveScene) state.files.open(FileBrowser::For::SaveScene);
-        if (wishes.start) state.start.show(true);
+        shown.above = drawMenuBar(parts, shown, wishes);
+        if (wishes.open) state.files.open(*wishes.open);
         if (wishes.search) state.search.open();
-        if (wishes.help) state.help = true;
-        if (wishes.hideAll) state.hidden = true;
-        if (wishes.picture) state.side.shown = state.tools.showPicture = true;
-        if (wishes.movie) state.side.shown = state.tools.showPath = true;
-        if (!state.beside && state.left.shown && state.side.shown) {
+        if (wishes.picture) side.shown = state.tools.showPicture = true;
+        if (wishes.movie) side.shown = state.tools.showPath = true;
+        if (!shown.beside && left.shown && side.shown) {
             // Only the drawer that was opened last stays open.
-            (sideBefore ? state.side : state.left).shown = false;
+            (sideBefore ? side : left).shown = false;
         }
-        if (state.left.shown) state.drawColumn(state.left, false, top, [&] { state.drawLeft(parts); });
-        if (state.side.shown)
-            state.drawColumn(state.side, true, top, [&] { drawSidePanels(parts, state.tools); });
-        state.below = drawStatusBar(parts, state.left.taken, state.side.taken);
+        if (left.shown) state.drawColumn(left, false, shown.above, [&] { state.drawLeft(parts); });
+        if (side.shown)
+            state.drawColumn(side, true, shown.above, [&] { drawSidePanels(parts, state.tools); });
+        shown.below = drawStatusBar(parts, left.taken, side.taken);
     }
     state.drawUnfolded(parts);
-    if (state.start.shown() && state.start.draw(parts.changes, parts.kept, parts.looks))
+    if (!shown.start)
+        state.start.forget();  // pictures may have changed until it is shown again
+    else if (state.start.draw(parts.changes, parts.kept, parts.looks, shown.start))
         state.files.open(FileBrowser::For::Open);
     if (const auto chosen = state.files.draw(parts.looks)) state.open(parts, *chosen);
     state.search.draw(parts.changes, parts.actions);
-    if (state.help) state.drawHelp();
-    drawNotices(parts, state.left.taken, state.side.taken, top);
+    if (shown.help) state.drawHelp();
+    drawNotices(parts, left.taken, side.taken, shown.above);
 }
 
-Panels::Rest Panels::rest(const glm::vec2& whole) const {
-    const float top = mState->above, bottom = mState->below;
-    if (!mState->beside) return {{0, 0}, whole, top, bottom};
-    const float left = mState->left.taken, right = mState->side.taken;
-    const float high = mState->strip > 0 ? whole.y - mState->strip - bottom : whole.y;
-    return {{left, 0},
-            {std::max(whole.x - left - right, 1.0f), std::max(high, 1.0f)},
-            top,
-            mState->strip > 0 ? 0 : bottom};
+ShownPanels& Panels::shown() {
+    return mState->shown;
 }
-
-void Panels::toggleAll() {
-    mState->hidden = !mState->hidden;
-}
-bool Panels::hidden() const {
-    return mState->hidden;
-}
-void Panels::toggleSide() {
-    mState->hidden = false;
-    mState->side.shown = !mState->side.shown;
-    if (!mState->beside && mState->side.shown) mState->left.shown = false;
-}
-void Panels::toggleLeft() {
-    mState->hidden = false;
-    mState->left.shown = !mState->left.shown;
-    if (!mState->beside && mState->left.shown) mState->side.shown = false;
-}
-void Panels::toggleUnfolded() {
-    mState->hidden = false;
-    mState->showsUnfolded = !mState->showsUnfolded;
+const ShownPanels& Panels::shown() const {
+    return mState->shown;
 }
 void Panels::showFindings() {
-    if (!mState->left.shown) toggleLeft();
+    if (!mState->shown.left.shown) mState->shown.toggleLeft();
     mState->showFindings = true;
 }
 void Panels::openSearch() {
     mState->search.open();
 }
-void Panels::openFiles() {
-    mState->files.open(FileBrowser::For::Open);
-}
-void Panels::openSave() {
-    mState->files.open(FileBrowser::For::SaveScene);
-}
-void Panels::openPaths() {
-    mState->files.open(FileBrowser::For::OpenPath);
-}
-void Panels::showStart(bool shown) {
-    mState->start.show(shown);
-}
-bool Panels::startShown() const {
-    return mState->start.shown();
-}
-void Panels::toggleHelp() {
-    mState->help = !mState->help;
-}
-
-void Panels::setSide(bool shown, float width) {
-    mState->side.shown = shown;
-    mState->side.width = width / kInterfaceFontPixels;
-}
-void Panels::setLeft(bool shown, float width) {
-    mState->left.shown = shown;
-    mState->left.width = width / kInterfaceFontPixels;
-}
-bool Panels::sideShown() const {
-    return mState->side.shown;
-}
-bool Panels::leftShown() const {
-    return mState->left.shown;
-}
-float Panels::sideWidth() const {
-    return mState->side.width * kInterfaceFontPixels;
-}
-float Panels::leftWidth() const {
-    return mState->left.width * kInterfaceFontPixels;
+void Panels::openFiles(FileBrowser::For what) {
+    mState->files.open(what);
 }
 void Panels::setFolder(const std::filesystem::path& folder) {
     mState->files.startIn(folder);
@@ -351,9 +272,7 @@ bool Panels::closeOne() {
     State& state = *mState;
     if (state.search.isOpen()) return state.search.close(), true;
     if (state.files.isOpen()) return state.files.close(), true;
-    if (state.help) return state.help = false, true;
-    if (state.start.shown()) return state.start.show(false), true;
-    return false;
+    return std::exchange(state.shown.help, false) || std::exchange(state.shown.start, false);
 }
 
 }  // namespace stereonav

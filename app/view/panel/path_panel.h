@@ -1,9 +1,9 @@
 // The flight that is played: recording, cutting, smoothing, saving, and making a movie of it.
 #pragma once
 
+#include "app/view/asked_actions.h"
 #include "app/view/bookmarks.h"
 #include "app/view/keyframe_edit.h"
-#include "app/view/window_input.h"
 #include "app/view/window_jobs.h"
 
 namespace stereonav {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
+#include "app/view/asked_actions.h"
 #include "app/view/bookmarks.h"
 #include "app/view/kept_places.h"
 #include "app/view/panel/panel_texture.h"
-#include "app/view/window_input.h"
 
 namespace stereonav {
 

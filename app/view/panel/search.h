@@ -2,8 +2,8 @@
 // there.
 #pragma once
 
+#include "app/view/asked_actions.h"
 #include "app/view/scene_changes.h"
-#include "app/view/window_input.h"
 
 namespace stereonav {
 

@@ -19,10 +19,10 @@
 #include "app/view/panel/ground_paint_panel.h"
 #include "app/view/panel/legend.h"
 #include "app/view/panel/path_panel.h"
-#include "app/view/panel_stage.h"
 #include "app/view/scene_facts.h"
 #include "app/view/second_side.h"
 #include "app/view/status.h"
+#include "engine/display/interface.h"
 
 namespace stereonav {
 namespace {
@@ -120,7 +120,7 @@ void drawLight(SceneChanges& changes, WindowJobs& jobs, ViewSession& session, Su
 
 void drawMaterial(const PanelParts& parts, ViewSession& session, TransferPanel& transfer) {
     const Scene& scene = *session.open().scene;
-    if (TransferPanel::has(scene)) transfer.draw(parts.changes, session, parts.stage.panelled().look().grey);
+    if (TransferPanel::has(scene)) transfer.draw(parts.changes, session, parts.interface.look().grey);
     drawOptions(parts.changes, OptionPanel::Material);
     drawGroundPaint(parts.changes, parts.instruments, session);
     drawLegend(scene);
@@ -242,7 +242,7 @@ void drawSidePanels(const PanelParts& parts, SideTools& tools) {
     if (tools.showPicture) ImGui::SetNextItemOpen(true);
     const bool picture = heading("Picture", false);
     if (std::exchange(tools.showPicture, false)) ImGui::SetScrollHereY(0);
-    if (picture) drawPicture(parts.jobs, parts.stage.eyeSize());
+    if (picture) drawPicture(parts.jobs, parts.eyeSize);
     if (heading("Quality and cost", false)) drawQuality(changes, parts.pictures, *session);
     if (any(OptionPanel::Study) && heading("Study", false)) drawOptions(changes, OptionPanel::Study);
     if (heading("Scene", false)) drawFacts(parts.facts.of(changes.worker()));
@@ -253,8 +253,8 @@ void drawSidePanels(const PanelParts& parts, SideTools& tools) {
         ImGui::SameLine();
         const std::string at = poseText(session->pose());
         if (ImGui::Button("Copy for a picture"))
-            parts.clipboard.copy(renderLineOf(withEyes(changes.settings().now(), session->stereo()), at,
-                                              parts.stage.eyeSize()));
+            parts.clipboard.copy(
+                renderLineOf(withEyes(changes.settings().now(), session->stereo()), at, parts.eyeSize));
         tooltip("Writes what is seen now into view.png, as it is set now.");
     }
 }

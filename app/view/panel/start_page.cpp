@@ -51,11 +51,6 @@ bool drawCard(const Card& card, float width) {
 
 }  // namespace
 
-void StartPage::show(bool shown) {
-    mShown = shown;
-    if (shown) mPictures.clear();  // pictures may have changed since
-}
-
 // Draws a recent file; returns true where it is to be opened. width: units.
 bool StartPage::drawRecentFile(FileLooks& looks, const RecentFile& file, float width) {
     const float font = ImGui::GetFontSize(), height = 2.6f * font;
@@ -105,7 +100,7 @@ PanelTexture* StartPage::pictureOf(const RecentFile& file) {
     return known->second.any() ? &known->second : nullptr;
 }
 
-void StartPage::drawRecent(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks, float width) {
+std::string StartPage::drawRecent(KeptPlaces& kept, FileLooks& looks, float width) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const int columns = width > 30 * ImGui::GetFontSize() ? 2 : 1;
     const float each = (width - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns);
@@ -124,12 +119,10 @@ void StartPage::drawRecent(SceneChanges& changes, KeptPlaces& kept, FileLooks& l
         ImGui::PopID();
     }
     if (!mForget.empty()) kept.forgetRecent(std::exchange(mForget, {}));
-    if (open.empty()) return;
-    mShown = false;
-    changes.open(open);
+    return open;
 }
 
-bool StartPage::draw(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks) {
+bool StartPage::draw(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks, bool& shown) {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize();
     const float width = std::min(whole.x - font, 56 * font);
@@ -139,29 +132,31 @@ bool StartPage::draw(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks) 
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
     bool look = false;
+    std::string open;
     const float inside = width - 2 * ImGui::GetStyle().WindowPadding.x, gap = ImGui::GetStyle().ItemSpacing.x;
     const int columns = width > 30 * font ? 4 : 2;
     for (int n = 0; n < 4; ++n) {
         if (n % columns != 0) ImGui::SameLine();
         if (drawCard(kCards[n],
-                     (inside - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns) - 1)) {
-            mShown = false;
-            changes.open(kCards[n].scene);
-        }
+                     (inside - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns) - 1))
+            open = kCards[n].scene;
     }
     ImGui::Spacing();
     if (ImGui::Button("Open a file or folder...")) look = true;
     tooltip("An elevation model, a CT study, a mesh or a scene. Key: Ctrl+O");
     ImGui::SameLine();
     quietText("or drop it here: GeoTIFF and other elevation models, DICOM, NIfTI, NRRD, glTF");
-    drawRecent(changes, kept, looks, inside);
+    if (const std::string recent = drawRecent(kept, looks, inside); !recent.empty()) open = recent;
     ImGui::Separator();
     quietText("Look: drag, or the arrow keys.");
     quietText("Fly: W S A D; the wheel changes the speed, Space goes home.");
     quietText(
         "Stereo: the menu Stereo has a mode for each display; M tries the next. Ctrl+P finds anything.");
-    if (ImGui::Button("Close")) mShown = false;
+    if (ImGui::Button("Close")) shown = false;
     ImGui::End();
+    if (open.empty()) return look;
+    shown = false;
+    changes.open(open);
     return look;
 }
 

@@ -14,19 +14,17 @@ namespace stereonav {
 
 class StartPage {
 public:
-    void show(bool shown);
-    bool shown() const { return mShown; }
-    // Draws the page; returns true where a file is to be chosen.
-    bool draw(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks);
+    // Draws the page; returns true where a file is to be chosen. shown: false once it is closed.
+    bool draw(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks, bool& shown);
 
     void forget() { mPictures.clear(); }  // frees objects of the window's context
 
 private:
     bool drawRecentFile(FileLooks& looks, const RecentFile& file, float width);
-    void drawRecent(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks, float width);
+    // Returns the file that was chosen; "": none.
+    std::string drawRecent(KeptPlaces& kept, FileLooks& looks, float width);
     PanelTexture* pictureOf(const RecentFile& file);
 
-    bool mShown = false;
     std::map<std::string, PanelTexture> mPictures;  // pictures of recent files, by file
     std::filesystem::path mForget;                  // file to remove from the list
 };

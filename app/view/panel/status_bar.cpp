@@ -5,16 +5,15 @@
 
 #include <cmath>
 
+#include "app/view/asked_actions.h"
 #include "app/view/clipboard.h"
 #include "app/view/frame_presenter.h"
 #include "app/view/instruments.h"
 #include "app/view/panel/comfort_meter.h"
 #include "app/view/panel/controls.h"
-#include "app/view/picture_pointer.h"
 #include "app/view/scene_changes.h"
 #include "app/view/status.h"
 #include "app/view/window_closing.h"
-#include "app/view/window_input.h"
 #include "app/view/window_jobs.h"
 #include "engine/text/length_text.h"
 
@@ -150,7 +149,7 @@ float drawStatusBar(const PanelParts& parts, float left, float right) {
                      "how much of the width and height it was cast in");
         if (frame->lacksDetail)
             row.text("coarse ground", "Finer tiles are on their way: the picture is drawn again with them.");
-        placePieces(parts.pointer.facts(), row);
+        placePieces(parts.pointedFacts, row);
         row.text(costText(*frame), frameText(*frame, rate));
         if (frame->request.twoEyes && row.room(comfortMeterWidth())) drawComfortMeter(parts.display, *frame);
         if (const std::string measured = session->measuredText(*frame); !measured.empty())

@@ -1,6 +1,6 @@
-#include "app/view/window_input.h"
+#include "app/view/window/window_input.h"
 
-#include "app/view/control_window.h"
+#include "app/view/window/control_window.h"
 
 namespace stereonav {
 

@@ -1,11 +1,10 @@
 // Input of the window, and of the panels' own window, from keys, gamepad and 3-D mouse, as actions and as
-// flight input; and actions of panels, which are executed after drawing: they may open or close what is being
-// drawn.
+// flight input; and the actions that panels ask for.
 #pragma once
 
-#include <utility>
 #include <vector>
 
+#include "app/view/asked_actions.h"
 #include "app/view/input.h"
 #include "engine/display/space_mouse.h"
 #include "engine/display/window.h"
@@ -13,17 +12,6 @@
 namespace stereonav {
 
 class ControlWindow;
-
-// Actions that panels ask for.
-class AskedActions {
-public:
-    void ask(const ViewAction& action) { mActions.push_back(action); }
-    bool any() const { return !mActions.empty(); }
-    std::vector<ViewAction> take() { return std::exchange(mActions, {}); }
-
-private:
-    std::vector<ViewAction> mActions;
-};
 
 class WindowInput {
 public:

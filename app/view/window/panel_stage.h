@@ -6,10 +6,11 @@
 #include <memory>
 #include <optional>
 
-#include "app/view/control_window.h"
 #include "app/view/panel/panels.h"
-#include "app/view/picture_place.h"
 #include "app/view/session.h"
+#include "app/view/view_display.h"
+#include "app/view/window/control_window.h"
+#include "app/view/window/picture_place.h"
 #include "engine/display/interface.h"
 #include "engine/display/window.h"
 
@@ -17,9 +18,9 @@ namespace stereonav {
 
 class PanelStage {
 public:
-    // window and session must outlive this object. mode: of the picture until a session begins.
-    PanelStage(Window& window, std::optional<ViewSession>& session, OutputMode mode)
-        : mWindow(window), mSession(session), mMode(mode), mInterface(window) {}
+    // The arguments must outlive this object.
+    PanelStage(Window& window, std::optional<ViewSession>& session, const ViewDisplay& display)
+        : mWindow(window), mSession(session), mDisplay(display), mInterface(window) {}
     ~PanelStage();  // deletes what is left in the first window's context
 
     Panels& panels() { return mPanels; }
@@ -32,15 +33,10 @@ public:
     // Returns the panels' own window; null while they are over the picture.
     ControlWindow* controls() { return mControls.get(); }
     const ControlWindow* controls() const { return mControls.get(); }
-    void toggleControls();             // throws Error where the driver grants no second window
-    void close() { mWindow.close(); }  // the first window
+    void toggleControls();  // throws Error where the driver grants no second window
 
     // Returns the mode of the picture: the session's, or before it the one that it will begin with.
-    OutputMode mode() const { return mSession ? mSession->compose().mode : mMode; }
-    // Sets the mode that the next session begins with to the present one.
-    OutputMode keepMode() { return mMode = mSession ? mSession->mode() : mMode; }
-    OutputMode firstMode() const { return mMode; }
-    SizeOption windowSize() const;  // in pixels
+    OutputMode mode() const { return mSession ? mSession->compose().mode : mDisplay.mode(); }
     PicturePlace placeOf(const OutputModeInfo& mode) const;
     SizeOption eyeSize() const;  // size of the picture in its mode in pixels
 
@@ -58,7 +54,7 @@ public:
 private:
     Window& mWindow;
     std::optional<ViewSession>& mSession;
-    OutputMode mMode;
+    const ViewDisplay& mDisplay;
     Interface mInterface;
     Panels mPanels;
     std::unique_ptr<ControlWindow> mControls;

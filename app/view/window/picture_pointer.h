@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "app/view/frame_presenter.h"
-#include "app/view/panel_stage.h"
+#include "app/view/window/panel_stage.h"
 #include "engine/scene/facts.h"
 
 namespace stereonav {

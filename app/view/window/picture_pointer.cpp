@@ -1,4 +1,4 @@
-#include "app/view/picture_pointer.h"
+#include "app/view/window/picture_pointer.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/options/shared_options.h"
-#include "app/view/panel/panels.h"
+#include "app/view/panel/shown_panels.h"
 #include "engine/display/interface.h"
 #include "engine/image/stereo_compose.h"
 
@@ -22,7 +22,7 @@ struct PicturePlace {
     bool operator==(const PicturePlace&) const = default;
 };
 // window: pixels of the framebuffer; rest: what the interface leaves of `units`.
-PicturePlace picturePlace(const OutputModeInfo& mode, const glm::ivec2& window, const Panels::Rest& rest,
+PicturePlace picturePlace(const OutputModeInfo& mode, const glm::ivec2& window, const ShownPanels::Rest& rest,
                           const glm::vec2& units);
 // Returns the size in pixels of a picture composed of both eyes that fills the place in all parts.
 glm::ivec2 composedAt(const OutputModeInfo& mode, const PicturePlace& place);

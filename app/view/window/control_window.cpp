@@ -1,4 +1,4 @@
-#include "app/view/control_window.h"
+#include "app/view/window/control_window.h"
 
 #include <epoxy/gl.h>
 #include <imgui.h>
@@ -41,7 +41,7 @@ void ControlWindow::takePicture(const ViewFrame& frame) {
     mStale = false;
 }
 
-void ControlWindow::draw(const Panels& panels, const std::function<void()>& drawPanels,
+void ControlWindow::draw(const ShownPanels& panels, const std::function<void()>& drawPanels,
                          const ViewFrame* frame, bool fresh, double dt) {
     mStale = mStale || fresh;
     if (mWindow.minimised()) return;
@@ -51,7 +51,7 @@ void ControlWindow::draw(const Panels& panels, const std::function<void()>& draw
         drawPanels();
         if (!frame || frame->left.color.empty()) return;
         const glm::vec2 whole(ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y);
-        const Panels::Rest rest = panels.rest(whole);
+        const ShownPanels::Rest rest = panels.rest(whole);
         const glm::vec2 room(rest.size.x, rest.size.y - rest.top - rest.bottom);
         const glm::vec2 picture(frame->left.color.width(), frame->left.color.height());
         mSize = glm::max(glm::floor(picture * std::min(room.x / picture.x, room.y / picture.y)), 0.0f);

@@ -1,12 +1,12 @@
-#include "app/view/picture_marks.h"
+#include "app/view/window/picture_marks.h"
 
 #include <algorithm>
 #include <string>
 
 #include "app/output/eye_marks.h"
-#include "app/view/finding_marks.h"
 #include "app/view/frame_views.h"
 #include "app/view/raised_ground.h"
+#include "app/view/finding_marks.h"
 #include "engine/scene/live_paint.h"
 
 namespace stereonav {
@@ -74,8 +74,9 @@ std::vector<OverlayMark> PictureMarks::marks(const ViewSession& session, const O
     if (!frame || !picture.left || session.slices().shown()) return marks;
     const Plane<float>& depth = frame->left.viewDepth;
     const glm::ivec2& guard = frame->request.guard;
-    const bool panels = !mStage.panels().hidden();
-    if (mNamesShown && panels && !mStage.panels().startShown()) addNames(session.openShared(), marks);
+    const ShownPanels& shown = mStage.panels().shown();
+    const bool panels = !shown.hidden;
+    if (shown.placeNames && panels && !shown.start) addNames(session.openShared(), marks);
     if (panels && (!mInstruments.line().places().empty() || mInstruments.marked())) addLine(marks);
     if (panels)
         addFindingMarks(mInstruments.findingList(), picture.of, depth, guard,

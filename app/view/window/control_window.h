@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "app/view/panel/panel_texture.h"
-#include "app/view/panel/panels.h"
+#include "app/view/panel/shown_panels.h"
 #include "app/view/worker.h"
 #include "engine/display/interface.h"
 #include "engine/display/window.h"
@@ -26,7 +26,7 @@ public:
 
     // Draws the window. drawPanels: lays out the panels. fresh: the frame differs from that of the last call;
     // null: there is none.
-    void draw(const Panels& panels, const std::function<void()>& drawPanels, const ViewFrame* frame,
+    void draw(const ShownPanels& panels, const std::function<void()>& drawPanels, const ViewFrame* frame,
               bool fresh, double dt);
 
     // Converts a place of this window, as shares of its size, to shares of the picture's size.

@@ -1,4 +1,4 @@
-#include "app/view/window_drawing.h"
+#include "app/view/window/window_drawing.h"
 
 #include <epoxy/gl.h>
 
@@ -19,8 +19,7 @@ WindowDrawing::WindowDrawing(std::optional<ViewSession>& session, Window& window
 
 // Returns the session's mode; until there is a picture made for it, the mode of the one that is shown.
 ComposeSetting WindowDrawing::setting() const {
-    ComposeSetting setting =
-        mSession ? mSession->compose() : ComposeSetting{mStage.firstMode(), false, false};
+    ComposeSetting setting = mSession ? mSession->compose() : ComposeSetting{mDisplay.mode(), false, false};
     const ShownPicture& picture = mPictures.picture();
     if (!mSession || mSession->slices().shown() || !picture.left) return setting;
     const OutputModeInfo &now = infoOf(setting.mode), &then = infoOf(picture.of.mode);
@@ -61,7 +60,7 @@ bool WindowDrawing::draw(const Stopwatch& turn, double dt, bool busy,
 }
 
 void WindowDrawing::show(const ComposeSetting& setting) {
-    const SizeOption size = mStage.windowSize();
+    const SizeOption size = mDisplay.windowSize();
     const glm::ivec2 origin = mWindow.framebufferOrigin();
     const PartInset inset{mPlace.corner.x, mPlace.corner.y, mPlace.part.x - mPlace.corner.x - mPlace.size.x,
                           mPlace.part.y - mPlace.corner.y - mPlace.size.y};

@@ -1,4 +1,4 @@
-#include "app/view/viewer.h"
+#include "app/view/window/viewer.h"
 
 #include <algorithm>
 #include <utility>
@@ -36,8 +36,8 @@ Viewer::Viewer(const ViewOptions& options)
               composedSize(options.mode, options.size.width, options.size.height).second, true,
               ViewDisplay::wantsQuadBuffer(options)),
       mDisplay(mWindow, options),
-      mChanges(mSession, mSettings, mNotices, mDisplay, mStage),
-      mStage(mWindow, mSession, mDisplay.mode()),
+      mChanges(mSession, mSettings, mNotices, mDisplay),
+      mStage(mWindow, mSession, mDisplay),
       mInput(mWindow),
       mScreenshots(options.shots),
       mPictures(mWindow, options.bench),
@@ -46,15 +46,15 @@ Viewer::Viewer(const ViewOptions& options)
       mKept(mSession, mSettings, mNotices),
       mJobs(mSession, mSettings, mNotices),
       mInstruments(mSession, mStudy, wakeWindow),
-      mSecond(mSession, mSettings, mNotices, mChanges, mStage),
+      mSecond(mSession, mSettings, mNotices, mChanges, mDisplay),
       mLooks(wakeWindow),
       mClosing(mSession, mWindow, mJobs, mInstruments),
       mPointer(mSession, mWindow, mStage, mPictures),
       mMarks(mPictures, mPointer, mStage, mKept, mInstruments),
       mDrawing(mSession, mWindow, mDisplay, mStage, mPictures, mPointer, mMarks),
       mClipboard(mWindow, mSession) {
-    mStage.panels().showStart(options.startPage);
-    mKeptWindow.restore(mStage, mDisplay.sizes(), mMarks, mNotices);
+    mStage.panels().shown().start = options.startPage;
+    mKeptWindow.restore(mStage, mDisplay.sizes(), mNotices);
     mChanges.begin();
 }
 
@@ -106,7 +106,7 @@ void Viewer::end() {
         report();
     }
     const bool byDistance = mSession ? mSession->moves().speedByDistance() : mKeptWindow.speedByDistance();
-    mKeptWindow.keep(mStage, mDisplay.sizes(), mMarks, byDistance, mWindow.contentScale());
+    mKeptWindow.keep(mStage, mDisplay.sizes(), byDistance, mWindow.contentScale());
     mNotices.finish(mSettings.sceneName());
 }
 
@@ -118,7 +118,7 @@ double Viewer::waitSeconds() const {
         if (const auto late = mPictures.wait(mAsked, mSettings.options().lateWarp, mDisplay.refreshPeriod()))
             return std::clamp(*late, kShortestWait, kActiveWait);
     const bool flows = mSession && (mSession->moving() || mInput.active() || mScreenshots.waiting());
-    return flows || mStage.panelled().active() || mStage.panels().startShown() ? kActiveWait : kIdleWait;
+    return flows || mStage.panelled().active() || mStage.panels().shown().start ? kActiveWait : kIdleWait;
 }
 
 void Viewer::takeInput(double dt) {
@@ -130,7 +130,7 @@ void Viewer::takeDrops() {
     if (ControlWindow* const controls = mStage.controls())
         for (std::string& drop : controls->window().takeDrops()) drops.push_back(std::move(drop));
     if (drops.size() > 1) mNotices.fail("one file or folder at a time: the first one is opened");
-    if (!drops.empty()) mChanges.open(drops.front());
+    if (!drops.empty() && mChanges.open(drops.front())) mStage.panels().shown().start = false;
 }
 
 void Viewer::act(const ViewAction& action) {
@@ -153,6 +153,7 @@ bool Viewer::quit() {
 
 bool Viewer::actOnInterface(ViewCommand command) {
     Panels& panels = mStage.panels();
+    ShownPanels& shown = panels.shown();
     switch (command) {
         case ViewCommand::Quit:
             return quit();
@@ -163,37 +164,37 @@ bool Viewer::actOnInterface(ViewCommand command) {
             mDisplay.toggleFullScreen();
             return true;
         case ViewCommand::OpenPath:
-            if (mSession) panels.openPaths();
+            if (mSession) panels.openFiles(FileBrowser::For::OpenPath);
             return true;
         case ViewCommand::Help:
-            panels.toggleHelp();
+            shown.help = !shown.help;
             return true;
         case ViewCommand::HideInterface:
-            panels.toggleAll();
+            shown.hidden = !shown.hidden;
             return true;
         case ViewCommand::Panels:
-            panels.toggleSide();
+            shown.toggleSide();
             return true;
         case ViewCommand::Controls:
             mNotices.tryTo([this] { mStage.toggleControls(); });
             return true;
         case ViewCommand::LeftPanels:
-            panels.toggleLeft();
+            shown.toggleLeft();
             return true;
         case ViewCommand::Unfolded:
-            if (mSession) panels.toggleUnfolded();
+            if (mSession) shown.toggleUnfolded();
             return true;
         case ViewCommand::Search:
             panels.openSearch();
             return true;
         case ViewCommand::OpenFile:
-            panels.openFiles();
+            panels.openFiles(FileBrowser::For::Open);
             return true;
         case ViewCommand::StartPage:
-            panels.showStart(true);
+            shown.start = true;
             return true;
         case ViewCommand::SaveScene:
-            if (mSession) panels.openSave();
+            if (mSession) panels.openFiles(FileBrowser::For::SaveScene);
             return true;
         default:
             return false;
@@ -268,7 +269,7 @@ void Viewer::beginSession() {
     const bool byDistance = mSession ? mSession->moves().speedByDistance() : mKeptWindow.speedByDistance();
     mStudy.abandon();
     mSession.emplace(mChanges.scene(),
-                     ViewSession::Options{mStage.firstMode(), std::exchange(mFlight, std::nullopt),
+                     ViewSession::Options{mDisplay.mode(), std::exchange(mFlight, std::nullopt),
                                           mSettings.options().shots, mWindow.quadBuffered(), byDistance});
     mAsked.begin(*mSession);
     mKeyframes.end();
@@ -321,11 +322,12 @@ void Viewer::followInstruments() {
     const Instruments::Shows shows = mInstruments.takeShows();
     if (shows == Instruments::Shows::Nothing) return;
     mStage.layOutSoon();
-    if (mStage.panels().leftShown()) return;
+    Panels& panels = mStage.panels();
+    if (panels.shown().left.shown) return;
     if (shows == Instruments::Shows::Findings)
-        mStage.panels().showFindings();
+        panels.showFindings();
     else
-        mStage.panels().toggleLeft();
+        panels.shown().toggleLeft();
 }
 
 void Viewer::askFor() {
@@ -386,14 +388,16 @@ PanelParts Viewer::parts() {
             mKept,
             mKeyframes,
             mLooks,
-            mMarks,
             mNotices,
             mPictures,
-            mPointer,
             mChanges,
             mSecond,
-            mStage,
-            mStudy};
+            mStudy,
+            mStage.panelled(),
+            mStage.controls() != nullptr,
+            mStage.eyeSize(),
+            mPointer.world(),
+            mPointer.facts()};
 }
 
 void Viewer::tell(const std::string& notice) {

@@ -1,4 +1,4 @@
-#include "app/view/picture_place.h"
+#include "app/view/window/picture_place.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ bool partsCover(OutputMode mode, const SizeOption& window) {
     return covered == pixels(window.width, window.height);
 }
 
-PicturePlace picturePlace(const OutputModeInfo& mode, const glm::ivec2& window, const Panels::Rest& rest,
+PicturePlace picturePlace(const OutputModeInfo& mode, const glm::ivec2& window, const ShownPanels::Rest& rest,
                           const glm::vec2& units) {
     const EyeArea area = eyeAreas(mode.mode, window.x, window.y)[0];
     PicturePlace place;

@@ -5,11 +5,11 @@
 #include <functional>
 
 #include "app/view/frame_presenter.h"
-#include "app/view/panel_stage.h"
-#include "app/view/picture_marks.h"
-#include "app/view/picture_pointer.h"
 #include "app/view/view_display.h"
-#include "app/view/window_times.h"
+#include "app/view/window/panel_stage.h"
+#include "app/view/window/picture_marks.h"
+#include "app/view/window/picture_pointer.h"
+#include "app/view/window/window_times.h"
 #include "engine/base/stopwatch.h"
 
 namespace stereonav {

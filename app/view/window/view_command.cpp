@@ -1,10 +1,10 @@
 // The command `view`, which opens the window.
-#include "app/view/view_command.h"
+#include "app/view/window/view_command.h"
 
 #include "app/options/output_place.h"
 #include "app/scene/scene_loading.h"
 #include "app/scene/shown_as.h"
-#include "app/view/viewer.h"
+#include "app/view/window/viewer.h"
 
 namespace stereonav {
 

@@ -7,16 +7,15 @@ namespace stereonav {
 
 class Notices;
 class PanelStage;
-class PictureMarks;
 class ScreenSizes;
 
 class KeptWindow {
 public:
     // Restores the kept state; errors in it become notices.
-    void restore(PanelStage& stage, ScreenSizes& screens, PictureMarks& marks, Notices& notices);
+    void restore(PanelStage& stage, ScreenSizes& screens, Notices& notices);
     // Keeps the present state; writes nothing where nothing has changed.
-    void keep(const PanelStage& stage, const ScreenSizes& screens, const PictureMarks& marks,
-              bool speedByDistance, float contentScale) const;
+    void keep(const PanelStage& stage, const ScreenSizes& screens, bool speedByDistance,
+              float contentScale) const;
 
     bool speedByDistance() const { return mConfig.speedByDistance; }
 

@@ -1,4 +1,4 @@
-#include "app/view/window_times.h"
+#include "app/view/window/window_times.h"
 
 #include <fmt/format.h>
 

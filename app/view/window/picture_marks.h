@@ -8,8 +8,8 @@
 #include "app/view/frame_presenter.h"
 #include "app/view/instruments.h"
 #include "app/view/kept_places.h"
-#include "app/view/panel_stage.h"
-#include "app/view/picture_pointer.h"
+#include "app/view/window/panel_stage.h"
+#include "app/view/window/picture_pointer.h"
 #include "engine/display/eye_overlay.h"
 
 namespace stereonav {
@@ -21,8 +21,6 @@ public:
                  const KeptPlaces& kept, const Instruments& instruments)
         : mPictures(pictures), mPointer(pointer), mStage(stage), mKept(kept), mInstruments(instruments) {}
 
-    bool showsNames() const { return mNamesShown; }
-    void showNames(bool shown) { mNamesShown = shown; }
     // Draws the marks over the present picture. session: none before the first scene. Returns true where they
     // look different.
     bool draw(const std::optional<ViewSession>& session, const OutputModeInfo& mode);
@@ -39,7 +37,6 @@ private:
     const KeptPlaces& mKept;
     const Instruments& mInstruments;
     EyeOverlay mOverlay;
-    bool mNamesShown = true;
     struct Names {
         std::weak_ptr<const OpenScene> of;
         int places = -1;  // versions

@@ -1,13 +1,12 @@
-#include "app/view/kept_window.h"
+#include "app/view/window/kept_window.h"
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include "app/view/notices.h"
-#include "app/view/panel_stage.h"
-#include "app/view/picture_marks.h"
 #include "app/view/screen_sizes.h"
+#include "app/view/window/panel_stage.h"
 
 namespace stereonav {
 namespace {
@@ -22,7 +21,7 @@ bool contains(const std::vector<std::string>& names, const char* name) {
 
 }  // namespace
 
-void KeptWindow::restore(PanelStage& stage, ScreenSizes& screens, PictureMarks& marks, Notices& notices) {
+void KeptWindow::restore(PanelStage& stage, ScreenSizes& screens, Notices& notices) {
     const ReadConfig read = readWindowConfig();
     mConfig = read.config;
     notices.fail(read.problem);
@@ -30,30 +29,32 @@ void KeptWindow::restore(PanelStage& stage, ScreenSizes& screens, PictureMarks& 
     look.dark = mConfig.theme != "light";
     if (mConfig.scale) look.scale = static_cast<float>(*mConfig.scale);
     stage.overPicture().setLook(look);
-    Panels& panels = stage.panels();
-    panels.setSide(contains(mConfig.openPanels, kSidePanels), static_cast<float>(mConfig.rightWidth));
-    panels.setLeft(contains(mConfig.openPanels, kLeftPanels), static_cast<float>(mConfig.leftWidth));
-    panels.setFolder(mConfig.lastFolder);
+    ShownPanels& shown = stage.panels().shown();
+    shown.side.shown = contains(mConfig.openPanels, kSidePanels);
+    shown.left.shown = contains(mConfig.openPanels, kLeftPanels);
+    shown.side.width = static_cast<float>(mConfig.rightWidth) / kInterfaceFontPixels;
+    shown.left.width = static_cast<float>(mConfig.leftWidth) / kInterfaceFontPixels;
+    shown.placeNames = mConfig.placeLabels;
+    stage.panels().setFolder(mConfig.lastFolder);
     screens.setKept(mConfig.screens);
-    marks.showNames(mConfig.placeLabels);
     if (contains(mConfig.openPanels, kOwnWindow)) notices.tryTo([&] { stage.toggleControls(); });
 }
 
-void KeptWindow::keep(const PanelStage& stage, const ScreenSizes& screens, const PictureMarks& marks,
-                      bool speedByDistance, float contentScale) const {
+void KeptWindow::keep(const PanelStage& stage, const ScreenSizes& screens, bool speedByDistance,
+                      float contentScale) const {
     WindowConfig config = mConfig;
     const InterfaceLook& look = stage.overPicture().look();
-    const Panels& panels = stage.panels();
+    const ShownPanels& shown = stage.panels().shown();
     config.theme = look.dark ? "dark" : "light";
     if (mConfig.scale || look.scale != contentScale) config.scale = look.scale;
-    config.rightWidth = panels.sideWidth();
-    config.leftWidth = panels.leftWidth();
+    config.rightWidth = shown.side.width * kInterfaceFontPixels;
+    config.leftWidth = shown.left.width * kInterfaceFontPixels;
     config.openPanels.clear();
-    if (panels.sideShown()) config.openPanels.emplace_back(kSidePanels);
-    if (panels.leftShown()) config.openPanels.emplace_back(kLeftPanels);
+    if (shown.side.shown) config.openPanels.emplace_back(kSidePanels);
+    if (shown.left.shown) config.openPanels.emplace_back(kLeftPanels);
     if (stage.controls()) config.openPanels.emplace_back(kOwnWindow);
-    config.lastFolder = panels.folder();
-    config.placeLabels = marks.showsNames();
+    config.lastFolder = stage.panels().folder();
+    config.placeLabels = shown.placeNames;
     config.speedByDistance = speedByDistance;
     config.screens = screens.kept();
     if (!(config == mConfig)) writeWindowConfig(config);

@@ -1,6 +1,5 @@
-#include "app/view/panel_stage.h"
+#include "app/view/window/panel_stage.h"
 
-#include <glm/common.hpp>
 #include <utility>
 
 namespace stereonav {
@@ -31,16 +30,12 @@ void PanelStage::toggleControls() {
     mControls = std::make_unique<ControlWindow>(mWindow, mInterface.look());
 }
 
-SizeOption PanelStage::windowSize() const {
-    const glm::ivec2 size = glm::max(mWindow.framebufferSize(), glm::ivec2(1));
-    return {size.x, size.y};
-}
-
 PicturePlace PanelStage::placeOf(const OutputModeInfo& mode) const {
-    const SizeOption window = windowSize();
+    const SizeOption window = mDisplay.windowSize();
     const glm::ivec2 size(window.width, window.height);
     const glm::vec2 units = glm::vec2(size) * interfacePlaces(mode).size;
-    return picturePlace(mode, size, mControls ? Panels::Rest{{0, 0}, units} : mPanels.rest(units), units);
+    return picturePlace(mode, size,
+                        mControls ? ShownPanels::Rest{{0, 0}, units} : mPanels.shown().rest(units), units);
 }
 
 SizeOption PanelStage::eyeSize() const {
@@ -67,7 +62,7 @@ bool PanelStage::layOut(const InterfacePlaces& places, double dt, bool fresh, bo
 void PanelStage::drawControls(double dt, const ViewFrame* frame, const std::function<void()>& draw) {
     if (mControls && mControls->window().shouldClose()) toggleControls();
     if (!mControls) return;
-    mControls->draw(mPanels, draw, frame, std::exchange(mNewPreview, false), dt);
+    mControls->draw(mPanels.shown(), draw, frame, std::exchange(mNewPreview, false), dt);
 }
 
 }  // namespace stereonav
