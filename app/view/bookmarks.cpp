@@ -7,7 +7,6 @@
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
-#include "engine/image/png_writer.h"
 #include "engine/text/json_text.h"
 
 namespace stereonav {
@@ -100,13 +99,6 @@ void checkMark(const Bookmark& mark) {
         throw Error("", "place", "expected at most 64 KB of settings, got more", "keep fewer");
 }
 
-std::string fullName(const std::string& scene) {
-    std::error_code code;
-    if (fs::path(scene).is_relative() || !fs::exists(scene, code)) return scene;  // built-in scene
-    const fs::path full = fs::canonical(scene, code);
-    return code ? scene : full.string();
-}
-
 }  // namespace
 
 fs::path Bookmarks::placesFolder() {
@@ -114,7 +106,7 @@ fs::path Bookmarks::placesFolder() {
     return data.empty() ? fs::path() : data / "places";
 }
 
-Bookmarks::Bookmarks(const std::string& scene, const fs::path& folder) : mScene(fullName(scene)) {
+Bookmarks::Bookmarks(const std::string& scene, const fs::path& folder) : mScene(fullPath(scene).string()) {
     if (folder.empty()) {
         mUnkept = true;
         return;
@@ -187,14 +179,9 @@ std::string Bookmarks::add(const Bookmark& bookmark, const Plane<PackedColor>* t
     mark.pose.orientation = glm::normalize(mark.pose.orientation);
     mark.name = nameLike(bookmark.name);
     mark.thumbnail.clear();
-    if (thumbnail && thumbnail->width() > 0 && thumbnail->height() > 0 && !mFile.empty()) try {
-            const fs::path file = newThumbnail();
-            const std::vector<unsigned char> bytes = pngBytes(thumbnailOf(*thumbnail));
-            writeKept(file, std::string(bytes.begin(), bytes.end()));
-            mark.thumbnail = file;
-        } catch (const Error&) {
-            // The place is kept without a picture; where nothing can be written a notice says so below.
-        }
+    // Without a picture the place is kept, too; where nothing can be written a notice says so below.
+    const fs::path picture = mFile.empty() ? fs::path() : newThumbnail();
+    if (thumbnail && writeThumbnail(picture, *thumbnail)) mark.thumbnail = picture;
     mList.push_back(mark);
     write();
     return mark.name;

@@ -29,11 +29,6 @@ FindingRefs refsOf(const std::vector<SurfaceFinding>& list) {
 
 }  // namespace
 
-std::filesystem::path findingsFile(const std::filesystem::path& places) {
-    if (places.empty()) return {};
-    return places.parent_path().parent_path() / "findings" / places.filename();
-}
-
 void FindingList::open(std::shared_ptr<const Scene> scene, const std::filesystem::path& file) {
     const std::filesystem::path unwritten = mPage.empty() ? mReport : mPage;
     if (!writes()) cancel();

@@ -118,7 +118,4 @@ private:
     std::future<Outcome> mWork;  // last: its end is waited for
 };
 
-// Returns the file for the findings of a scene, given the one for its places (Bookmarks::file()); "" for "".
-std::filesystem::path findingsFile(const std::filesystem::path& places);
-
 }  // namespace stereonav

@@ -57,10 +57,6 @@ double FrameGovernor::partOf(double area, std::size_t step) const {
     return (mFixed + share) / (mFixed + share * area);
 }
 
-double FrameGovernor::predicted_ms() const {
-    return mLast.empty() ? 0 : predicted(0);
-}
-
 double FrameGovernor::usual_ms() const {
     return mLast.empty() && !(mBefore > 0) ? 0 : predicted(mStep) / partOf(mArea, mStep);
 }

@@ -3,7 +3,6 @@
 // part, and one in proportion to the pixels. The size changes by steps: when frames are clearly too slow, or
 // clearly fast enough for a larger size, which is tried after longer and longer waits where it did not last,
 // so that pictures do not pump.
-// the larger one only after longer and longer waits where it did not last: pictures do not pump.
 #pragma once
 
 #include <array>
@@ -29,13 +28,11 @@ public:
 
     explicit FrameGovernor(double target_ms = 33) : mTarget(target_ms) {}
     void setTarget(double ms) { mTarget = ms; }
-    double target_ms() const { return mTarget; }
     // Sets the area of frames, guard included, as a multiple of the picture's (engine/late/late_guard.h): the
     // size is reduced for it.
     void setArea(double area);
 
     // Notes the time of a frame of this size. Frames of another size than the present one are ignored.
-    void took(double scale, double ms) { took({scale, 1}, ms); }
     void took(const Size& size, double ms, double area = 1);
     // Return the size of the next frame while something moves.
     double scale() const { return kScales[mStep]; }
@@ -45,8 +42,6 @@ public:
     void setMedium(bool medium, bool efforts);
     // Forgets what was learned, for another scene, method or window; the size stays.
     void forget();
-    // Returns the expected time of a frame in full size; 0: not known.
-    double predicted_ms() const;
     // Returns the expected time of a frame in the present size; 0: not known.
     double usual_ms() const;
     // Returns the largest size that is expected to take no longer; the smallest where nothing is known.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <span>
 
 namespace stereonav {
 namespace {
@@ -14,216 +15,131 @@ constexpr double kTurnRate = 0.9;      // radians per second while a key is held
 constexpr double kFast = 4.0;          // factor on the speed while shift is held
 constexpr double kCrossRepeat = 0.05;  // seconds, similar to the repetition of held keys
 
-std::optional<ViewAction> actionOfKey(int key) {
-    switch (key) {
-        case GLFW_KEY_ESCAPE:
-            return ViewAction{ViewCommand::Quit};
-        case GLFW_KEY_F1:
-            return ViewAction{ViewCommand::Help};
-        case GLFW_KEY_F4:
-            return ViewAction{ViewCommand::ShowFullCast};
-        case GLFW_KEY_F5:
-            return ViewAction{ViewCommand::ShowDifference};
-        case GLFW_KEY_F6:
-            return ViewAction{ViewCommand::ShowHoles};
-        case GLFW_KEY_F11:
-            return ViewAction{ViewCommand::FullScreen};
-        case GLFW_KEY_F12:
-            return ViewAction{ViewCommand::Screenshot};
-        case GLFW_KEY_SPACE:
-            return ViewAction{ViewCommand::Home};
-        case GLFW_KEY_TAB:
-            return ViewAction{ViewCommand::HideInterface};
-        case GLFW_KEY_F2:
-            return ViewAction{ViewCommand::Panels};
-        case GLFW_KEY_F3:
-            return ViewAction{ViewCommand::LeftPanels};
-        case GLFW_KEY_F10:
-            return ViewAction{ViewCommand::Unfolded};
-        case GLFW_KEY_F7:
-            return ViewAction{ViewCommand::Controls};
-        case GLFW_KEY_F9:
-            return ViewAction{ViewCommand::ToggleCoverage};
-        case GLFW_KEY_3:
-            return ViewAction{ViewCommand::ToggleStereo};
-        case GLFW_KEY_BACKSPACE:
-            return ViewAction{ViewCommand::TurnRound};  // in slices: removes the last choice
-        case GLFW_KEY_DELETE:
-            return ViewAction{ViewCommand::RemoveSeed};
-        case GLFW_KEY_ENTER:
-        case GLFW_KEY_KP_ENTER:
-            return ViewAction{ViewCommand::FindAgain};
-        default:
-            return std::nullopt;
-    }
-}
-
-std::optional<OutputMode> modeOfDigit(int key) {
-    switch (key) {
-        case GLFW_KEY_1:
-            return OutputMode::SideBySide;
-        case GLFW_KEY_2:
-            return OutputMode::CrossEyed;
-        case GLFW_KEY_4:
-            return OutputMode::SideBySideHalf;
-        case GLFW_KEY_5:
-            return OutputMode::TopBottom;
-        case GLFW_KEY_6:
-            return OutputMode::Rows;
-        case GLFW_KEY_7:
-            return OutputMode::Columns;
-        case GLFW_KEY_8:
-            return OutputMode::Checkerboard;
-        case GLFW_KEY_9:
-            return OutputMode::RedCyanDubois;
-        case GLFW_KEY_0:
-            return OutputMode::Left;
-        default:
-            return std::nullopt;
-    }
-}
-
-std::optional<ViewCommand> repeatableOfLetter(char letter, bool shift) {
-    switch (letter) {
-        case '[':
-            return ViewCommand::LessSeparation;
-        case ']':
-            return ViewCommand::MoreSeparation;
-        case ';':
-            return ViewCommand::NearerZeroParallax;
-        case '\'':
-            return ViewCommand::FartherZeroParallax;
-        case ',':
-            return ViewCommand::LowerIsovalue;
-        case '.':
-            return ViewCommand::HigherIsovalue;
-        case '-':
-            return ViewCommand::SmallerRadius;
-        case '=':
-            return ViewCommand::LargerRadius;
-        case 'g':
-            return shift ? ViewCommand::LessSigma : ViewCommand::MoreSigma;
-        case 'h':
-            return ViewCommand::LowerSun;
-        case 'u':
-            return ViewCommand::HigherSun;
-        case 'j':
-            return ViewCommand::SunAnticlockwise;
-        case 'k':
-            return ViewCommand::SunClockwise;
-        default:
-            return std::nullopt;
-    }
-}
-
-std::optional<ViewCommand> commandOfLetter(char letter, bool shift) {
-    switch (letter) {
-        case 'f':
-            return shift ? ViewCommand::SpeedByDistance : ViewCommand::NextFlightMode;
-        case 'x':
-            return ViewCommand::SwapEyes;
-        case 'm':
-            return shift ? ViewCommand::PreviousMode : ViewCommand::NextMode;
-        case 'n':
-            return ViewCommand::NextMethod;
-        case 'i':
-            return ViewCommand::NextModel;
-        case 'l':
-            return ViewCommand::LinearAnaglyph;
-        case 'r':
-            return ViewCommand::Reset;
-        case 'c':
-            return ViewCommand::FollowClearance;
-        case 't':
-            return shift ? ViewCommand::NextTransfer : ViewCommand::ToggleTranslucent;
-        case 'o':
-            return shift ? ViewCommand::PreviousAmbient : ViewCommand::NextAmbient;
-        case 'b':
-            return ViewCommand::NextModulation;
-        case 'v':
-            return ViewCommand::Slices;
-        case 'p':
-            return ViewCommand::Screenshot;
-        case 'y':
-            return ViewCommand::CaptureMouse;
-        case 'z':
-            return shift ? ViewCommand::Play : ViewCommand::Record;
-        default:
-            return std::nullopt;
-    }
-}
+struct KeyAction {
+    int key;
+    ViewAction action;
+};
+constexpr KeyAction kKeys[] = {
+    {GLFW_KEY_ESCAPE, {ViewCommand::Quit}},
+    {GLFW_KEY_F1, {ViewCommand::Help}},
+    {GLFW_KEY_F2, {ViewCommand::Panels}},
+    {GLFW_KEY_F3, {ViewCommand::LeftPanels}},
+    {GLFW_KEY_F4, {ViewCommand::ShowFullCast}},
+    {GLFW_KEY_F5, {ViewCommand::ShowDifference}},
+    {GLFW_KEY_F6, {ViewCommand::ShowHoles}},
+    {GLFW_KEY_F7, {ViewCommand::Controls}},
+    {GLFW_KEY_F9, {ViewCommand::ToggleCoverage}},
+    {GLFW_KEY_F10, {ViewCommand::Unfolded}},
+    {GLFW_KEY_F11, {ViewCommand::FullScreen}},
+    {GLFW_KEY_F12, {ViewCommand::Screenshot}},
+    {GLFW_KEY_SPACE, {ViewCommand::Home}},
+    {GLFW_KEY_TAB, {ViewCommand::HideInterface}},
+    {GLFW_KEY_3, {ViewCommand::ToggleStereo}},
+    {GLFW_KEY_BACKSPACE, {ViewCommand::TurnRound}},  // in slices: removes the last choice
+    {GLFW_KEY_DELETE, {ViewCommand::RemoveSeed}},
+    {GLFW_KEY_ENTER, {ViewCommand::FindAgain}},
+    {GLFW_KEY_KP_ENTER, {ViewCommand::FindAgain}},
+    {GLFW_KEY_1, {ViewCommand::SetMode, OutputMode::SideBySide}},
+    {GLFW_KEY_2, {ViewCommand::SetMode, OutputMode::CrossEyed}},
+    {GLFW_KEY_4, {ViewCommand::SetMode, OutputMode::SideBySideHalf}},
+    {GLFW_KEY_5, {ViewCommand::SetMode, OutputMode::TopBottom}},
+    {GLFW_KEY_6, {ViewCommand::SetMode, OutputMode::Rows}},
+    {GLFW_KEY_7, {ViewCommand::SetMode, OutputMode::Columns}},
+    {GLFW_KEY_8, {ViewCommand::SetMode, OutputMode::Checkerboard}},
+    {GLFW_KEY_9, {ViewCommand::SetMode, OutputMode::RedCyanDubois}},
+    {GLFW_KEY_0, {ViewCommand::SetMode, OutputMode::Left}},
+};
 
 // Keys that repeat. Where the layout lacks such a letter the position on a US keyboard counts.
-std::optional<ViewCommand> repeatableOfKey(int key) {
-    switch (key) {
-        case GLFW_KEY_LEFT_BRACKET:
-            return ViewCommand::LessSeparation;
-        case GLFW_KEY_RIGHT_BRACKET:
-            return ViewCommand::MoreSeparation;
-        case GLFW_KEY_SEMICOLON:
-            return ViewCommand::NearerZeroParallax;
-        case GLFW_KEY_APOSTROPHE:
-            return ViewCommand::FartherZeroParallax;
-        case GLFW_KEY_MINUS:
-        case GLFW_KEY_KP_SUBTRACT:
-            return ViewCommand::SmallerRadius;
-        case GLFW_KEY_EQUAL:
-        case GLFW_KEY_KP_ADD:
-            return ViewCommand::LargerRadius;
-        case GLFW_KEY_PAGE_UP:
-            return ViewCommand::PreviousSlice;
-        case GLFW_KEY_PAGE_DOWN:
-            return ViewCommand::NextSlice;
-        default:
-            return std::nullopt;
-    }
+constexpr KeyAction kRepeatedKeys[] = {
+    {GLFW_KEY_LEFT_BRACKET, {ViewCommand::LessSeparation}},
+    {GLFW_KEY_RIGHT_BRACKET, {ViewCommand::MoreSeparation}},
+    {GLFW_KEY_SEMICOLON, {ViewCommand::NearerZeroParallax}},
+    {GLFW_KEY_APOSTROPHE, {ViewCommand::FartherZeroParallax}},
+    {GLFW_KEY_MINUS, {ViewCommand::SmallerRadius}},
+    {GLFW_KEY_KP_SUBTRACT, {ViewCommand::SmallerRadius}},
+    {GLFW_KEY_EQUAL, {ViewCommand::LargerRadius}},
+    {GLFW_KEY_KP_ADD, {ViewCommand::LargerRadius}},
+    {GLFW_KEY_PAGE_UP, {ViewCommand::PreviousSlice}},
+    {GLFW_KEY_PAGE_DOWN, {ViewCommand::NextSlice}},
+};
+
+struct LetterCommand {
+    char letter;
+    ViewCommand plain, shifted = plain;
+};
+constexpr LetterCommand kRepeatedLetters[] = {
+    {'[', ViewCommand::LessSeparation},
+    {']', ViewCommand::MoreSeparation},
+    {';', ViewCommand::NearerZeroParallax},
+    {'\'', ViewCommand::FartherZeroParallax},
+    {',', ViewCommand::LowerIsovalue},
+    {'.', ViewCommand::HigherIsovalue},
+    {'-', ViewCommand::SmallerRadius},
+    {'=', ViewCommand::LargerRadius},
+    {'g', ViewCommand::MoreSigma, ViewCommand::LessSigma},
+    {'h', ViewCommand::LowerSun},
+    {'u', ViewCommand::HigherSun},
+    {'j', ViewCommand::SunAnticlockwise},
+    {'k', ViewCommand::SunClockwise},
+};
+constexpr LetterCommand kLetters[] = {
+    {'f', ViewCommand::NextFlightMode, ViewCommand::SpeedByDistance},
+    {'x', ViewCommand::SwapEyes},
+    {'m', ViewCommand::NextMode, ViewCommand::PreviousMode},
+    {'n', ViewCommand::NextMethod},
+    {'i', ViewCommand::NextModel},
+    {'l', ViewCommand::LinearAnaglyph},
+    {'r', ViewCommand::Reset},
+    {'c', ViewCommand::FollowClearance},
+    {'t', ViewCommand::ToggleTranslucent, ViewCommand::NextTransfer},
+    {'o', ViewCommand::NextAmbient, ViewCommand::PreviousAmbient},
+    {'b', ViewCommand::NextModulation},
+    {'v', ViewCommand::Slices},
+    {'p', ViewCommand::Screenshot},
+    {'y', ViewCommand::CaptureMouse},
+    {'z', ViewCommand::Record, ViewCommand::Play},
+};
+constexpr LetterCommand kLettersWithControl[] = {
+    {'o', ViewCommand::OpenFile},
+    {'n', ViewCommand::StartPage},
+    {'b', ViewCommand::AddPlace},
+    {'c', ViewCommand::CopyPlace},
+    {'m', ViewCommand::MeasurePlace},
+    {'f', ViewCommand::AddFinding},
+    {'s', ViewCommand::SaveScene},
+    {'p', ViewCommand::Search},
+    {'z', ViewCommand::Undo, ViewCommand::Redo},
+    {'y', ViewCommand::Redo},
+    {'q', ViewCommand::QuitAtOnce},
+};
+
+std::optional<ViewAction> actionIn(std::span<const KeyAction> table, int key) {
+    for (const KeyAction& entry : table)
+        if (entry.key == key) return entry.action;
+    return std::nullopt;
 }
 
-// Returns the usual actions of keys with Ctrl.
-std::optional<ViewAction> actionWithControl(const KeyPress& press) {
-    switch (std::tolower(static_cast<unsigned char>(press.letter))) {
-        case 'o':
-            return ViewAction{ViewCommand::OpenFile};
-        case 'n':
-            return ViewAction{ViewCommand::StartPage};
-        case 'b':
-            return ViewAction{ViewCommand::AddPlace};
-        case 'c':
-            return ViewAction{ViewCommand::CopyPlace};
-        case 'm':
-            return ViewAction{ViewCommand::MeasurePlace};
-        case 'f':
-            return ViewAction{ViewCommand::AddFinding};
-        case 's':
-            return ViewAction{ViewCommand::SaveScene};
-        case 'p':
-            return ViewAction{ViewCommand::Search};
-        case 'z':
-            return ViewAction{press.shift ? ViewCommand::Redo : ViewCommand::Undo};
-        case 'y':
-            return ViewAction{ViewCommand::Redo};
-        case 'q':
-            return ViewAction{ViewCommand::QuitAtOnce};
-        default:
-            return std::nullopt;
-    }
+std::optional<ViewAction> actionIn(std::span<const LetterCommand> table, char letter, bool shift) {
+    for (const LetterCommand& entry : table)
+        if (entry.letter == letter) return ViewAction{shift ? entry.shifted : entry.plain};
+    return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<ViewAction> actionOf(const KeyPress& press) {
-    if (press.control) return actionWithControl(press);
     const char letter = static_cast<char>(std::tolower(static_cast<unsigned char>(press.letter)));
-    if (const auto command = repeatableOfLetter(letter, press.shift)) return ViewAction{*command};
-    if (const auto command = repeatableOfKey(press.key);
-        command && !std::isalpha(static_cast<unsigned char>(letter)))
-        return ViewAction{*command};
+    if (press.control) return actionIn(kLettersWithControl, letter, press.shift);
+    if (const auto action = actionIn(kRepeatedLetters, letter, press.shift)) return action;
+    if (const auto action = actionIn(kRepeatedKeys, press.key);
+        action && !std::isalpha(static_cast<unsigned char>(letter)))
+        return action;
     if (press.repeat) return std::nullopt;
-    if (const auto command = commandOfLetter(letter, press.shift)) return ViewAction{*command};
+    if (const auto action = actionIn(kLetters, letter, press.shift)) return action;
     if (press.key == GLFW_KEY_F8)
         return ViewAction{press.shift ? ViewCommand::PreviousUnseen : ViewCommand::NextUnseen};
-    if (const auto mode = modeOfDigit(press.key)) return ViewAction{ViewCommand::SetMode, *mode};
-    return actionOfKey(press.key);
+    return actionIn(kKeys, press.key);
 }
 
 const std::vector<KeyHelp>& viewKeys() {

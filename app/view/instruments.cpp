@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/view/frame_views.h"
+#include "app/view/kept_file.h"
 #include "engine/display/window.h"
 
 namespace stereonav {
@@ -13,9 +14,9 @@ constexpr const char* kNothingThere = "nothing is under the pointer";
 }  // namespace
 
 void Instruments::open(const std::shared_ptr<const Scene>& scene, const std::filesystem::path& places) {
-    mMeasured.open(scene, measuredFile(places));
-    mFindings.open(scene, findingsFile(places));
-    mCoverage.open(scene, coverageFile(places));
+    mMeasured.open(scene, keptBeside(places, "lines"));
+    mFindings.open(scene, keptBeside(places, "findings"));
+    mCoverage.open(scene, keptBeside(places, "coverage"));
     mMarked.reset();
 }
 
@@ -54,10 +55,7 @@ std::optional<PaintWork> Instruments::painting() const {
 // Looks at the left eye's picture: the right one shows little more.
 void Instruments::see(const ViewFrame& frame, const AskedFrames& asked) {
     if (!mCoverage.on() || mSession->slices().shown() || !asked.ofSession(frame)) return;
-    const FrameRequest& of = frame.request;
-    mCoverage.show(
-        of.twoEyes ? makeStereoViews(of.pose, of.lens, of.stereo).left : makeEyeView(of.pose, of.lens),
-        Window::now(), !of.flying);
+    mCoverage.show(viewsOf(frame.request).left, Window::now(), !frame.request.flying);
 }
 
 void Instruments::measure(bool on) {

@@ -57,11 +57,6 @@ EyeView eyeOf(const nlohmann::json& row) {
 
 }  // namespace
 
-std::filesystem::path coverageFile(const std::filesystem::path& places) {
-    if (places.empty()) return {};
-    return places.parent_path().parent_path() / "coverage" / places.filename();
-}
-
 void writeFlown(const std::filesystem::path& file, const FlownWay& flown) {
     std::string text = fmt::format("{{\"{}\": {}, \"metres\": {:.3f}, \"seconds\": {:.1f}, \"eyes\": [",
                                    kMark, kVersion, flown.metres, flown.seconds);

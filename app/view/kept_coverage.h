@@ -18,9 +18,6 @@ struct FlownWay {
     double metres = 0, seconds = 0;
 };
 
-// Returns the file for the flight of a scene, given the one for its places (Bookmarks::file()); "" for "".
-std::filesystem::path coverageFile(const std::filesystem::path& places);
-
 // Writes with a precision of a hundredth of a millimetre, and 1e-5 for angles. Throws Error like writeKept.
 void writeFlown(const std::filesystem::path& file, const FlownWay& flown);
 

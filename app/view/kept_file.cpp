@@ -8,6 +8,7 @@
 #include "engine/base/file.h"
 #include "engine/base/new_file.h"
 #include "engine/base/own_folder.h"
+#include "engine/image/png_writer.h"
 #include "engine/text/json_check.h"
 #include "engine/text/printable.h"
 #include "engine/text/utf8.h"
@@ -61,6 +62,10 @@ fs::path stateFolder() {
 
 fs::path configFolder() {
     return ownFolder("XDG_CONFIG_HOME", ".config");
+}
+
+fs::path keptBeside(const fs::path& places, const char* folder) {
+    return places.empty() ? fs::path() : places.parent_path().parent_path() / folder / places.filename();
 }
 
 std::optional<std::string> readKept(const fs::path& file) {
@@ -182,6 +187,24 @@ Plane<PackedColor> thumbnailOf(const Plane<PackedColor>& picture, int width, int
         }
     }
     return small;
+}
+
+bool writeThumbnail(const fs::path& file, const Plane<PackedColor>& picture) {
+    if (picture.width() < 1 || picture.height() < 1) return false;
+    try {
+        const std::vector<unsigned char> bytes = pngBytes(thumbnailOf(picture));
+        writeKept(file, std::string(bytes.begin(), bytes.end()));
+    } catch (const Error&) {
+        return false;
+    }
+    return true;
+}
+
+fs::path fullPath(const fs::path& path) {
+    std::error_code code;
+    if (path.is_relative() || !fs::exists(path, code)) return path;
+    const fs::path full = fs::canonical(path, code);
+    return code ? path : full;
 }
 
 }  // namespace stereonav

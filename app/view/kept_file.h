@@ -21,6 +21,10 @@ std::filesystem::path dataFolder();
 std::filesystem::path stateFolder();
 std::filesystem::path configFolder();
 
+// Returns the file of a scene in another folder of kept files, given the one for its places
+// (Bookmarks::file()); "" for "".
+std::filesystem::path keptBeside(const std::filesystem::path& places, const char* folder);
+
 // Returns the content of a kept file; empty: it does not exist. Throws Error where it can not be read, or is
 // larger than kMostKeptBytes.
 constexpr std::uintmax_t kMostKeptBytes = 16 << 20;
@@ -52,5 +56,12 @@ std::optional<std::filesystem::path> pathOfJson(const nlohmann::json& json);
 constexpr int kThumbnailWidth = 160, kThumbnailHeight = 90;
 Plane<PackedColor> thumbnailOf(const Plane<PackedColor>& picture, int width = kThumbnailWidth,
                                int height = kThumbnailHeight);
+
+// Writes a picture's thumbnail as a PNG file. Returns false where it can not be written, or the picture is
+// empty.
+bool writeThumbnail(const std::filesystem::path& file, const Plane<PackedColor>& picture);
+
+// Returns the full path, without links; the name of a built-in scene as it is.
+std::filesystem::path fullPath(const std::filesystem::path& path);
 
 }  // namespace stereonav

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "app/options/option_value.h"
+#include "app/view/sun_clock.h"
 #include "engine/scene/live_paint.h"
 #include "engine/scene/shown_values.h"
 #include "engine/text/number.h"
@@ -20,11 +21,6 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr const char* kPaintKeys[] = {"contours", "paint", "tracks"};
 
-// Returns an angle to a thousandth of a degree, which is not visible in a picture.
-std::string degreeText(double radians) {
-    return fmt::format("{:.6g}", std::round(1000 * radians / kDegree) / 1000 + 0.0);
-}
-
 // The option that sets a scene's turning light.
 enum class LightKey { None, Sun, LightFrom, Sky };
 LightKey lightKeyOf(const ViewSession& session) {
@@ -36,7 +32,20 @@ LightKey lightKeyOf(const ViewSession& session) {
 }
 
 std::string sunText(const SunPlace& sun) {
-    return degreeText(std::remainder(sun.azimuth, 2 * std::numbers::pi)) + "," + degreeText(sun.elevation);
+    return sunOptionText({std::remainder(sun.azimuth, 2 * std::numbers::pi), sun.elevation});
+}
+
+std::string sunNow(const ViewSession& s) {
+    return sunText(s.light().sun());
+}
+bool sunAsBegun(const ViewSession& s) {
+    return sunNow(s) == sunText(s.open().sun);
+}
+void setSun(ViewSession& s, const OptionValue& value) {
+    s.light().place({value.numbers[0] * kDegree, value.numbers[1] * kDegree});
+}
+void resetSun(ViewSession& s) {
+    s.light().place(s.open().sun);
 }
 
 std::string turnText(const SunPlace& sky) {
@@ -148,20 +157,10 @@ constexpr Live kLive[] = {
      [](const ViewSession& s) { return s.lens().verticalFov == s.open().scene->lens.verticalFov; },
      [](ViewSession& s, const OptionValue& value) { s.setFov(value.number() * kDegree); },
      [](ViewSession& s) { s.setFov(std::nullopt); }},
-    {"sun", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::Sun; },
-     [](const ViewSession& s) { return sunText(s.light().sun()); },
-     [](const ViewSession& s) { return sunText(s.light().sun()) == sunText(s.open().sun); },
-     [](ViewSession& s, const OptionValue& value) {
-         s.light().place({value.numbers[0] * kDegree, value.numbers[1] * kDegree});
-     },
-     [](ViewSession& s) { s.light().place(s.open().sun); }},
-    {"light-from", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::LightFrom; },
-     [](const ViewSession& s) { return sunText(s.light().sun()); },
-     [](const ViewSession& s) { return sunText(s.light().sun()) == sunText(s.open().sun); },
-     [](ViewSession& s, const OptionValue& value) {
-         s.light().place({value.numbers[0] * kDegree, value.numbers[1] * kDegree});
-     },
-     [](ViewSession& s) { s.light().place(s.open().sun); }},
+    {"sun", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::Sun; }, sunNow, sunAsBegun, setSun,
+     resetSun},
+    {"light-from", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::LightFrom; }, sunNow,
+     sunAsBegun, setSun, resetSun},
     {"turn", [](const ViewSession& s) { return lightKeyOf(s) == LightKey::Sky; },
      [](const ViewSession& s) { return turnText(s.light().sun()); },
      [](const ViewSession& s) { return turnText(s.light().sun()) == turnText(s.open().sun); },

@@ -42,11 +42,6 @@ bool isMeasuredLine(const nlohmann::json& file) {
 
 }  // namespace
 
-std::filesystem::path measuredFile(const std::filesystem::path& places) {
-    if (places.empty()) return {};
-    return places.parent_path().parent_path() / "lines" / places.filename();
-}
-
 MeasuredSurface straightMeasure(const std::vector<glm::dvec3>& places, bool closed) {
     MeasuredSurface measured;
     measured.places = places;

@@ -77,9 +77,6 @@ private:
     BesideWork<Outcome> mWork;  // last: it is cancelled, and its end waited for, first
 };
 
-// Returns the file for the line of a scene, given the one for its places (Bookmarks::file()); "" for "".
-std::filesystem::path measuredFile(const std::filesystem::path& places);
-
 // Returns measurements that every scene has: lengths from place to place in space, and around where it is
 // closed.
 MeasuredSurface straightMeasure(const std::vector<glm::dvec3>& places, bool closed);

@@ -7,7 +7,6 @@
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
-#include "engine/image/png_writer.h"
 #include "engine/text/json_text.h"
 
 namespace stereonav {
@@ -28,13 +27,6 @@ bool isRecent(const json& file) {
     return file.is_object() && file.value("stereonav_recent", json()) == json(kRecentVersion) &&
            file.contains("files") && file["files"].is_array() &&
            std::all_of(file["files"].begin(), file["files"].end(), isRecentFile);
-}
-
-fs::path fullPath(const fs::path& path) {
-    std::error_code code;
-    if (path.is_relative() || !fs::exists(path, code)) return path;  // built-in scene
-    const fs::path full = fs::canonical(path, code);
-    return code ? path : full;
 }
 
 fs::path thumbnailOfFile(const fs::path& folder, const fs::path& path) {
@@ -92,14 +84,9 @@ void RecentFiles::add(const fs::path& given, const std::string& kind, const Plan
         recent.thumbnail = same->thumbnail;
         mList.erase(same);
     }
-    if (thumbnail && thumbnail->width() > 0 && thumbnail->height() > 0 && !mFolder.empty()) try {
-            const std::vector<unsigned char> bytes = pngBytes(thumbnailOf(*thumbnail));
-            const fs::path file = thumbnailOfFile(mFolder, recent.path);
-            writeKept(file, std::string(bytes.begin(), bytes.end()));
-            recent.thumbnail = file;
-        } catch (const Error&) {
-            // The file is listed without a picture; where nothing can be written a notice says so below.
-        }
+    // Without a picture the file is listed, too; where nothing can be written a notice says so below.
+    const fs::path picture = mFolder.empty() ? fs::path() : thumbnailOfFile(mFolder, recent.path);
+    if (thumbnail && writeThumbnail(picture, *thumbnail)) recent.thumbnail = picture;
     mList.insert(mList.begin(), std::move(recent));
     while (mList.size() > kMost) forget(mList.end() - 1);
     write();

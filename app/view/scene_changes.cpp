@@ -180,13 +180,13 @@ void SceneChanges::change(const SettingTexts& settings) {
 }
 
 void SceneChanges::undo() {
-    const auto settings = mSettings.undo();
+    const auto settings = mSettings.history().undo();
     if (!settings) return mSession->notify("there is nothing to undo");
     mNotices.tryTo([&] { change(*settings); });
 }
 
 void SceneChanges::redo() {
-    const auto settings = mSettings.redo();
+    const auto settings = mSettings.history().redo();
     if (!settings) return mSession->notify("there is nothing to redo");
     mNotices.tryTo([&] { change(*settings); });
 }

@@ -62,15 +62,8 @@ public:
     // Forgets the screen's width or distance that was given.
     void forgetScreen(const std::string& key, std::optional<double> ViewOptions::*size);
 
-    // Starts undo with the present settings.
-    void startSteps() { mHistory.start(now()); }
-    // Observes the settings; to be called each turn. changing: a control is held; dt: seconds.
-    void observe(bool changing, double dt) { mHistory.observe(now(), changing, dt); }
-    bool canUndo() const { return mHistory.canUndo(); }
-    bool canRedo() const { return mHistory.canRedo(); }
-    // Return the settings to go to; empty: there is no step.
-    std::optional<SettingTexts> undo() { return mHistory.undo(); }
-    std::optional<SettingTexts> redo() { return mHistory.redo(); }
+    SettingsHistory& history() { return mHistory; }
+    const SettingsHistory& history() const { return mHistory; }
 
     // Writes a scene file that shows the present scene (savedScene()), and returns its path. Throws Error,
     // also where another file is there.

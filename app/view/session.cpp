@@ -11,7 +11,6 @@
 #include "app/view/mode_steps.h"
 #include "app/view/raised_ground.h"
 #include "app/view/status.h"
-#include "engine/text/length_text.h"
 
 namespace stereonav {
 namespace {
@@ -361,29 +360,6 @@ std::string ViewSession::measuredText(const ViewFrame& frame) const {
     const bool known =
         mMeasured.version == frame.request.version && mMeasured.version > 0 && mMeasured.note.empty();
     return known ? truthText(mMeasured) : "";
-}
-
-std::string ViewSession::statusLine(const ViewFrame& frame, double framesPerSecond) const {
-    std::string line = frameText(frame, framesPerSecond);
-    if (frame.request.twoEyes)
-        line += fmt::format("  {}{}{}{}", infoOf(mMode).longName, mSwapped ? " swapped" : "",
-                            *mStereo.word() ? "  " : "", mStereo.word());
-    if (const std::string measured = measuredText(frame); !measured.empty()) line += "  " + measured;
-    const auto* const models = offered<LightModels>();
-    if (models && !models->names().empty())
-        line += "  " + models->names()[static_cast<std::size_t>(frame.request.model)];
-    if (!frame.sweep.empty()) line += "  " + frame.sweep;
-    const double clearance = flight().clearanceNow();
-    if (std::isfinite(clearance)) line += "  clearance " + lengthText(clearance);
-    if (const auto* const through = offered<LineThrough>()) {
-        const PlaceOnLine place = through->placeOnLine(pose().position);
-        line += fmt::format("  at {:.0f} of {:.0f} mm", 1000 * place.along, 1000 * place.length);
-    }
-    line += mSurface.text();
-    if (mPaths.playing())
-        line += fmt::format("  playing {:.1f} of {:.1f} s", mPaths.time(), mPaths.path().duration());
-    if (mPaths.recording()) line += fmt::format("  recording {:.1f} s", mPaths.recorded());
-    return line;
 }
 
 }  // namespace stereonav

@@ -107,9 +107,6 @@ public:
     const std::string& notice() const { return mNotice.text(); }
     void notify(const std::string& text) { mNotice.say(text); }
 
-    // Returns "24.0 fps  left 3.1 ms  warp ...".
-    std::string statusLine(const ViewFrame& frame, double framesPerSecond) const;
-
     const StereoSetting& stereo() const { return mStereo.now(); }
     const ViewStereo& eyes() const { return mStereo; }
     ViewStereo& eyes() { return mStereo; }  // for changes other than by keys

@@ -75,11 +75,7 @@ bool SessionSurface::actOnAmbient(ViewCommand command) {
 }
 
 void SessionSurface::askForChange() {
-    SceneChange& change = mChange.emplace();
-    change.surface.isovalue = mIsovalue;
-    change.surface.translucent = mTranslucent;
-    change.surface.transfer = mTransfer;
-    change.surface.ambient = mAmbient;
+    mChange.emplace().surface = now();
 }
 
 SurfaceChange SessionSurface::now() const {
@@ -187,15 +183,6 @@ std::string SessionSurface::modulationText() const {
     std::string text =
         fmt::format("opacity by {} within {}", mAmbient->modulate, lengthText(mAmbient->modulateRadius));
     if (sigmaNow() > 0) text += fmt::format(", whole from {:.3g}", sigmaNow());
-    return text;
-}
-
-std::string SessionSurface::text() const {
-    std::string text;
-    if (mIsovalue) text += fmt::format("  surface at {:.6g}", *mIsovalue);
-    if (mTranslucent && !mTransfer.empty()) text += "  " + mTransfer;
-    if (mAmbient && mAmbient->lit) text += "  " + ambientText();
-    if (mAmbient && mTranslucent && !mAmbient->modulate.empty()) text += "  " + modulationText();
     return text;
 }
 

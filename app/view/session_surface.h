@@ -36,7 +36,6 @@ public:
     void forgetChange();
     // Asks for a lumen of these pieces.
     void askForPieces(const PieceChoices& pieces);
-    std::string text() const;  // for the status line
 
 private:
     const SurfaceChoices* choices() const { return mScene->scene->offered<SurfaceChoices>(); }

@@ -33,7 +33,6 @@ public:
     std::optional<glm::dvec3> worldAt(double x, double y, int slice) const;
     // Returns the place of the slice's middle along the patient's axis in millimetres.
     double placeOf(int slice) const;
-    double pixelsPerMetre() const { return mScale; }
     // Returns this layout enlarged by `factor` (at least 1) around a world place, which stays in the
     // picture's middle as far as the study allows.
     SliceLayout zoomed(double factor, const glm::dvec3& world) const;

@@ -167,10 +167,4 @@ void ViewStereo::step(double free, double depth, double dt) {
     mMoving = before.separation != mNow.separation || before.zeroParallax != mNow.zeroParallax;
 }
 
-const char* ViewStereo::word() const {
-    if (follows()) return "eyes follow";
-    if (mClamp) return "comfort clamp";
-    return mFitted ? "comfort" : "";
-}
-
 }  // namespace stereonav

@@ -55,8 +55,6 @@ public:
     // Returns the setting that the eyes go to, without the clamp.
     const StereoSetting& target() const { return follows() ? mNow : mTarget; }
     bool moving() const { return mMoving; }  // in the last step
-    // Returns "eyes follow", "comfort", "comfort clamp" for the status bar; "" for none of them.
-    const char* word() const;
 
 private:
     void look(const Scene& scene);

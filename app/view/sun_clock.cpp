@@ -47,10 +47,6 @@ std::optional<std::array<int, count>> wholesOf(std::string_view text, char betwe
     return text.empty() ? std::optional(numbers) : std::nullopt;
 }
 
-std::string roundDegrees(double radians) {
-    return fmt::format("{:.6g}", std::round(1000 * radians / kArcDegree) / 1000 + 0.0);
-}
-
 }  // namespace
 
 bool SunClock::operator==(const SunClock& other) const {
@@ -143,8 +139,12 @@ SunThen sunThen(const SunClock& asked, double north) {
     return sun;
 }
 
+std::string degreeText(double radians) {
+    return fmt::format("{:.6g}", std::round(1000 * radians / kArcDegree) / 1000 + 0.0);
+}
+
 std::string sunOptionText(const SunPlace& sun) {
-    return roundDegrees(sun.azimuth) + "," + roundDegrees(sun.elevation);
+    return degreeText(sun.azimuth) + "," + degreeText(sun.elevation);
 }
 
 std::string describe(const SunThen& sun) {

@@ -42,7 +42,9 @@ struct SunThen {
 // north: direction of the Earth's north, radians clockwise from the world's (OnEarth::northAt).
 SunThen sunThen(const SunClock& clock, double north);
 
-// Returns a value of --sun, to a thousandth of a degree.
+// Returns an angle to a thousandth of a degree, which is not visible in a picture.
+std::string degreeText(double radians);
+// Returns a value of --sun.
 std::string sunOptionText(const SunPlace& sun);
 // Returns "azimuth 182.3, elevation 66.0 degrees", whether that is below the horizon, sunrise and sunset: a
 // line each.

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "app/view/frame_views.h"
 #include "app/view/late_view.h"
 #include "engine/frame/sliced_frames.h"
 #include "engine/metrics/image_difference.h"
@@ -60,14 +61,10 @@ private:
     int mCount = 0;
 };
 
-StereoViews viewsAt(const FrameRequest& request, const ShownPicture& picture) {
-    Lens lens = request.lens;
-    lens.width = picture.left->width();
-    lens.height = picture.left->height();
-    if (request.twoEyes) return makeStereoViews(request.pose, lens, request.stereo);
-    StereoViews views;
-    views.left = views.right = makeEyeView(request.pose, lens);
-    return views;
+StereoViews viewsAt(FrameRequest request, const ShownPicture& picture) {
+    request.lens.width = picture.left->width();
+    request.lens.height = picture.left->height();
+    return viewsOf(request);
 }
 
 void setLight(const Scene& scene, const FrameRequest& request) {

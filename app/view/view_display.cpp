@@ -120,19 +120,12 @@ double ViewDisplay::pictureWidthOf(const ViewFrame& frame, const ScreenTold& on)
                         on.pixelsWide > 0 ? on.pixelsWide : window);
 }
 
-std::string ViewDisplay::parallaxText(const ViewFrame& frame) const {
-    if (!frame.request.twoEyes) return "";
+ScreenWords ViewDisplay::wordsOf(const ViewFrame& frame) const {
+    if (!frame.request.twoEyes) return {};
     const ScreenTold on = told();
     const double width = pictureWidthOf(frame, on), distance = mSizes.of(on).distance_mm / 1000;
-    return screenParallaxText(onScreen(frame.nearParallax, width, distance),
-                              onScreen(frame.farParallax, width, distance));
-}
-
-std::string ViewDisplay::warning(const ViewFrame& frame) const {
-    if (!frame.request.twoEyes) return "";
-    const ScreenTold on = told();
-    return divergenceText(
-        onScreen(frame.farParallax, pictureWidthOf(frame, on), mSizes.of(on).distance_mm / 1000));
+    const auto far = onScreen(frame.farParallax, width, distance);
+    return {screenParallaxText(onScreen(frame.nearParallax, width, distance), far), divergenceText(far)};
 }
 
 }  // namespace stereonav

@@ -66,9 +66,7 @@ public:
 
     // Returns texts for the real screen: parallax for the status bar, and a warning where eyes would have to
     // diverge.
-    ScreenWords wordsOf(const ViewFrame& frame) const { return {parallaxText(frame), warning(frame)}; }
-    std::string parallaxText(const ViewFrame& frame) const;
-    std::string warning(const ViewFrame& frame) const;
+    ScreenWords wordsOf(const ViewFrame& frame) const;
 
 private:
     void fill(const std::string& monitor);

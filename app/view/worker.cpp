@@ -364,7 +364,7 @@ std::optional<ViewWorker::Job> ViewWorker::nextJob(Drawn& drawn) {
             mInterrupt = false;
             return Job{inFull(drawn.job->request), drawn.job->scene, nullptr, true};
         }
-        const bool measures = mMeasures && drawn.frame, refines = mRefiner->wantsMore();
+        const bool measures = drawn.frame != nullptr, refines = mRefiner->wantsMore();
         const auto now = std::chrono::steady_clock::now(), rested = drawn.since + kRest;
         if (light && drawn.job->scene == mScene && light->changes() != drawn.lightChanges &&
             now >= drawn.since + kLookAtLight)
@@ -449,15 +449,6 @@ void ViewWorker::refine(const Drawn& drawn) {
 std::optional<FrameTruth> ViewWorker::takeTruth() {
     const std::lock_guard lock(mMutex);
     return std::exchange(mTruth, std::nullopt);
-}
-
-void ViewWorker::measureTruth(bool on) {
-    {
-        const std::lock_guard lock(mMutex);
-        mMeasures = on;
-        if (!on) mInterrupt = true;
-    }
-    mAsked.notify_all();
 }
 
 void ViewWorker::request(const FrameRequest& request) {

@@ -140,7 +140,6 @@ public:
     // Returns the result of comparing the right eye with its truth, once while the newest frame rests; empty
     // where there is nothing new since the last call. A request ends the comparison (TruthMaker::measure).
     std::optional<FrameTruth> takeTruth();
-    void measureTruth(bool on);  // on at first
     static constexpr std::chrono::milliseconds kRest{300};
     // Time without drawing after which free memory of frames and scenes is returned to the system.
     static constexpr std::chrono::milliseconds kLongRest{5000};
@@ -184,7 +183,6 @@ private:
     std::deque<Task> mTasks;
     std::shared_ptr<const ViewFrame> mNewest;
     std::optional<FrameTruth> mTruth;
-    bool mMeasures = true;
     bool mStop = false;
     FrameRequest mAtWork;                  // newest request that was begun
     std::atomic<bool> mDrop = false;       // drops the picture that is being made

@@ -226,15 +226,15 @@ TEST_F(OnMonitors, ParallaxIsToldAsItIsOnTheScreen) {
     frame.left.color = Plane<PackedColor>(320, 1);
     frame.nearParallax = -0.02;
     frame.farParallax = 0.05;
-    EXPECT_EQ(display.parallaxText(frame), "on the screen -20.0 to +50.0 mm, -1.15 to +2.86 degrees");
-    EXPECT_EQ(display.warning(frame), "");
+    EXPECT_EQ(display.wordsOf(frame).parallax, "on the screen -20.0 to +50.0 mm, -1.15 to +2.86 degrees");
+    EXPECT_EQ(display.wordsOf(frame).warning, "");
     frame.farParallax = 0.07;
-    EXPECT_THAT(display.warning(frame), testing::HasSubstr("70 mm"));
+    EXPECT_THAT(display.wordsOf(frame).warning, testing::HasSubstr("70 mm"));
     frame.left.color = Plane<PackedColor>(160, 1);
-    EXPECT_EQ(display.warning(frame), "") << "half as wide: full side by side, or beside panels";
+    EXPECT_EQ(display.wordsOf(frame).warning, "") << "half as wide: full side by side, or beside panels";
     frame.request.twoEyes = false;
-    EXPECT_EQ(display.parallaxText(frame), "");
-    EXPECT_EQ(display.warning(frame), "");
+    EXPECT_EQ(display.wordsOf(frame).parallax, "");
+    EXPECT_EQ(display.wordsOf(frame).warning, "");
 }
 
 class OnTwoMonitors : public OnMonitors {

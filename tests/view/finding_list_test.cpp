@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "app/output/eye_marks.h"
-#include "app/view/frame_views.h"
 #include "app/view/finding_marks.h"
+#include "app/view/frame_views.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "tests/camera/temporary_folder.h"
@@ -344,8 +344,6 @@ TEST_F(FindingListTest, ADamagedFileIsSetAside) {
     EXPECT_TRUE(std::filesystem::exists(mFile.string() + ".damaged"));
     mList.add({3, 0, 0});
     EXPECT_EQ(readTextFile(mFile), "list\n3.000000 \n");
-    EXPECT_EQ(findingsFile("/data/places/a.json"), std::filesystem::path("/data/findings/a.json"));
-    EXPECT_EQ(findingsFile(""), std::filesystem::path());
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct GovernedFlight {
             const double cost = full_ms(n) * (fixed + (1 - fixed) * scale * scale);
             scales.push_back(scale);
             ms.push_back(cost);
-            governor.took(scale, cost);
+            governor.took({scale, 1}, cost);
         }
     }
     int changes(std::size_t from, std::size_t to) const {
@@ -163,7 +163,7 @@ TEST(FrameGovernor, LeavesOutAMediumsSlicesLast) {
     governor.setMedium(true, true);
     while (governor.scale() < 1) governor.took({governor.scale(), governor.effort()}, 1);
     governor.setTarget(130);
-    governor.took(1, 1000);
+    governor.took({}, 1000);
     EXPECT_LT(governor.scale(), 0.6);
     EXPECT_EQ(governor.effort(), 1);
     const FrameGovernor::Size before{governor.scale(), governor.effort()};
@@ -207,17 +207,17 @@ TEST(FrameGovernor, TheSizePaysForAWiderFrame) {
 
 TEST(FrameGovernor, TakesNoFrameForAnother) {
     FrameGovernor governor(kGovernedTarget);
-    EXPECT_EQ(governor.predicted_ms(), 0);
-    for (int n = 0; n < 10; ++n) governor.took(1, 120);
+    EXPECT_EQ(governor.usual_ms(), 0);
+    for (int n = 0; n < 10; ++n) governor.took({}, 120);
     const double scale = governor.scale();
     EXPECT_LT(scale, 0.7);
-    for (int n = 0; n < 10; ++n) governor.took(1, 500);  // full ones, at rest
-    governor.took(scale, std::nan(""));
-    governor.took(scale, 0);
+    for (int n = 0; n < 10; ++n) governor.took({}, 500);  // full ones, at rest
+    governor.took({scale, 1}, std::nan(""));
+    governor.took({scale, 1}, 0);
     EXPECT_EQ(governor.scale(), scale);
     governor.forget();
     EXPECT_EQ(governor.scale(), scale);
-    EXPECT_EQ(governor.predicted_ms(), 0);
+    EXPECT_EQ(governor.usual_ms(), 0);
 }
 
 }  // namespace

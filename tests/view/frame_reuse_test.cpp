@@ -57,9 +57,7 @@ std::vector<Kind> kindsOfPictures() {
 
 class Looked {
 public:
-    explicit Looked(const FakeParts& parts) : mWorker([parts](Progress&) { return openOf(parts); }, [] {}) {
-        mWorker.measureTruth(false);  // for pictures that rest
-    }
+    explicit Looked(const FakeParts& parts) : mWorker([parts](Progress&) { return openOf(parts); }, [] {}) {}
     std::shared_ptr<const ViewFrame> frame(FrameRequest request) {
         request.version = ++mVersion;
         mWorker.request(request);
@@ -166,7 +164,6 @@ TEST(FrameReuse, ALateWarpIsOfTheFrameThatIsShown) {
 TEST(FrameReuse, ATruthIsOfTheNewestFrame) {
     const StripedScene scene;
     Looked looked(scene.parts());
-    looked.worker().measureTruth(true);
     std::optional<FrameTruth> alone;
     for (const double x : {0.0, 3.0, 0.0}) {
         FrameRequest request = plainRequest();

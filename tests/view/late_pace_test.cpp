@@ -99,7 +99,7 @@ TEST(LateLead, HoldsWithTheGovernorBesideAnotherProcess) {
         flight.now += took;
         flight.lead.came(asked, flight.now);
         const double scale = governor.scale();
-        governor.took(scale, 1000 * took);
+        governor.took({scale, 1}, 1000 * took);
         changes += governor.scale() != scale;
         const bool steady = asked > 1.5 && std::abs(asked - 4) > 0.6 && std::abs(asked - 8) > 3;
         if (steady) worst = std::max(worst, std::abs(asked + ahead - (flight.now + 0.5 * took)) / took);

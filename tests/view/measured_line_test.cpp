@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/view/kept_file.h"
 #include "engine/base/error.h"
 #include "tests/camera/temporary_folder.h"
 #include "tests/support/gate.h"
@@ -324,9 +325,9 @@ TEST(MeasuredLine, ThereAndBackSaysTheSame) {
 }
 
 TEST(MeasuredLine, LiesBesideThePlacesOfItsScene) {
-    EXPECT_EQ(measuredFile("/home/a/.local/share/stereonav/places/12.json"),
+    EXPECT_EQ(keptBeside("/home/a/.local/share/stereonav/places/12.json", "lines"),
               std::filesystem::path("/home/a/.local/share/stereonav/lines/12.json"));
-    EXPECT_EQ(measuredFile(""), std::filesystem::path());
+    EXPECT_EQ(keptBeside("", "lines"), std::filesystem::path());
 }
 
 }  // namespace

@@ -68,7 +68,6 @@ protected:
     }
     std::shared_ptr<const ViewFrame> frameOf(const FakeParts& parts, const FrameRequest& request) {
         ViewWorker worker([&](Progress&) { return openOf(parts); }, [] {});
-        worker.measureTruth(false);
         worker.request(request);
         return test::waitFor([&] { return worker.takeFrame(); });
     }

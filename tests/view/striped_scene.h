@@ -22,9 +22,10 @@ public:
 
     int tileCount(const EyeView&) const override { return kTiles; }
     void renderTile(const EyeView& view, int tile, EyeImage& image) const override {
+        const bool right = view.eye.x > 0.1;
         ++tiles;
-        ofRightEye += view.eye.x > 0.1;
-        test::waitFor([&] { return !hold; });
+        ofRightEye += right;
+        if (right) test::waitFor([&] { return !holdRight; });
         for (int y = view.height * tile / kTiles; y < view.height * (tile + 1) / kTiles; ++y)
             for (int x = 0; x < view.width; ++x) paint(view, x, y, image);
     }
@@ -37,7 +38,7 @@ public:
     }
 
     mutable std::atomic<int> tiles = 0, ofRightEye = 0;  // tiles that were begun
-    std::atomic<bool> hold = false;                      // holds tiles that are begun
+    std::atomic<bool> holdRight = false;                 // holds tiles of the right eye that are begun
 
 private:
     static void paint(const EyeView& view, int x, int y, EyeImage& image) {

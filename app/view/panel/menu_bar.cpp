@@ -43,7 +43,7 @@ void fileMenu(const PanelParts& parts, ShownPanels& panels, MenuWishes& wishes) 
 void editMenu(const PanelParts& parts) {
     if (!ImGui::BeginMenu("Edit")) return;
     const KeyframeEdit& keyframes = parts.keyframes.edit();
-    const SceneSettings& settings = parts.changes.settings();
+    const SettingsHistory& settings = parts.changes.settings().history();
     const bool undo = parts.session && (keyframes.canUndo() || settings.canUndo());
     const bool redo = parts.session && (keyframes.canRedo() || settings.canRedo());
     if (ImGui::MenuItem("Undo", "Ctrl+Z", false, undo)) parts.actions.ask({ViewCommand::Undo});

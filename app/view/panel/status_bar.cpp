@@ -107,21 +107,23 @@ void askBeforeClosing(const PanelParts& parts, const std::string& question, floa
     if (ImGui::Button("Go on##closing")) parts.closing.goOn();
 }
 
-void drawPreparing(const PanelParts& parts, const PaintWork& work, float wrap) {
-    wrappedText(work.what, wrap);
-    ImGui::ProgressBar(static_cast<float>(work.fraction), {std::min(wrap, 20 * ImGui::GetFontSize()), 0});
+// Draws work in progress; returns true where it is to be cancelled. text: on the bar; null: the share. tip:
+// of the bar.
+bool drawWork(const char* cancel, const std::string& what, double fraction, float wrap, const char* text,
+              const std::string& tip = "") {
+    wrappedText(what, wrap);
+    ImGui::ProgressBar(static_cast<float>(fraction), {std::min(wrap, 20 * ImGui::GetFontSize()), 0}, text);
+    if (!tip.empty()) tooltip(tip);
     ImGui::SameLine();
-    if (ImGui::Button("Cancel##prepare")) parts.changes.cancelPreparing();
+    return ImGui::Button(cancel);
 }
 
-void drawPainting(const PanelParts& parts, const PaintWork& work, float wrap) {
-    wrappedText(work.what.empty() ? "painting the ground" : work.what, wrap);
-    // Work without a known share shows no figure.
-    ImGui::ProgressBar(static_cast<float>(work.fraction), {std::min(wrap, 20 * ImGui::GetFontSize()), 0},
-                       work.fraction > 0 ? nullptr : "");
-    ImGui::SameLine();
-    if (ImGui::Button("Cancel##paint"))
-        if (auto* const paint = parts.session->open().scene->offered<LivePaint>()) paint->cancel();
+// Returns "52 %, 12 s left"; the remaining time is shown once it is more than a guess: from this share on.
+std::string shareText(double fraction, double seconds, double least) {
+    std::string text = fmt::format("{:.0f} %", 100 * fraction);
+    if (fraction > least && seconds > 2)
+        text += fmt::format(", {:.0f} s left", std::ceil(seconds / fraction - seconds));
+    return text;
 }
 
 }  // namespace
@@ -201,39 +203,22 @@ void drawNotices(const PanelParts& parts, float left, float right, float top) {
         if (ImGui::Button("Copy")) parts.clipboard.copy(parts.notices.failure());
     }
     if (!notice.empty()) wrappedText(notice, wrap);
-    if (waits) {
-        wrappedText(loading.what.empty() ? "loading" : loading.what, wrap);
-        const double gone = parts.changes.loadingSeconds();
-        std::string text = fmt::format("{:.0f} %", 100 * loading.fraction);
-        // The remaining time is shown once it is more than a guess.
-        if (loading.fraction > 0.1 && gone > 2)
-            text += fmt::format(", {:.0f} s left", std::ceil(gone / loading.fraction - gone));
-        ImGui::ProgressBar(static_cast<float>(loading.fraction),
-                           {std::min(wrap, 20 * ImGui::GetFontSize()), 0}, text.c_str());
-        ImGui::SameLine();
-        if (ImGui::Button("Cancel")) parts.changes.cancelLoading();
-    }
-    if (const std::optional<double> read = parts.study.fraction()) {
-        wrappedText("reading the slices", wrap);
-        ImGui::ProgressBar(static_cast<float>(*read), {std::min(wrap, 20 * ImGui::GetFontSize()), 0});
-        ImGui::SameLine();
-        if (ImGui::Button("Cancel##slices")) parts.study.cancel();
-    }
-    if (painting) drawPainting(parts, *painting, wrap);
-    if (preparing) drawPreparing(parts, *preparing, wrap);
+    if (waits && drawWork("Cancel", loading.what.empty() ? "loading" : loading.what, loading.fraction, wrap,
+                          shareText(loading.fraction, parts.changes.loadingSeconds(), 0.1).c_str()))
+        parts.changes.cancelLoading();
+    if (const std::optional<double> read = parts.study.fraction();
+        read && drawWork("Cancel##slices", "reading the slices", *read, wrap, nullptr))
+        parts.study.cancel();
+    // Work without a known share shows no figure.
+    if (painting && drawWork("Cancel##paint", painting->what.empty() ? "painting the ground" : painting->what,
+                             painting->fraction, wrap, painting->fraction > 0 ? nullptr : ""))
+        if (auto* const paint = session->open().scene->offered<LivePaint>()) paint->cancel();
+    if (preparing && drawWork("Cancel##prepare", preparing->what, preparing->fraction, wrap, nullptr))
+        parts.changes.cancelPreparing();
     if (asks) askForScreen(parts, wrap);
-    if (job) {
-        wrappedText(job->what(), wrap);
-        std::string text = fmt::format("{:.0f} %", 100 * job->fraction());
-        if (job->fraction() > 0.02 && job->seconds() > 2)
-            text +=
-                fmt::format(", {:.0f} s left", std::ceil(job->seconds() / job->fraction() - job->seconds()));
-        ImGui::ProgressBar(static_cast<float>(job->fraction()),
-                           {std::min(wrap, 20 * ImGui::GetFontSize()), 0}, text.c_str());
-        tooltip(job->progress());
-        ImGui::SameLine();
-        if (ImGui::Button("Cancel##job")) parts.jobs.cancel();
-    }
+    if (job && drawWork("Cancel##job", job->what(), job->fraction(), wrap,
+                        shareText(job->fraction(), job->seconds(), 0.02).c_str(), job->progress()))
+        parts.jobs.cancel();
     ImGui::End();
 }
 

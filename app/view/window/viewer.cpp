@@ -276,7 +276,7 @@ void Viewer::beginSession() {
     mPictures.forgetCosts();
     mWindow.setTitle(titleOf(mSettings.options().scene));
     mSettings.look();
-    mSettings.startSteps();
+    mSettings.history().start(mSettings.now());
     mKept.open();
     mInstruments.open(mChanges.scene()->scene, mKept.places()->file());
     mSecond.begin();
@@ -309,7 +309,7 @@ void Viewer::fly(double dt) {
     mPointer.use(mInstruments, mNotices);
     mSession->step(mInput.flight(mStage.controls()), dt);
     mSettings.look();
-    mSettings.observe(mStage.panelled().active(), dt);
+    mSettings.history().observe(mSettings.now(), mStage.panelled().active(), dt);
     mKeyframes.follow(*mSession, mNotices);
 }
 
