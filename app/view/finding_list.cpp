@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include "app/options/output_place.h"
@@ -162,7 +161,7 @@ void FindingList::judge() {
 }
 
 void FindingList::cancel() {
-    if (mProgress) mProgress->cancel();
+    mWork.cancel();
     mEnds = true;
     mFindsCandidates = false;
     mPage.clear(), mReport.clear();
@@ -182,23 +181,14 @@ void FindingList::start(const std::string& doing, bool values, Job job, bool wri
     mWrites = writes;
     mWorksFor = mOpened;
     mEnds = false;
-    mFraction = std::make_shared<std::atomic<double>>(0);
-    mProgress = std::make_shared<Progress>(
-        [fraction = mFraction](double now, const std::string&) { *fraction = std::clamp(now, 0.0, 1.0); });
-    mWork = std::async(std::launch::async,
-                       [scene = mScene, progress = mProgress, wake = mWake, values, job = std::move(job)] {
-                           Outcome outcome;
-                           outcome.withValues = values;
-                           try {
-                               job(*scene->offered<SurfaceFindings>(), *progress, outcome);
-                           } catch (const Cancelled&) {
-                               outcome.told = kCancelled;
-                           } catch (const std::exception& error) {
-                               outcome.problem = error.what();
-                           }
-                           wake();
-                           return outcome;
-                       });
+    mOutcome = {};
+    mOutcome.withValues = values;
+    mWork.start(
+        [scene = mScene, &outcome = mOutcome, job = std::move(job)](Progress& progress) {
+            job(*scene->offered<SurfaceFindings>(), progress, outcome);
+            return true;
+        },
+        mWake);
 }
 
 // Begins the next work, if there is any. Returns whether there was.
@@ -253,15 +243,22 @@ bool FindingList::beginReport() {
     return true;
 }
 
-void FindingList::take(Outcome outcome) {
+// Takes the outcome of work that has ended; returns false where there is none.
+bool FindingList::take() {
+    Outcome& outcome = mOutcome;
+    try {
+        if (!mWork.take()) return false;
+    } catch (const Cancelled&) {
+        // Work may finish in spite of a wish to cancel: a file that it wrote is there.
+        const std::string written = outcome.told;
+        outcome = {};
+        outcome.told = written.empty() ? kCancelled : written;
+    } catch (const std::exception& error) {
+        outcome.problem = error.what();
+    }
     if (mWorksFor != mOpened) {  // result of a scene that is gone
         if (mWrites) mProblem = outcome.problem;
-        return;
-    }
-    // Work may finish in spite of a wish to cancel: a file that it wrote is there.
-    if (mProgress->cancelled() && outcome.told.empty()) {
-        outcome = {};
-        outcome.told = kCancelled;
+        return true;
     }
     mTold = outcome.told;
     mProblem = outcome.problem;
@@ -281,19 +278,16 @@ void FindingList::take(Outcome outcome) {
         mTold = fmt::format("{} candidates", mCandidates.size());
         judge();
     }
-    if (outcome.measured.empty()) return;
+    if (outcome.measured.empty()) return true;
     const std::string problem = mProblem;
     changed();
     if (mProblem.empty()) mProblem = problem;
+    return true;
 }
 
 bool FindingList::poll(const std::shared_ptr<const SliceStudy>& study) {
-    bool isNew = false;
-    if (mWork.valid() && mWork.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-        take(mWork.get());
-        isNew = true;
-    }
-    if (mWork.valid() || !maker()) return isNew;
+    const bool isNew = take();
+    if (mWork.busy() || !maker()) return isNew;
     return begin(study) || isNew;
 }
 

@@ -3,16 +3,14 @@
 // scene's file.
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <functional>
-#include <future>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "engine/base/progress.h"
+#include "app/view/beside_work.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/surface_findings.h"
 
@@ -32,7 +30,6 @@ public:
 
     // wake: called from another thread when something is done.
     explicit FindingList(std::function<void()> wake) : mWake(std::move(wake)) {}
-    ~FindingList() { cancel(); }  // waits for the end
 
     // Begins a scene, with the findings kept in `file`, which are not measured yet; "" keeps nothing. A file
     // that is being written for the scene before is completed.
@@ -75,10 +72,10 @@ public:
     // Takes finished work and begins the next. study: source of values, null while it is not there. Returns
     // true where something has changed.
     bool poll(const std::shared_ptr<const SliceStudy>& study);
-    bool busy() const { return mWork.valid(); }
+    bool busy() const { return mWork.busy(); }
     const std::string& doing() const { return mDoing; }  // name of the present work
     bool writes() const { return busy() && mWrites; }    // whether it writes a file, which is not begun again
-    double fraction() const { return *mFraction; }       // progress of the work
+    double fraction() const { return mWork.fraction(); }  // progress of the work
     void cancel();
     const std::string& told() const { return mTold; }        // result of the last work: "written to ..."
     const std::string& problem() const { return mProblem; }  // last failure; "": none
@@ -97,7 +94,7 @@ private:
     std::vector<std::pair<int, SurfaceFinding>> unmeasured(bool values) const;
     bool begin(const std::shared_ptr<const SliceStudy>& study);
     void start(const std::string& doing, bool values, Job job, bool writes = false);
-    void take(Outcome outcome);
+    bool take();
     bool beginPage(const std::shared_ptr<const SliceStudy>& study);
     bool beginReport();
     void judge();
@@ -113,9 +110,8 @@ private:
     bool mWrites = false;  // the present work writes a file
     bool mEnds = false;    // the present work was cancelled, and nothing was asked for since
     std::string mSummary, mTold, mProblem, mDoing;
-    std::shared_ptr<std::atomic<double>> mFraction = std::make_shared<std::atomic<double>>(0);
-    std::shared_ptr<Progress> mProgress;
-    std::future<Outcome> mWork;  // last: its end is waited for
+    Outcome mOutcome;        // of the present work, whose thread writes it
+    BesideWork<bool> mWork;  // last: it is cancelled, and its end waited for, first
 };
 
 }  // namespace stereonav

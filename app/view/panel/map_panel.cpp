@@ -4,7 +4,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
@@ -64,9 +63,7 @@ bool MapPanel::has(const ViewSession& session) {
 }
 
 void MapPanel::forget() {
-    if (mProgress) mProgress->cancel();
-    if (mMaking.valid()) mMaking.wait();
-    mMaking = {};
+    mMaking.reset();  // waits for its end
     mMap.reset();
     mTexture.reset();
     mScene.reset();
@@ -77,16 +74,14 @@ void MapPanel::look(const std::shared_ptr<const OpenScene>& scene) {
     if (scene != mScene) {
         forget();
         mScene = scene;
-        if (const auto* const map = scene->scene->offered<MapFromAbove>()) {
-            mProgress = std::make_shared<Progress>();
-            mMaking = std::async(std::launch::async, [progress = mProgress, scene, map] {
-                return map->makeMap(kMapPixels, *progress);
-            });
-        }
+        if (const auto* const map = scene->scene->offered<MapFromAbove>())
+            mMaking.emplace().start(
+                [scene, map](Progress& progress) { return map->makeMap(kMapPixels, progress); }, [] {});
     }
-    if (!mMaking.valid() || mMaking.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     try {
-        mMap = mMaking.get();
+        auto made = mMaking ? mMaking->take() : std::nullopt;
+        if (!made) return;
+        mMap = std::move(made);
         mTexture.set(mMap->picture, true);
     } catch (const std::exception&) {
         mMap.reset();  // the panel is useful without a map, too
@@ -101,7 +96,7 @@ void MapPanel::draw(ViewSession& session, KeyframeEdit& edit, const SizeOption& 
     else if (line && line->places.size() > 1)
         drawLine(session, edit, eye, *line);
     else
-        return quietText(mMaking.valid() ? "drawing the map" : "no map");
+        return quietText(mMaking && mMaking->busy() ? "drawing the map" : "no map");
     if (edit.any() && mFlown.anyBlocked) quietText("Red: a wall is in the way.");
 }
 

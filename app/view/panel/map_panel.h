@@ -3,14 +3,13 @@
 #pragma once
 
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 
+#include "app/view/beside_work.h"
 #include "app/view/keyframe_edit.h"
 #include "app/view/panel/panel_texture.h"
 #include "app/view/session.h"
-#include "engine/base/progress.h"
 
 struct ImVec2;
 
@@ -18,7 +17,6 @@ namespace stereonav {
 
 class MapPanel {
 public:
-    ~MapPanel() { forget(); }
     // Returns whether the scene has a map.
     static bool has(const ViewSession& session);
     // eye: size of its picture in pixels.
@@ -39,8 +37,7 @@ private:
     void drawLine(ViewSession& session, KeyframeEdit& edit, const SizeOption& eye, const LineOnMap& line);
 
     std::shared_ptr<const OpenScene> mScene;
-    std::shared_ptr<Progress> mProgress;  // progress of the map that is being made
-    std::future<MapPicture> mMaking;
+    std::optional<BesideWork<MapPicture>> mMaking;  // empty: the scene has no map from above
     std::optional<MapPicture> mMap;
     PanelTexture mTexture;
     FlownPath mFlown;               // flight through the keyframes

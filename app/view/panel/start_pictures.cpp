@@ -3,12 +3,11 @@
 #include <imgui.h>
 
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <future>
 #include <mutex>
 #include <span>
 
+#include "app/view/beside_work.h"
 #include "app/view/panel/panel_texture.h"
 #include "engine/base/error.h"
 #include "engine/image/image_file.h"
@@ -33,7 +32,7 @@ constexpr double kFramesPerSecond = 5;
 struct StartPicture {
     std::string_view scene;
     std::span<const unsigned char> file;
-    std::future<Plane<PackedColor>> decoding = {};
+    std::optional<BesideWork<Plane<PackedColor>>> decoding = {};
     PanelTexture texture = {};
     bool failed = false;
 };
@@ -49,17 +48,16 @@ std::array<StartPicture, 4>& pictures() {
 // Decodes a picture; one that can not be decoded stays grey, and the page remains useful.
 void prepare(StartPicture& picture) {
     if (picture.texture.any() || picture.failed) return;
-    if (!picture.decoding.valid()) {
-        picture.decoding = std::async(std::launch::async, [file = picture.file] {
-            static std::mutex oneAfterTheOther;  // one helper thread is enough for all
-            const std::lock_guard lock(oneAfterTheOther);
-            return decodeColorImage(file, "the start page", "");
-        });
-        return;
-    }
-    if (picture.decoding.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    if (!picture.decoding)
+        picture.decoding.emplace().start(
+            [file = picture.file](Progress&) {
+                static std::mutex oneAfterTheOther;  // one helper thread is enough for all
+                const std::lock_guard lock(oneAfterTheOther);
+                return decodeColorImage(file, "the start page", "");
+            },
+            [] {});
     try {
-        picture.texture.set(picture.decoding.get(), true);
+        if (const auto decoded = picture.decoding->take()) picture.texture.set(*decoded, true);
     } catch (const std::exception&) {
         picture.failed = true;
     }
@@ -88,8 +86,7 @@ void drawStartPicture(std::string_view scene, const ImVec2& corner, const ImVec2
 
 void forgetStartPictures() {
     for (StartPicture& picture : pictures()) {
-        if (picture.decoding.valid()) picture.decoding.wait();
-        picture.decoding = {};
+        picture.decoding.reset();  // waits for its end
         picture.texture.reset();
     }
 }

@@ -5,7 +5,6 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -65,9 +64,7 @@ bool TransferPanel::has(const Scene& scene) {
 }
 
 void TransferPanel::forget() {
-    if (mProgress) mProgress->cancel();
-    if (mCounting.valid()) mCounting.wait();
-    mCounting = {};
+    mCounting.reset();  // waits for its end
     mCounts.reset();
     mValues.reset();
     mBars.clear();
@@ -80,14 +77,12 @@ void TransferPanel::count(const std::shared_ptr<const StudyValues>& values) {
         mValues = values;
         mZoomed = false;
         mHeld = Held::Nothing;
-        mProgress = std::make_shared<Progress>();
-        mCounting = std::async(std::launch::async,
-                               [values, progress = mProgress] { return values->count(*progress); });
+        mCounting.emplace().start([values](Progress& progress) { return values->count(progress); }, [] {});
     }
-    if (!mCounting.valid() || mCounting.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        return;
     try {
-        mCounts = mCounting.get();
+        auto counts = mCounting->take();
+        if (!counts) return;
+        mCounts = std::move(counts);
         mBars.clear();
     } catch (const std::exception&) {
         mCounts.reset();  // the curve is useful without a histogram, too

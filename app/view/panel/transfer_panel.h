@@ -1,15 +1,14 @@
 // Editor for a volume's transfer function, over a histogram of its values, and for its isovalue.
 #pragma once
 
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/view/beside_work.h"
 #include "app/view/scene_changes.h"
 #include "app/view/transfer_curve.h"
-#include "engine/base/progress.h"
 #include "engine/scene/shown_values.h"
 
 struct ImVec2;
@@ -18,7 +17,6 @@ namespace stereonav {
 
 class TransferPanel {
 public:
-    ~TransferPanel() { forget(); }
     // Returns whether the scene has a transfer function.
     static bool has(const Scene& scene);
     // grey: shows colours as grey, for glasses that separate colours.
@@ -48,8 +46,7 @@ private:
     std::string withUnit(double value) const;
 
     std::shared_ptr<const StudyValues> mValues;
-    std::shared_ptr<Progress> mProgress;  // progress of the count
-    std::future<ValueCounts> mCounting;
+    std::optional<BesideWork<ValueCounts>> mCounting;
     std::optional<ValueCounts> mCounts;
     std::vector<float> mBars;
     ValueView mBarsOf;
