@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/output/command_result.h"
+#include "app/view/worker.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/display/window.h"
@@ -33,7 +34,8 @@ bool BenchFlight::step(ViewSession& session, ViewWorker& worker, const ViewFrame
     const RecordedPath& path = session.paths().path();
     const bool animated = session.open().scene->offered<Animation>() != nullptr && !refines;
     const bool rests = animated || !session.moving();
-    const bool ready = frame && rests && !worker.loading().busy && (animated || asked.isNewest(*frame));
+    const bool ready =
+        frame && rests && !worker.scenes().loading().busy && (animated || asked.isNewest(*frame));
     if (ready && path.samples().size() < 2)
         throw Error("--bench", "", "this scene has no flight of its own", "give --path FILE");
     const double duration = path.samples().size() < 2 ? 0 : path.duration();

@@ -10,6 +10,7 @@
 namespace stereonav {
 
 class CommandResult;
+class ViewWorker;
 
 class BenchFlight {
 public:

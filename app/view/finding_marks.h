@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/view/finding_list.h"
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/display/eye_overlay.h"
 
 namespace stereonav {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 
 namespace stereonav {
 

@@ -1,7 +1,7 @@
 // The views that a frame was made with.
 #pragma once
 
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/camera/stereo_rig.h"
 
 namespace stereonav {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/image/plane.h"
 
 namespace stereonav {

@@ -8,7 +8,7 @@
 #include "app/scene/scene_loading.h"
 #include "app/view/beside_work.h"
 #include "app/view/session.h"
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 
 namespace stereonav {
 

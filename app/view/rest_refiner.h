@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/frame/refined_frames.h"
 
 namespace stereonav {

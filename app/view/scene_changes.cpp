@@ -86,14 +86,18 @@ void SceneChanges::load(const ViewOptions& options, SettingTexts given, bool ano
     mAnother = mAnother || another;
     mArrival.reset();
     mSettings.begin({shown, std::move(given), fileTextsOf(options.scene.given)});
-    mWorker->reload([options = shown, size = mDisplay.windowSize(), sweep = swept ? mSweep.get() : nullptr](
-                        Progress& progress) { return openScene(options, false, size, sweep, progress); });
+    mWorker->scenes().reload([options = shown, size = mDisplay.windowSize(),
+                              sweep = swept ? mSweep.get() : nullptr](Progress& progress) {
+        return openScene(options, false, size, sweep, progress);
+    });
 }
 
 // Loads the scene again with the same settings.
 void SceneChanges::loadAgain() {
-    mWorker->reload([options = mSettings.changed(), size = mDisplay.windowSize(), sweep = mSweep.get()](
-                        Progress& progress) { return openScene(options, false, size, sweep, progress); });
+    mWorker->scenes().reload([options = mSettings.changed(), size = mDisplay.windowSize(),
+                              sweep = mSweep.get()](Progress& progress) {
+        return openScene(options, false, size, sweep, progress);
+    });
 }
 
 bool SceneChanges::open(const std::string& scene) {
@@ -120,13 +124,13 @@ void SceneChanges::goTo(std::shared_ptr<const OpenScene> scene, const SceneMade&
     mAnother = true;
     mSettings.begin(next, flown);
     mArrival = std::move(arrival);
-    mWorker->reload([next = std::move(scene)](Progress&) { return *next; });
+    mWorker->scenes().reload([next = std::move(scene)](Progress&) { return *next; });
 }
 
 void SceneChanges::cancelLoading() {
     if (!mSession) return mDisplay.close();
-    mWorker->cancelLoading();
-    if (mWorker->scene() == mScene) keepBefore();  // otherwise it was there already
+    mWorker->scenes().cancel();
+    if (mWorker->scenes().newest() == mScene) keepBefore();  // otherwise it was there already
 }
 
 void SceneChanges::keepBefore() {
@@ -192,8 +196,8 @@ void SceneChanges::redo() {
 }
 
 bool SceneChanges::takeScene() {
-    auto scene = mWorker->scene();
-    const bool busy = mWorker->loading().busy;  // after the scene: of that, or of a newer one
+    auto scene = mWorker->scenes().newest();
+    const bool busy = mWorker->scenes().loading().busy;  // after the scene: of that, or of a newer one
     if (busy && !mWasBusy) mLoadingWatch.lap_ms();
     mWasBusy = busy;
     if (!scene || scene == mScene) return false;
@@ -219,14 +223,14 @@ void SceneChanges::follow() {
     if (const auto change = mSession->surface().takeChange()) {
         mSettings.change(*change);
         if (mScene->scene->offered<SurfaceChoices>() && !change->pieces)
-            mWorker->change([options = mSettings.changed(), surface = change->surface](const OpenScene& now,
-                                                                                       Progress& progress) {
+            mWorker->scenes().change([options = mSettings.changed(), surface = change->surface](
+                                         const OpenScene& now, Progress& progress) {
                 return changedScene(now, surface, options, progress);
             });
         else
             loadAgain();
     }
-    if (const std::string problem = mWorker->takeReloadProblem(); !problem.empty()) {
+    if (const std::string problem = mWorker->scenes().takeProblem(); !problem.empty()) {
         mSession->surface().forgetChange();
         mNotices.fail(problem);
         keepBefore();
@@ -245,7 +249,7 @@ void SceneChanges::followPreparation() {
     } catch (const std::exception& error) {
         mNotices.fail(error.what());
     }
-    if (!mPrepared || mWorker->loading().busy) return;
+    if (!mPrepared || mWorker->scenes().loading().busy) return;
     mPrepared = false;
     if (mScene->scene->offered<const StandIn>()) loadAgain();
 }

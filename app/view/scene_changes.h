@@ -56,7 +56,7 @@ public:
     std::optional<std::string> valueOf(const Option& option) const;
     bool live(const Option& option) const;  // whether it takes effect at once, even while dragging
 
-    ViewWorker::Loading loading() const { return mWorker->loading(); }
+    SceneLoader::Loading loading() const { return mWorker->scenes().loading(); }
     double loadingSeconds() const { return mLoadingWatch.elapsed_ms() / 1000; }  // time since it began
     // Cancels loading; for the first scene it ends the window.
     void cancelLoading();

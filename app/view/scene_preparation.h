@@ -8,7 +8,7 @@
 #include <string>
 
 #include "app/view/beside_work.h"
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/scene/live_paint.h"
 
 namespace stereonav {

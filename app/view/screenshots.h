@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/image/stereo_compose.h"
 
 namespace stereonav {

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "app/view/beside_work.h"
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/scene/line_match.h"
 
 namespace stereonav {

@@ -17,7 +17,7 @@
 #include "app/view/session_surface.h"
 #include "app/view/stereo.h"
 #include "app/view/view_action.h"
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/nav/motion_ahead.h"
 

@@ -5,7 +5,7 @@
 
 #include "app/view/passing_notice.h"
 #include "app/view/view_action.h"
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 
 namespace stereonav {
 

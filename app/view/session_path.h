@@ -11,7 +11,7 @@
 #include "app/view/flight_recording.h"
 #include "app/view/passing_notice.h"
 #include "app/view/raised_ground.h"
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/nav/flight.h"
 
 namespace stereonav {

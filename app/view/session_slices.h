@@ -12,7 +12,7 @@
 #include "app/view/session_surface.h"
 #include "app/view/slices.h"
 #include "app/view/view_action.h"
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 
 namespace stereonav {
 

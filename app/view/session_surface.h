@@ -8,8 +8,9 @@
 
 #include "app/view/passing_notice.h"
 #include "app/view/view_action.h"
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/scene/capabilities.h"
+#include "engine/volume/piece_choices.h"
 
 namespace stereonav {
 

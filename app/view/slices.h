@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/view/slice_picture.h"
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/scene/slices.h"
 
 namespace stereonav {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/stereo/comfort.h"
 
 namespace stereonav {

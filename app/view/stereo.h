@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 
 namespace stereonav {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/base/progress.h"
 #include "engine/image/plane.h"
 #include "engine/scene/facts.h"

@@ -8,7 +8,7 @@
 
 #include "app/options/picture_options.h"
 #include "app/view/screen_sizes.h"
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/display/frame_sequence.h"
 #include "engine/display/stereo_screen.h"
 #include "engine/display/window.h"

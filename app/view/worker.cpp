@@ -1,35 +1,20 @@
-// Loading and rendering beside the window.
 #include "app/view/worker.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <utility>
-#include <vector>
 
-#include "app/view/frame_pool.h"
-#include "app/view/rest_refiner.h"
+#include "app/view/frame_making.h"
+#include "engine/base/error.h"
 #include "engine/base/free_memory.h"
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/base/thread_priority.h"
-#include "engine/late/late_guard.h"
-#include "engine/scene/surface_paint.h"
-#include "engine/stereo/comfort.h"
 
 namespace stereonav {
 namespace {
 
-constexpr int kAheadStep = 4;  // every fourth pixel of every fourth row is used to measure the distance ahead
-constexpr int kMostFits = 3;   // pictures until the eyes fit: eyes apart see a little more than eyes together
-constexpr double kFitting = 1e-6;  // relative change of the eyes that is ignored
-
 bool isWhole(const FrameRequest& request) {
     return request.whole.x < 1 || (request.scale == 1 && request.effort == 1);
-}
-
-Lens castLens(const FrameRequest& request) {
-    return guarded(request.lens, request.guard);
 }
 
 // Returns the request in full size.
@@ -41,113 +26,30 @@ FrameRequest inFull(FrameRequest request) {
     return request;
 }
 
-// Measures the room around the head from the frame's left eye.
-void lookAround(const StereoViews* views, ViewFrame& frame) {
-    frame.depthAhead = depthAhead(frame.left.viewDepth, kAheadStep);
-    frame.nearParallax = frame.farParallax = 0;
-    frame.parallax = {};
-    if (!views) return;
-    const ParallaxSeen seen = parallaxSeen(*views, frame.left.viewDepth);
-    frame.nearParallax = seen.range.near;
-    frame.farParallax = seen.range.far;
-    frame.parallax = seen.histogram;
-}
-
-bool sameEyes(const StereoSetting& a, const StereoSetting& b) {
-    const auto same = [](double x, double y) { return std::abs(x - y) <= kFitting * std::max(x, y); };
-    return same(a.separation, b.separation) && same(a.zeroParallax, b.zeroParallax);
-}
-
-// Makes both eyes, and again with eyes that fit the picture, where that is asked for.
-StereoViews makeEyes(const Scene& scene, const FrameWay& way, ViewFrame& frame) {
-    FrameRequest& request = frame.request;
-    for (int fit = 0;; ++fit) {
-        const StereoViews shown = makeStereoViews(request.pose, request.lens, request.stereo);
-        const StereoViews views = makeStereoViews(request.pose, castLens(request), request.stereo);
-        scene.frames().make(views, request.time, way, frame);
-        lookAround(&shown, frame);
-        if (!request.fitEyes || fit == kMostFits) return views;
-        const StereoSetting fitting = comfortableEyes(request.stereo, {frame.nearParallax, frame.farParallax},
-                                                      shown.shiftAtInfinity / shown.left.width);
-        if (sameEyes(fitting, request.stereo)) return views;
-        request.stereo = fitting;
-    }
-}
-
-void prepareLate(const Scene& scene, ViewFrame& frame) {
-    const SimdTarget simd = scene.simd;
-    const bool soft = scene.offered<FrameEffort>() != nullptr;  // media, except layers over ground
-    for (LateEye& eye : frame.late) eye.forget();
-    const FrameRequest& request = frame.request;
-    if (!request.late || request.truth != TruthView::None) return;
-    if (!request.twoEyes)
-        return frame.late[0].prepare(frame.left.viewDepth, makeEyeView(request.pose, castLens(request)), simd,
-                                     soft);
-    const StereoViews views = makeStereoViews(request.pose, castLens(request), request.stereo);
-    frame.late[0].prepare(frame.left.viewDepth, views.left, simd, soft);
-    frame.late[1].prepare(frame.right.viewDepth, views.right, simd, soft);
-}
-
-void takeTruth(TruthMaker::Shown shown, ViewFrame& frame) {
-    frame.truthNote = std::move(shown.note);
-    frame.truthError = shown.error;
-}
-
-void renderFrame(const Scene& scene, const FrameRequest& request, TruthMaker& truth, ViewFrame& frame) {
-    frame.request = request;
-    frame.rays = 1;
-    frame.effort = 1;
-    frame.expected_db = 0;
-    if (auto* const light = scene.offered<TurningLight>()) light->turnTo(request.sun);
-    if (auto* const paint = scene.offered<LivePaint>()) paint->takeUp();
-    if (auto* const models = scene.offered<LightModels>()) models->choose(request.model);
-    if (auto* const effort = scene.offered<FrameEffort>()) effort->setEffort(request.effort);
-    if (auto* const paint = scene.offered<SurfacePaint>()) paint->setOver(request.paintOver);
-    EyeView view = makeEyeView(request.pose, castLens(request));
-    if (request.twoEyes) {
-        const FrameWay way = TruthMaker::wayOf(request.truth, request.way, scene.frames());
-        const StereoViews views = makeEyes(scene, way, frame);
-        view = views.left;
-        paintEyes(scene, views, frame);
-        takeTruth(truth.show(request.truth, scene, views, request.time, request.way, frame), frame);
-        frame.request.way = way;
-    } else {
-        scene.frames().makeOne(view, request.time, frame);
-        if (RightFromLeft* const cast = scene.frames().rightFromLeft())
-            cast->smoothEdges(view, request.way, frame.left);
-        paintEye(scene, view, frame.left);
-        lookAround(nullptr, frame);
-        takeTruth(truth.showOfOneEye(request.truth), frame);
-    }
-    prepareLate(scene, frame);
-    // Not called between the eyes, which have to be lit alike.
-    if (auto* const light = scene.offered<SeenLight>()) light->seen(view, frame.left);
-    const auto* const detail = scene.offered<LateDetail>();
-    frame.lacksDetail = detail && detail->late();
-    const auto* const place = scene.offered<SweepPlace>();
-    frame.sweep = place ? place->name() : "";
-}
-
 }  // namespace
 
-ViewWorker::ViewWorker(Load load, std::function<void()> wake)
+ViewWorker::ViewWorker(SceneLoader::Load load, std::function<void()> wake)
     : mWake(std::move(wake)),
       mPool(std::make_shared<FramePool>()),
-      mLoad(std::move(load)),
-      mRefiner(std::make_unique<RestRefiner>()),
-      mLoader([this] { loadScenes(); }),
-      mRenderer([this] { renderFrames(); }) {}
+      mRenderer([this] { renderFrames(); }),
+      mLoader(
+          std::move(load), [this](const auto& scene) { use(scene); }, mWake) {}
 
 ViewWorker::~ViewWorker() {
     {
         const std::lock_guard lock(mMutex);
         mStop = true;
         mInterrupt = mDrop = true;
-        if (mProgress) mProgress->cancel();
     }
     mAsked.notify_all();
-    mLoader.join();
-    mRenderer.join();
+}
+
+void ViewWorker::use(const std::shared_ptr<const OpenScene>& scene) {
+    {
+        const std::lock_guard lock(mMutex);
+        mScene = scene;
+    }
+    mAsked.notify_all();
 }
 
 void ViewWorker::fail(std::exception_ptr failure) {
@@ -156,84 +58,6 @@ void ViewWorker::fail(std::exception_ptr failure) {
         mFailure = std::move(failure);
     }
     mWake();
-}
-
-// --- loading
-
-void ViewWorker::loadScenes() {
-    stepBehindTheWindow();
-    while (const std::optional<Load> load = nextLoad()) {
-        loadOne(*load);
-        mAsked.notify_all();
-        mWake();
-    }
-}
-
-std::optional<ViewWorker::Load> ViewWorker::nextLoad() {
-    std::unique_lock lock(mMutex);
-    mLoading.busy = mLoad || mChange;
-    mAsked.wait(lock, [this] { return mStop || mLoad || mChange; });
-    if (mStop) return std::nullopt;
-    mLoading = {true, 0, ""};
-    mProgress = std::make_shared<Progress>([this](double fraction, const std::string& what) {
-        const std::lock_guard guard(mMutex);
-        mLoading = {true, fraction, what};
-    });
-    return takeWish();
-}
-
-// Takes the next wish; the mutex has to be held.
-ViewWorker::Load ViewWorker::takeWish() {
-    if (mLoad) return *std::exchange(mLoad, std::nullopt);
-    return [change = *std::exchange(mChange, std::nullopt), now = mScene](Progress& progress) {
-        return change(*now, progress);
-    };
-}
-
-void ViewWorker::loadOne(const Load& load) {
-    try {
-        auto scene = std::make_shared<const OpenScene>(load(*mProgress));
-        const std::lock_guard lock(mMutex);
-        if (!mProgress->cancelled()) mScene = std::move(scene);
-        mLoading.busy = mLoad || mChange;  // whoever sees the scene sees this, too
-    } catch (const Cancelled&) {
-        // Cancelled by a newer wish, or at the end.
-    } catch (const std::exception& error) {
-        const std::lock_guard lock(mMutex);
-        if (!mScene)
-            mFailure = std::current_exception();
-        else if (!mProgress->cancelled() && !mLoad && !mChange)  // otherwise something newer is wanted
-            mReloadProblem = error.what();
-    }
-}
-
-void ViewWorker::reload(Load load) {
-    {
-        const std::lock_guard lock(mMutex);
-        mLoad = std::move(load);
-        mChange.reset();  // the newer wish includes it
-        mReloadProblem.clear();
-        mLoading = {true, 0, ""};
-        if (mProgress && mScene) mProgress->cancel();
-    }
-    mAsked.notify_all();
-}
-
-void ViewWorker::change(Change change) {
-    {
-        const std::lock_guard lock(mMutex);
-        mChange = std::move(change);
-        mReloadProblem.clear();
-        mLoading.busy = true;
-    }
-    mAsked.notify_all();
-}
-
-void ViewWorker::cancelLoading() {
-    const std::lock_guard lock(mMutex);
-    mLoad.reset();
-    mChange.reset();
-    if (mProgress && mScene) mProgress->cancel();
 }
 
 void ViewWorker::ask(Task task) {
@@ -253,24 +77,6 @@ void ViewWorker::runTask(const Job& job) {
     }
     mWake();
 }
-
-ViewWorker::Loading ViewWorker::loading() const {
-    const std::lock_guard lock(mMutex);
-    return mLoading;
-}
-
-std::string ViewWorker::takeReloadProblem() {
-    const std::lock_guard lock(mMutex);
-    return std::exchange(mReloadProblem, "");
-}
-
-std::shared_ptr<const OpenScene> ViewWorker::scene() const {
-    const std::lock_guard lock(mMutex);
-    if (mFailure) std::rethrow_exception(mFailure);
-    return mScene;
-}
-
-// --- rendering
 
 struct ViewWorker::Drawn {
     std::optional<Job> job;                  // none yet
@@ -308,13 +114,13 @@ bool ViewWorker::drops(const FrameRequest& request) const {
 bool ViewWorker::renderUnlessDropped(const Job& job, ViewFrame& frame) {
     const Scene& scene = *job.scene->scene;
     if (!scene.offered<SweepPlace>()) {
-        renderFrame(scene, job.request, mTruthMaker, frame);
+        makeFrame(scene, job.request, mTruthMaker, frame);
         return true;
     }
     interruptLoopsBy(job.again ? &mInterrupt : &mDrop);
     bool made = true;
     try {
-        renderFrame(scene, job.request, mTruthMaker, frame);
+        makeFrame(scene, job.request, mTruthMaker, frame);
     } catch (const Cancelled&) {
         made = false;
     } catch (...) {
@@ -345,7 +151,7 @@ void ViewWorker::draw(const Job& job, Drawn& drawn) {
     if (!shared->truthError && drawn.whole) drawn.frame = shared;
     drawn.since = std::chrono::steady_clock::now();
     drawn.gaveBack = false;
-    mRefiner->start(shared);
+    mRefiner.start(shared);
     {
         const std::lock_guard lock(mMutex);
         if (shared->truthError) mTruth = FrameTruth{shared->request.version, *shared->truthError, 0, ""};
@@ -364,7 +170,7 @@ std::optional<ViewWorker::Job> ViewWorker::nextJob(Drawn& drawn) {
             mInterrupt = false;
             return Job{inFull(drawn.job->request), drawn.job->scene, nullptr, true};
         }
-        const bool measures = drawn.frame != nullptr, refines = mRefiner->wantsMore();
+        const bool measures = drawn.frame != nullptr, refines = mRefiner.wantsMore();
         const auto now = std::chrono::steady_clock::now(), rested = drawn.since + kRest;
         if (light && drawn.job->scene == mScene && light->changes() != drawn.lightChanges &&
             now >= drawn.since + kLookAtLight)
@@ -431,7 +237,7 @@ void ViewWorker::refine(const Drawn& drawn) {
     bool shows = false;
     interruptLoopsBy(&mInterrupt);
     try {
-        shows = mRefiner->step(*drawn.job->scene->scene, *frame);
+        shows = mRefiner.step(*drawn.job->scene->scene, *frame);
     } catch (const std::exception&) {
         // The picture remains valid; something new is asked for, or it can not be refined further.
     }

@@ -11,6 +11,7 @@
 #include "app/view/loading.h"
 #include "app/view/session.h"
 #include "app/view/status.h"
+#include "app/view/worker.h"
 #include "tests/app/volume_input.h"
 
 namespace stereonav::test {

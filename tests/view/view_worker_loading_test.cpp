@@ -32,9 +32,9 @@ TEST(ViewWorkerLoading, ReportsProgressAndStopsLoadingWhenClosed) {
                 return {};
             },
             [] {});
-        ASSERT_TRUE(test::waitFor([&] { return worker.loading().what == "reading"; }));
-        EXPECT_EQ(worker.loading().fraction, 0.25);
-        EXPECT_EQ(worker.scene(), nullptr);
+        ASSERT_TRUE(test::waitFor([&] { return worker.scenes().loading().what == "reading"; }));
+        EXPECT_EQ(worker.scenes().loading().fraction, 0.25);
+        EXPECT_EQ(worker.scenes().newest(), nullptr);
     }
     EXPECT_TRUE(cancelled);
 }
@@ -45,7 +45,7 @@ TEST(ViewWorkerLoading, WhatLoadingThrowsArrivesAtTheWindow) {
     std::string message;
     ASSERT_TRUE(test::waitFor([&] {
         try {
-            worker.scene();
+            worker.scenes().newest();
             return false;
         } catch (const Error& error) {
             message = error.what();
@@ -53,7 +53,6 @@ TEST(ViewWorkerLoading, WhatLoadingThrowsArrivesAtTheWindow) {
         }
     }));
     EXPECT_EQ(message, "a.tif: is cut off; copy it again");
-    EXPECT_THROW(worker.takeFrame(), Error);
 }
 
 TEST(ViewWorkerLoading, WhatRenderingThrowsArrivesAtTheWindow) {
@@ -74,33 +73,33 @@ TEST(ViewWorkerLoading, WhatRenderingThrowsArrivesAtTheWindow) {
 TEST(ViewWorkerLoading, AnotherSceneTakesThePlaceWhileFramesGoOn) {
     std::atomic<bool> go = false;
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
-    ASSERT_TRUE(test::waitFor([&] { return worker.scene() != nullptr; }));
-    ASSERT_TRUE(test::waitFor([&] { return !worker.loading().busy; }));
-    const auto first = worker.scene();
-    worker.reload([&](Progress& progress) {
+    ASSERT_TRUE(test::waitFor([&] { return worker.scenes().newest() != nullptr; }));
+    ASSERT_TRUE(test::waitFor([&] { return !worker.scenes().loading().busy; }));
+    const auto first = worker.scenes().newest();
+    worker.scenes().reload([&](Progress& progress) {
         test::waitFor([&] { return progress.report(0.5, "again"), go.load(); });
         return sceneOf(std::make_shared<Wall>());
     });
-    ASSERT_TRUE(test::waitFor([&] { return worker.loading().what == "again"; }));
-    EXPECT_TRUE(worker.loading().busy);
+    ASSERT_TRUE(test::waitFor([&] { return worker.scenes().loading().what == "again"; }));
+    EXPECT_TRUE(worker.scenes().loading().busy);
     for (int i = 1; i <= 5; ++i) {
         worker.request(requestAt(i, i));
         const auto frame = nextFrame(worker);
         ASSERT_NE(frame, nullptr) << "frames do not wait for the other scene";
         EXPECT_EQ(frame->left.color.at(0, 0), static_cast<PackedColor>(i));
     }
-    EXPECT_EQ(worker.scene(), first);
+    EXPECT_EQ(worker.scenes().newest(), first);
     go = true;
-    EXPECT_TRUE(test::waitFor([&] { return worker.scene() != first; }));
-    EXPECT_TRUE(test::waitFor([&] { return !worker.loading().busy; }));
-    EXPECT_EQ(worker.takeReloadProblem(), "");
+    EXPECT_TRUE(test::waitFor([&] { return worker.scenes().newest() != first; }));
+    EXPECT_TRUE(test::waitFor([&] { return !worker.scenes().loading().busy; }));
+    EXPECT_EQ(worker.scenes().takeProblem(), "");
 }
 
 TEST(ViewWorkerLoading, TheNewestReloadReplacesOneThatIsNotDone) {
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
-    ASSERT_TRUE(test::waitFor([&] { return worker.scene() != nullptr; }));
+    ASSERT_TRUE(test::waitFor([&] { return worker.scenes().newest() != nullptr; }));
     std::atomic<bool> cancelled = false;
-    worker.reload([&](Progress& progress) -> OpenScene {
+    worker.scenes().reload([&](Progress& progress) -> OpenScene {
         try {
             test::waitFor([&] { return progress.report(0.1, "slow"), false; });
         } catch (const Cancelled&) {
@@ -109,20 +108,20 @@ TEST(ViewWorkerLoading, TheNewestReloadReplacesOneThatIsNotDone) {
         }
         return {};
     });
-    ASSERT_TRUE(test::waitFor([&] { return worker.loading().what == "slow"; }));
-    worker.reload([](Progress&) { return sceneOf(std::make_shared<Wall>(), "seven"); });
-    EXPECT_TRUE(test::waitFor([&] { return worker.scene()->scene->name == "seven"; }));
+    ASSERT_TRUE(test::waitFor([&] { return worker.scenes().loading().what == "slow"; }));
+    worker.scenes().reload([](Progress&) { return sceneOf(std::make_shared<Wall>(), "seven"); });
+    EXPECT_TRUE(test::waitFor([&] { return worker.scenes().newest()->scene->name == "seven"; }));
     EXPECT_TRUE(cancelled);
-    EXPECT_EQ(worker.takeReloadProblem(), "");
+    EXPECT_EQ(worker.scenes().takeProblem(), "");
 }
 
 // The last of the wishes that come during a change is done after it, from the scene that it made.
 TEST(ViewWorkerLoading, ChangesAreMadeFromTheNewestSceneOneAfterAnother) {
     std::atomic<int> begun = 0, go = 0;
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>(), "first"); }, [] {});
-    ASSERT_TRUE(test::waitFor([&] { return worker.scene() != nullptr; }));
+    ASSERT_TRUE(test::waitFor([&] { return worker.scenes().newest() != nullptr; }));
     const auto wish = [&](const std::string& name, int mayGo) {
-        worker.change([&, name, mayGo](const OpenScene& now, Progress& progress) {
+        worker.scenes().change([&, name, mayGo](const OpenScene& now, Progress& progress) {
             ++begun;
             test::waitFor([&] { return progress.report(0.5, name), go >= mayGo; });
             return sceneOf(std::make_shared<Wall>(), now.scene->name + " " + name);
@@ -130,38 +129,39 @@ TEST(ViewWorkerLoading, ChangesAreMadeFromTheNewestSceneOneAfterAnother) {
     };
     wish("a", 1);
     ASSERT_TRUE(test::waitFor([&] { return begun == 1; }));
-    EXPECT_TRUE(worker.loading().busy);
+    EXPECT_TRUE(worker.scenes().loading().busy);
     wish("b", 1);
     wish("c", 2);
     go = 1;
     ASSERT_TRUE(test::waitFor([&] { return begun == 2; })) << "what is at work is not given up";
-    EXPECT_EQ(worker.scene()->scene->name, "first a");
+    EXPECT_EQ(worker.scenes().newest()->scene->name, "first a");
     go = 2;
-    ASSERT_TRUE(test::waitFor([&] { return worker.scene()->scene->name == "first a c"; }));
-    EXPECT_TRUE(test::waitFor([&] { return !worker.loading().busy; }));
+    ASSERT_TRUE(test::waitFor([&] { return worker.scenes().newest()->scene->name == "first a c"; }));
+    EXPECT_TRUE(test::waitFor([&] { return !worker.scenes().loading().busy; }));
     EXPECT_EQ(begun, 2) << "one that was not begun is passed over";
     // Loading again drops earlier wishes.
     go = 0;
     wish("d", 3);
     ASSERT_TRUE(test::waitFor([&] { return begun == 3; }));
     wish("e", 3);
-    worker.reload([](Progress&) { return sceneOf(std::make_shared<Wall>(), "again"); });
-    ASSERT_TRUE(test::waitFor([&] { return worker.scene()->scene->name == "again"; }));
-    EXPECT_TRUE(test::waitFor([&] { return !worker.loading().busy; }));
+    worker.scenes().reload([](Progress&) { return sceneOf(std::make_shared<Wall>(), "again"); });
+    ASSERT_TRUE(test::waitFor([&] { return worker.scenes().newest()->scene->name == "again"; }));
+    EXPECT_TRUE(test::waitFor([&] { return !worker.scenes().loading().busy; }));
     EXPECT_EQ(begun, 3);
-    EXPECT_EQ(worker.takeReloadProblem(), "");
+    EXPECT_EQ(worker.scenes().takeProblem(), "");
 }
 
 TEST(ViewWorkerLoading, AReloadThatFailsLeavesTheSceneAndSaysSoOnce) {
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [] {});
-    ASSERT_TRUE(test::waitFor([&] { return worker.scene() != nullptr; }));
-    const auto first = worker.scene();
-    worker.reload([](Progress&) -> OpenScene { throw Error("--seed", "", "hits nothing", "click in air"); });
+    ASSERT_TRUE(test::waitFor([&] { return worker.scenes().newest() != nullptr; }));
+    const auto first = worker.scenes().newest();
+    worker.scenes().reload(
+        [](Progress&) -> OpenScene { throw Error("--seed", "", "hits nothing", "click in air"); });
     std::string problem;
-    ASSERT_TRUE(test::waitFor([&] { return !(problem = worker.takeReloadProblem()).empty(); }));
+    ASSERT_TRUE(test::waitFor([&] { return !(problem = worker.scenes().takeProblem()).empty(); }));
     EXPECT_EQ(problem, "--seed: hits nothing; click in air");
-    EXPECT_EQ(worker.takeReloadProblem(), "");
-    EXPECT_EQ(worker.scene(), first);
+    EXPECT_EQ(worker.scenes().takeProblem(), "");
+    EXPECT_EQ(worker.scenes().newest(), first);
     worker.request(requestAt(1, 4));
     EXPECT_NE(nextFrame(worker), nullptr) << "it is still drawn";
 }

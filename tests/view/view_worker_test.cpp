@@ -195,7 +195,7 @@ TEST(ViewWorker, RefinesWhatRests) {
 TEST(ViewWorker, LoadsAndRendersBothEyes) {
     std::atomic<int> woken = 0;
     ViewWorker worker([](Progress&) { return sceneOf(std::make_shared<Wall>()); }, [&] { ++woken; });
-    ASSERT_TRUE(test::waitFor([&] { return worker.scene() != nullptr; }));
+    ASSERT_TRUE(test::waitFor([&] { return worker.scenes().newest() != nullptr; }));
     EXPECT_EQ(worker.takeFrame(), nullptr);
     worker.request(requestAt(1, 7));
     const auto frame = nextFrame(worker);
@@ -237,8 +237,8 @@ TEST(ViewWorker, TheCallerNeverWaitsAndTheNewestRequestWins) {
         for (int i = 2; i <= 200; ++i) {
             worker.request(requestAt(i, i));
             EXPECT_EQ(worker.takeFrame(), nullptr);
-            EXPECT_NE(worker.scene(), nullptr);
-            EXPECT_FALSE(worker.loading().busy);
+            EXPECT_NE(worker.scenes().newest(), nullptr);
+            EXPECT_FALSE(worker.scenes().loading().busy);
             EXPECT_FALSE(worker.takeTruth());
         }
     });

@@ -62,21 +62,22 @@ class WorkerDetours : public testing::Test {
 protected:
     void begin(const std::function<void(double)>& before = nullptr) {
         mWorker = std::make_unique<ViewWorker>([before](Progress&) { return numbered(100, before); }, [] {});
-        ASSERT_TRUE(test::waitFor([this] { return mWorker->scene() && !mWorker->loading().busy; }));
+        ASSERT_TRUE(test::waitFor(
+            [this] { return mWorker->scenes().newest() && !mWorker->scenes().loading().busy; }));
     }
-    std::string shown() const { return mWorker->scene()->scene->name; }
+    std::string shown() const { return mWorker->scenes().newest()->scene->name; }
     void settle() {
-        ASSERT_TRUE(test::waitFor([this] { return !mWorker->loading().busy; }));
+        ASSERT_TRUE(test::waitFor([this] { return !mWorker->scenes().loading().busy; }));
     }
     // Returns a load, or change, that waits at the gate and is not told of its end.
-    ViewWorker::Load late(PackedColor number, bool fails = false) {
+    SceneLoader::Load late(PackedColor number, bool fails = false) {
         return [this, number, fails](Progress&) {
             mGate.pass();
             if (fails) throw Error("late.tif", "", "is cut off", "copy it again");
             return numbered(number);
         };
     }
-    ViewWorker::Change lateChange(PackedColor number, bool fails = false) {
+    SceneLoader::Change lateChange(PackedColor number, bool fails = false) {
         return [this, number, fails](const OpenScene&, Progress& progress) {
             return late(number, fails)(progress);
         };
@@ -92,13 +93,13 @@ TEST_F(WorkerDetours, ALoadThatWasReplacedIsNotTakenThoughItCameToItsEnd) {
         SCOPED_TRACE(fails);
         mGate.close();
         const int before = mGate.came();
-        mWorker->reload(late(200, fails));
+        mWorker->scenes().reload(late(200, fails));
         mGate.await(before + 1);
-        mWorker->reload([](Progress&) { return numbered(300); });
+        mWorker->scenes().reload([](Progress&) { return numbered(300); });
         mGate.open();
         ASSERT_TRUE(test::waitFor([this] { return shown() == "300"; }));
         settle();
-        EXPECT_EQ(mWorker->takeReloadProblem(), "") << "it is of a wish that was given up";
+        EXPECT_EQ(mWorker->scenes().takeProblem(), "") << "it is of a wish that was given up";
     }
 }
 
@@ -110,14 +111,14 @@ TEST_F(WorkerDetours, ThereAndBackLoadsWhatWasAskedForLast) {
         ++loads;
         return numbered(100);
     };
-    mWorker->reload(late(200));
+    mWorker->scenes().reload(late(200));
     mGate.await();
-    mWorker->reload(again);
-    mWorker->reload([&](Progress&) {
+    mWorker->scenes().reload(again);
+    mWorker->scenes().reload([&](Progress&) {
         ++loads;
         return numbered(200);
     });
-    mWorker->reload(again);
+    mWorker->scenes().reload(again);
     mGate.open();
     settle();
     EXPECT_EQ(shown(), "100");
@@ -126,21 +127,22 @@ TEST_F(WorkerDetours, ThereAndBackLoadsWhatWasAskedForLast) {
 
 TEST_F(WorkerDetours, WhatIsCancelledLeavesTheSceneAsItIs) {
     begin();
-    const auto first = mWorker->scene();
+    const auto first = mWorker->scenes().newest();
     for (const bool fails : {false, true})
         for (const bool change : {false, true}) {
             SCOPED_TRACE(std::string(change ? "change" : "load") + (fails ? ", failing" : ""));
             mGate.close();
             const int before = mGate.came();
-            change ? mWorker->change(lateChange(200, fails)) : mWorker->reload(late(200, fails));
+            change ? mWorker->scenes().change(lateChange(200, fails))
+                   : mWorker->scenes().reload(late(200, fails));
             mGate.await(before + 1);
-            mWorker->change(lateChange(300));
-            if (!change) mWorker->reload(late(400));
-            mWorker->cancelLoading();
+            mWorker->scenes().change(lateChange(300));
+            if (!change) mWorker->scenes().reload(late(400));
+            mWorker->scenes().cancel();
             mGate.open();
             settle();
-            EXPECT_EQ(mWorker->scene(), first);
-            EXPECT_EQ(mWorker->takeReloadProblem(), "");
+            EXPECT_EQ(mWorker->scenes().newest(), first);
+            EXPECT_EQ(mWorker->scenes().takeProblem(), "");
             EXPECT_EQ(mGate.came(), before + 1) << "what waited was not begun";
         }
     mWorker->request(requestFrom(1, 3));
@@ -151,47 +153,47 @@ TEST_F(WorkerDetours, WhatIsCancelledLeavesTheSceneAsItIs) {
 TEST_F(WorkerDetours, AFailureIsOfTheNewestWishAlone) {
     begin();
     const auto failing = [](Progress&) -> OpenScene { throw Error("bad.tif", "", "is none", "no"); };
-    const auto failed = [&] { return test::waitFor([this] { return !mWorker->loading().busy; }); };
-    mWorker->reload(failing);
+    const auto failed = [&] { return test::waitFor([this] { return !mWorker->scenes().loading().busy; }); };
+    mWorker->scenes().reload(failing);
     ASSERT_TRUE(failed());
-    mWorker->reload([](Progress&) { return numbered(300); });
+    mWorker->scenes().reload([](Progress&) { return numbered(300); });
     ASSERT_TRUE(test::waitFor([this] { return shown() == "300"; }));
-    EXPECT_EQ(mWorker->takeReloadProblem(), "") << "nobody asked before the next wish came";
-    mWorker->reload(failing);
+    EXPECT_EQ(mWorker->scenes().takeProblem(), "") << "nobody asked before the next wish came";
+    mWorker->scenes().reload(failing);
     ASSERT_TRUE(failed());
-    mWorker->change([](const OpenScene&, Progress&) { return numbered(400); });
+    mWorker->scenes().change([](const OpenScene&, Progress&) { return numbered(400); });
     ASSERT_TRUE(test::waitFor([this] { return shown() == "400"; }));
-    EXPECT_EQ(mWorker->takeReloadProblem(), "");
-    mWorker->reload(failing);
+    EXPECT_EQ(mWorker->scenes().takeProblem(), "");
+    mWorker->scenes().reload(failing);
     ASSERT_TRUE(failed());
-    EXPECT_EQ(mWorker->takeReloadProblem(), "bad.tif: is none; no");
-    EXPECT_EQ(mWorker->takeReloadProblem(), "");
+    EXPECT_EQ(mWorker->scenes().takeProblem(), "bad.tif: is none; no");
+    EXPECT_EQ(mWorker->scenes().takeProblem(), "");
     EXPECT_EQ(shown(), "400");
     // A change fails while another one waits.
     mGate.close();
     const int before = mGate.came();
-    mWorker->change(lateChange(500, true));
+    mWorker->scenes().change(lateChange(500, true));
     mGate.await(before + 1);
-    mWorker->change([](const OpenScene& now, Progress&) {
+    mWorker->scenes().change([](const OpenScene& now, Progress&) {
         EXPECT_EQ(now.scene->name, "400") << "what failed is not what it is made from";
         return numbered(600);
     });
     mGate.open();
     ASSERT_TRUE(test::waitFor([this] { return shown() == "600"; }));
-    EXPECT_EQ(mWorker->takeReloadProblem(), "");
+    EXPECT_EQ(mWorker->scenes().takeProblem(), "");
 }
 
 // A change that waits for a load is dropped with it by the next load.
 TEST_F(WorkerDetours, AChangeThatWasAskedForBeforeALoadIsNotMadeAfterIt) {
     begin();
     std::atomic<bool> changed = false;
-    mWorker->reload(late(200));
+    mWorker->scenes().reload(late(200));
     mGate.await();
-    mWorker->change([&](const OpenScene&, Progress&) {
+    mWorker->scenes().change([&](const OpenScene&, Progress&) {
         changed = true;
         return numbered(250);
     });
-    mWorker->reload([](Progress&) { return numbered(300); });
+    mWorker->scenes().reload([](Progress&) { return numbered(300); });
     mGate.open();
     settle();
     EXPECT_EQ(shown(), "300");
@@ -210,7 +212,7 @@ TEST_F(WorkerDetours, FramesEndWithTheNewestRequestOfTheNewestScene) {
     frame.await();
     for (const auto& [version, x] : {std::pair(2, 2.0), {3, 3.0}, {4, 2.0}})
         mWorker->request(requestFrom(version, x));
-    mWorker->reload([](Progress&) { return numbered(300); });
+    mWorker->scenes().reload([](Progress&) { return numbered(300); });
     ASSERT_TRUE(test::waitFor([this] { return shown() == "300"; }));
     frame.open();
     std::shared_ptr<const ViewFrame> newest;
@@ -256,7 +258,7 @@ TEST_F(WorkerDetours, TasksGetTheNewestScene) {
         });
     };
     ask("a");
-    mWorker->reload([](Progress&) { return numbered(300); });
+    mWorker->scenes().reload([](Progress&) { return numbered(300); });
     ASSERT_TRUE(test::waitFor([this] { return shown() == "300"; }));
     ask("b");
     frame.open();

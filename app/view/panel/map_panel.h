@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/options/shared_options.h"
 #include "app/view/beside_work.h"
 #include "app/view/keyframe_edit.h"
 #include "app/view/panel/panel_texture.h"

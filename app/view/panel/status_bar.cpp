@@ -178,7 +178,7 @@ float drawStatusBar(const PanelParts& parts, float left, float right) {
 void drawNotices(const PanelParts& parts, float left, float right, float top) {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float width = whole.x - left - right, margin = 0.6f * ImGui::GetFontSize();
-    const ViewWorker::Loading loading = parts.changes.loading();
+    const SceneLoader::Loading loading = parts.changes.loading();
     ViewSession* const session = parts.session;
     const std::string notice = session ? session->notice() : "";
     const bool waits = loading.busy && (parts.changes.loadingSeconds() > kPatience || !session);

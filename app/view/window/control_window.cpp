@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 
 namespace stereonav {
 namespace {

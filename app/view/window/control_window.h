@@ -6,7 +6,7 @@
 
 #include "app/view/panel/panel_texture.h"
 #include "app/view/panel/shown_panels.h"
-#include "app/view/worker.h"
+#include "app/view/view_frame.h"
 #include "engine/display/interface.h"
 #include "engine/display/window.h"
 
