@@ -189,6 +189,14 @@ void tooltip(const std::string& text) {
     ImGui::EndTooltip();
 }
 
+bool button(const char* label, const std::string& tip, bool can) {
+    ImGui::BeginDisabled(!can);
+    const bool pressed = ImGui::Button(label);
+    ImGui::EndDisabled();
+    tooltip(tip);
+    return pressed;
+}
+
 void quietLine(const std::string& text) {
     ImGui::PushStyleColor(ImGuiCol_Text, quietNow());
     plainText(text);

@@ -30,6 +30,8 @@ void wrappedText(const std::string& text, float width = 0);
 void quietLine(const std::string& text);
 void quietText(const std::string& text);
 void tooltip(const std::string& text);
+// Draws a button with a tooltip; can: whether it can be pressed. Returns whether it was.
+bool button(const char* label, const std::string& tip, bool can = true);
 // Draws the rows of facts, labels beside texts. name: unique within the panel.
 void factTable(const char* name, const Facts& facts);
 

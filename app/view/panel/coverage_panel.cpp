@@ -77,11 +77,10 @@ void CoveragePanel::drawUnseen(LiveCoverage& coverage, ViewSession& session, Ask
         }
     }
     ImGui::EndChild();
-    if (ImGui::Button("Next")) actions.ask({ViewCommand::NextUnseen});
-    tooltip("Flies to the next smaller patch. Key: F8");
+    if (button("Next", "Flies to the next smaller patch. Key: F8")) actions.ask({ViewCommand::NextUnseen});
     ImGui::SameLine();
-    if (ImGui::Button("Previous")) actions.ask({ViewCommand::PreviousUnseen});
-    tooltip("Flies to the next larger patch. Key: Shift+F8");
+    if (button("Previous", "Flies to the next larger patch. Key: Shift+F8"))
+        actions.ask({ViewCommand::PreviousUnseen});
 }
 
 void CoveragePanel::draw(LiveCoverage* coverage, ViewSession& session, AskedActions& actions) {
@@ -104,13 +103,13 @@ void CoveragePanel::draw(LiveCoverage* coverage, ViewSession& session, AskedActi
                           now.any && coverage->busy() ? ", still looking" : ""));
     if (const std::string problem = coverage->problem(); !problem.empty()) wrappedText(problem);
     drawSettings(*coverage);
-    if (ImGui::Button("+ One way")) coverage->addOwnFlight(false);
-    tooltip("Counts the scene's own flight as flown, with this picture's field of view and shape.");
+    if (button("+ One way",
+               "Counts the scene's own flight as flown, with this picture's field of view and shape."))
+        coverage->addOwnFlight(false);
     ImGui::SameLine();
-    if (ImGui::Button("+ Both ways")) coverage->addOwnFlight(true);
-    tooltip("Counts the scene's own flight there and back as flown.");
-    if (ImGui::Button("Start again")) coverage->startAgain();
-    tooltip("Nothing was flown.");
+    if (button("+ Both ways", "Counts the scene's own flight there and back as flown."))
+        coverage->addOwnFlight(true);
+    if (button("Start again", "Nothing was flown.")) coverage->startAgain();
     if (now.any) drawUnseen(*coverage, session, actions);
 }
 

@@ -138,23 +138,21 @@ void FindingsPanel::drawFiles(const ViewSession& session, Notices& notices, cons
     if (list.rows().empty()) return;
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##page", "findings.html", &mPage);
-    ImGui::BeginDisabled(list.busy());
-    if (ImGui::Button("Write page")) notices.tryTo([&] { list.writePage(mPage); });
-    ImGui::EndDisabled();
-    tooltip("One HTML file with the list and pictures of each.");
+    if (button("Write page", "One HTML file with the list and pictures of each.", !list.busy()))
+        notices.tryTo([&] { list.writePage(mPage); });
     ImGui::SameLine();
-    if (ImGui::Button("Copy command"))
+    if (button("Copy command",
+               fmt::format("Goes on with the list without a window. It is kept in {}", list.file().string())))
         clipboard.copy(fmt::format("stereonav findings '{}' --file '{}' --page findings.html",
                                    session.open().scene->name, list.file().string()));
-    tooltip(fmt::format("Goes on with the list without a window. It is kept in {}", list.file().string()));
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##report", "findings.dcm", &mReport);
     const std::string why = list.maker()->whyNoReport();
-    ImGui::BeginDisabled(list.busy() || !why.empty());
-    if (ImGui::Button("Write DICOM report")) notices.tryTo([&] { list.writeReport(mReport); });
-    ImGui::EndDisabled();
-    tooltip(why.empty() ? "A DICOM structured report of the list, for archives."
-                        : "Can not be had: " + why + ".");
+    if (button("Write DICOM report",
+               why.empty() ? "A DICOM structured report of the list, for archives."
+                           : "Can not be had: " + why + ".",
+               !list.busy() && why.empty()))
+        notices.tryTo([&] { list.writeReport(mReport); });
     quietText("kept in " + list.file().string());
 }
 

@@ -62,13 +62,11 @@ void drawSeenFrom(SceneChanges& changes, Instruments& instruments, const ViewSes
     }
     tooltip("How high the eye is that looks from there.");
     if (changed) instruments.seeFrom(on ? std::optional(height) : std::nullopt);
-    if (ImGui::Button("What is seen from here"))
+    if (button("What is seen from here", "From the ground under the eyes, so high above it."))
         paint.askSeenFrom(glm::dvec2(session.pose().position), height);
-    tooltip("From the ground under the eyes, so high above it.");
     if (paint.now("paint").empty()) return;
     ImGui::SameLine();
-    if (ImGui::Button("None##paint")) changes.set("paint", std::nullopt);
-    tooltip("Takes what is painted away.");
+    if (button("None##paint", "Takes what is painted away.")) changes.set("paint", std::nullopt);
 }
 
 }  // namespace
@@ -85,11 +83,11 @@ void drawHoursButton(SceneChanges& changes, const std::string& date) {
     const auto* const paint = scene.offered<LivePaint>();
     if (!paint || !scene.offered<OnEarth>()) return;
     const std::string text = "hours:" + date;
-    ImGui::BeginDisabled(paint->now("paint") == text);
-    if (ImGui::Button("Paint hours of sun")) changes.set("paint", text);
-    ImGui::EndDisabled();
-    tooltip(
-        "How long the sun reaches each place of the ground on this day; it is worked out beside the flight.");
+    if (button("Paint hours of sun",
+               "How long the sun reaches each place of the ground on this day; it is worked out beside the "
+               "flight.",
+               paint->now("paint") != text))
+        changes.set("paint", text);
 }
 
 }  // namespace stereonav

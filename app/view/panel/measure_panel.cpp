@@ -79,10 +79,10 @@ void drawSaving(WindowJobs& jobs, const MeasuredLine& line) {
     ImGui::InputTextWithHint("##measured file", "profile.svg", &file);
     tooltip("A .svg or .csv of the profile, or a .geojson of the line with its figures.");
     ImGui::SameLine();
-    ImGui::BeginDisabled(busy || file.empty());
-    if (ImGui::Button("Save##measured")) jobs.saveMeasured(line, file);
-    ImGui::EndDisabled();
-    tooltip("Written beside the flight; where a file is there already, the new one gets a number.");
+    if (button("Save##measured",
+               "Written beside the flight; where a file is there already, the new one gets a number.",
+               !busy && !file.empty()))
+        jobs.saveMeasured(line, file);
 }
 
 }  // namespace
@@ -121,10 +121,9 @@ void drawMeasurePanel(Instruments& instruments, WindowJobs& jobs, ViewSession& s
     if (ImGui::Button("Copy figures")) clipboard.copy(linesOf(measured->facts));
     if (where.empty()) return;
     ImGui::SameLine();
-    if (ImGui::Button("Copy command"))
+    if (button("Copy command", "Measures the same without a window, and writes it as CSV and GeoJSON."))
         clipboard.copy(fmt::format("stereonav measure {} {} --csv measured.csv --geojson measured.geojson",
                                    shellWord(session.open().scene->name), where));
-    tooltip("Measures the same without a window, and writes it as CSV and GeoJSON.");
     drawSaving(jobs, *line);
 }
 

@@ -19,12 +19,6 @@ namespace {
 
 constexpr double kSmoothSeconds = 0.5;
 
-bool button(const char* label, const char* tip) {
-    const bool pressed = ImGui::Button(label);
-    tooltip(tip);
-    return pressed;
-}
-
 void drawEdits(ViewSession& session, KeyframeEdit& edit) {
     const RecordedPath& path = session.paths().path();
     static double from = 0, to = 1;  // shares of the duration
@@ -86,10 +80,9 @@ void drawKeyframes(ViewSession& session, KeyframeEdit& edit, const Bookmarks* pl
     const double speed = session.flight().speed();
     if (!edit.any()) {
         const bool path = session.paths().path().samples().size() > 1;
-        ImGui::BeginDisabled(!path);
-        if (button("Keyframes of the path", "A few that the path is kept with, to be moved on the map (F3)."))
+        if (button("Keyframes of the path", "A few that the path is kept with, to be moved on the map (F3).",
+                   path))
             tried([&] { edit.start(keyframesToEdit(session.paths().path())); });
-        ImGui::EndDisabled();
         if (places && places->list().size() > 1) {
             if (button(
                     "Fly through the places",
@@ -111,9 +104,7 @@ void drawKeyframes(ViewSession& session, KeyframeEdit& edit, const Bookmarks* pl
     if (button("Add this eye", "As a keyframe, after the chosen one or at the end."))
         tried([&] { edit.add(session.pose(), speed); });
     ImGui::SameLine();
-    ImGui::BeginDisabled(!edit.chosen());
-    if (button("Remove", "The chosen keyframe. Key: Del")) edit.removeChosen();
-    ImGui::EndDisabled();
+    if (button("Remove", "The chosen keyframe. Key: Del", edit.chosen().has_value())) edit.removeChosen();
     ImGui::SameLine();
     if (button("Done", "The path stays as it is.")) edit.start({});
     if (edit.chosen()) drawKeyframeHeight(edit, session.flight());
@@ -140,10 +131,9 @@ void drawMovie(const ViewSession& session, WindowJobs& jobs) {
     tooltip("Frames a second.");
     ImGui::SameLine();
     const bool busy = jobs.busy();
-    ImGui::BeginDisabled(busy || movie.file.empty() || session.paths().path().samples().size() < 2);
-    if (ImGui::Button("Make movie")) jobs.makeMovie(movie);
-    ImGui::EndDisabled();
-    tooltip("Of this path, in the mode that is shown. It goes on beside the flight.");
+    if (button("Make movie", "Of this path, in the mode that is shown. It goes on beside the flight.",
+               !busy && !movie.file.empty() && session.paths().path().samples().size() > 1))
+        jobs.makeMovie(movie);
 }
 
 }  // namespace

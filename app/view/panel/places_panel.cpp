@@ -12,11 +12,9 @@ namespace stereonav {
 void PlacesPanel::draw(KeptPlaces& kept, AskedActions& actions) {
     Bookmarks* const places = kept.places();
     if (!places) return;
-    if (ImGui::Button("Home")) actions.ask({ViewCommand::Home});
-    tooltip("Back to the start. Key: Space");
+    if (button("Home", "Back to the start. Key: Space")) actions.ask({ViewCommand::Home});
     ImGui::SameLine();
-    if (ImGui::Button("+ Add")) actions.ask({ViewCommand::AddPlace});
-    tooltip("Keeps this place, for this file. Key: Ctrl+B");
+    if (button("+ Add", "Keeps this place, for this file. Key: Ctrl+B")) actions.ask({ViewCommand::AddPlace});
     if (places->list().empty()) quietText("No places yet: + keeps the one that is shown.");
     // Copied, since buttons change the list.
     const std::vector<Bookmark> list = places->list();

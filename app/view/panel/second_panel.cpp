@@ -66,10 +66,8 @@ void SecondPanel::drawPicture(SecondSide& side, const ViewSession& session, bool
         fmt::format("Matched along both lines; how unlike they are: {:.2f}, 0 of a line with itself. Whose "
                     "studies they are is not known.",
                     second.cost()));
-    ImGui::BeginDisabled(loading);
-    if (ImGui::Button("Swap")) side.swap();
-    ImGui::EndDisabled();
-    tooltip("Flies in the other study from here on; nothing is read again.");
+    if (button("Swap", "Flies in the other study from here on; nothing is read again.", !loading))
+        side.swap();
     ImGui::SameLine();
     if (ImGui::Button("Close")) second.close();
 }

@@ -40,8 +40,7 @@ void drawOptions(SceneChanges& changes, OptionPanel panel) {
 }
 
 void command(AskedActions& actions, const char* label, ViewCommand which, const char* tip) {
-    if (ImGui::Button(label)) actions.ask({which});
-    tooltip(tip);
+    if (button(label, tip)) actions.ask({which});
 }
 
 void drawView(const PanelParts& parts, ViewSession& session) {
@@ -99,12 +98,12 @@ void drawBake(WindowJobs& jobs) {
         ImGui::SameLine();
     }
     const bool busy = jobs.busy();
-    ImGui::BeginDisabled(busy);
-    if (ImGui::Button("Bake")) jobs.bakeLight(words[static_cast<std::size_t>(chosen)], minutes);
-    ImGui::EndDisabled();
-    tooltip(
-        "Computes light with its shadows and reflections beforehand, and shows it. It goes on beside the "
-        "flight.");
+    if (button(
+            "Bake",
+            "Computes light with its shadows and reflections beforehand, and shows it. It goes on beside the "
+            "flight.",
+            !busy))
+        jobs.bakeLight(words[static_cast<std::size_t>(chosen)], minutes);
 }
 
 void drawLight(SceneChanges& changes, WindowJobs& jobs, ViewSession& session, SunPanel& sun) {
@@ -209,12 +208,12 @@ void drawPicture(WindowJobs& jobs, const SizeOption& shown) {
     picture.height = static_cast<int>(std::lround(times * shown.height));
     ImGui::SameLine();
     const bool busy = jobs.busy();
-    ImGui::BeginDisabled(busy || picture.file.empty());
-    if (ImGui::Button("Save picture")) jobs.savePicture(picture);
-    ImGui::EndDisabled();
-    tooltip(
-        "Of what is seen now; both eyes are made in full, unless a method is set. It goes on beside the "
-        "flight.");
+    if (button(
+            "Save picture",
+            "Of what is seen now; both eyes are made in full, unless a method is set. It goes on beside the "
+            "flight.",
+            !busy && !picture.file.empty()))
+        jobs.savePicture(picture);
     quietText(fmt::format("{} x {} pixels an eye", picture.width, picture.height));
 }
 
@@ -248,14 +247,13 @@ void drawSidePanels(const PanelParts& parts, SideTools& tools) {
     if (heading("Scene", false)) drawFacts(parts.facts.of(changes.worker()));
     if (heading("Command line", false)) {
         quietText(commandLineOf(parts.second.settingsToOpen()));
-        if (ImGui::Button("Copy##view")) parts.clipboard.copy(commandLineOf(parts.second.settingsToOpen()));
-        tooltip("Opens the window as it is set now.");
+        if (button("Copy##view", "Opens the window as it is set now."))
+            parts.clipboard.copy(commandLineOf(parts.second.settingsToOpen()));
         ImGui::SameLine();
         const std::string at = poseText(session->pose());
-        if (ImGui::Button("Copy for a picture"))
+        if (button("Copy for a picture", "Writes what is seen now into view.png, as it is set now."))
             parts.clipboard.copy(
                 renderLineOf(withEyes(changes.settings().now(), session->stereo()), at, parts.eyeSize));
-        tooltip("Writes what is seen now into view.png, as it is set now.");
     }
 }
 

@@ -142,8 +142,8 @@ bool StartPage::draw(SceneChanges& changes, KeptPlaces& kept, FileLooks& looks, 
             open = kCards[n].scene;
     }
     ImGui::Spacing();
-    if (ImGui::Button("Open a file or folder...")) look = true;
-    tooltip("An elevation model, a CT study, a mesh or a scene. Key: Ctrl+O");
+    if (button("Open a file or folder...", "An elevation model, a CT study, a mesh or a scene. Key: Ctrl+O"))
+        look = true;
     ImGui::SameLine();
     quietText("or drop it here: GeoTIFF and other elevation models, DICOM, NIfTI, NRRD, glTF");
     if (const std::string recent = drawRecent(kept, looks, inside); !recent.empty()) open = recent;

@@ -89,13 +89,11 @@ void askForScreen(const PanelParts& parts, float wrap) {
     ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
     ImGui::InputDouble("mm##screen", &width_mm, 0, 0, "%.0f");
     ImGui::SameLine();
-    ImGui::BeginDisabled(!(width_mm > 0 && std::isfinite(width_mm)));
-    if (ImGui::Button("Set")) parts.changes.set("screen-width", fmt::format("{:.6g}", width_mm));
-    ImGui::EndDisabled();
-    tooltip("Of the whole monitor. It is kept, and can be changed in the panel View and stereo.");
+    if (button("Set", "Of the whole monitor. It is kept, and can be changed in the panel View and stereo.",
+               width_mm > 0 && std::isfinite(width_mm)))
+        parts.changes.set("screen-width", fmt::format("{:.6g}", width_mm));
     ImGui::SameLine();
-    if (ImGui::Button("Not now")) parts.display.leaveUnknown();
-    tooltip("It is not asked again.");
+    if (button("Not now", "It is not asked again.")) parts.display.leaveUnknown();
 }
 
 void askBeforeClosing(const PanelParts& parts, const std::string& question, float wrap) {

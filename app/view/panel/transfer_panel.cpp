@@ -398,8 +398,7 @@ void TransferPanel::drawButtons(SceneChanges& changes, const BegunSurface& begun
     tooltip("As it was opened.");
     if (!mZoomed) return;
     ImGui::SameLine();
-    if (ImGui::Button("All values")) mZoomed = false;
-    tooltip("The histogram as a whole.");
+    if (button("All values", "The histogram as a whole.")) mZoomed = false;
 }
 
 }  // namespace stereonav

@@ -219,12 +219,12 @@ void UnfoldedPanel::drawControls(ViewSession& session) {
     ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
     ImGui::InputTextWithHint("##file", "unfolded.png", &mFiles[mView]);
     ImGui::SameLine();
-    ImGui::BeginDisabled(mFiles[mView].empty() || mSaving.busy());
-    if (ImGui::Button("Save picture")) save(session);
-    ImGui::EndDisabled();
-    tooltip(fromBothEnds()
-                ? "Both strips, with a mark for each centimetre of the line."
-                : "All of the wall, with a mark for each centimetre of the line, and a square centimetre.");
+    if (button("Save picture",
+               fromBothEnds()
+                   ? "Both strips, with a mark for each centimetre of the line."
+                   : "All of the wall, with a mark for each centimetre of the line, and a square centimetre.",
+               !mFiles[mView].empty() && !mSaving.busy()))
+        save(session);
 }
 
 // Returns the visible rows, including those of the scale below the wall.
