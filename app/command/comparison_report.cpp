@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/output/handed_name.h"
-#include "engine/metrics/error_plot.h"
+#include "engine/metrics/chart_picture.h"
 #include "engine/scene/facts_json.h"
 #include "engine/text/csv_text.h"
 #include "engine/text/json_text.h"
@@ -142,22 +142,27 @@ std::string csvOf(const ComparisonReport& report) {
 }
 
 Plane<PackedColor> plotOf(const ComparisonReport& report) {
-    PlotPanel oneRay{"against the full right cast, one ray a pixel",
-                     "right eye in ms (median)",
-                     "RMS error in 8-bit levels",
-                     {}};
-    PlotPanel manyRays = oneRay;
+    using Kind = ChartScale::Kind;
+    Chart oneRay{"against the full right cast, one ray a pixel",
+                 "right eye in ms (median)",
+                 "RMS error in 8-bit levels",
+                 Kind::Linear,
+                 Kind::Logarithmic,
+                 {{}}};
+    oneRay.titled = true;
+    Chart manyRays = oneRay;
     manyRays.title = fmt::format("against a right cast of {} rays a pixel", report.truthRays);
     for (const MethodFigures& method : report.methods) {
-        oneRay.points.push_back({method.name, method.right_ms, rmsFromPsnr(method.difference.psnr_db)});
-        manyRays.points.push_back({method.name, method.right_ms, rmsFromPsnr(method.true_psnr_db)});
+        const Spread time = exactly(method.right_ms);
+        oneRay.series[0].points.push_back(
+            {method.name, time, exactly(rmsFromPsnr(method.difference.psnr_db))});
+        manyRays.series[0].points.push_back({method.name, time, exactly(rmsFromPsnr(method.true_psnr_db))});
     }
-    if (std::isnan(report.methods.front().true_psnr_db)) {
-        oneRay.title = "against a sweep for each eye";
-        oneRay.timeLabel = "second eye in ms (median)";
-        return drawErrorPlot({oneRay}, captionOf(report));
-    }
-    return drawErrorPlot({oneRay, manyRays}, captionOf(report));
+    if (!std::isnan(report.methods.front().true_psnr_db))
+        return chartPicture(sideBySide({oneRay, manyRays}, captionOf(report)));
+    oneRay.title = "against a sweep for each eye";
+    oneRay.xLabel = "second eye in ms (median)";
+    return chartPicture(sideBySide({oneRay}, captionOf(report)));
 }
 
 }  // namespace stereonav

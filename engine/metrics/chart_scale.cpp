@@ -15,12 +15,11 @@ constexpr double kMargin = 0.07;        // of the scale, beyond the values
 constexpr double kLeastDecades = 0.25;  // of a logarithmic scale
 constexpr std::size_t kMostTicks = 7;
 
-// 1, 2 or 5 times a power of ten that cuts `range` into at most six parts.
 std::string tickText(double value) {
     const double size = std::abs(value);
     if (size >= 1e4 && size < 1e6) return fmt::format("{:.4g}k", value / 1000);
     return size != 0 && (size < 1e-3 || size >= 1e5) ? fmt::format("{:.0e}", value)
-                                                     : fmt::format("{:.4g}", value);
+                                                     : fmt::format("{:.6g}", value);
 }
 
 }  // namespace
@@ -35,7 +34,11 @@ ChartScale::ChartScale(const std::vector<double>& values, Kind kind) {
     }
     mLogarithmic = kind == Kind::Logarithmic ||
                    (kind == Kind::Automatic && least > 0 && most >= kAutomaticRatio * least);
-    if (!mLogarithmic) {
+    if (kind == Kind::Around && std::isfinite(least)) {
+        const double room = std::max(kMargin * (most - least), 0.5);
+        mLow = least - room;
+        mHigh = most + room;
+    } else if (!mLogarithmic) {
         if (std::isfinite(least)) choose(least, most);
     } else if (std::isfinite(leastAbove)) {
         choose(std::log10(leastAbove), std::log10(most));

@@ -11,7 +11,8 @@ public:
     enum class Kind {
         Linear,       // from zero, or from below it
         Logarithmic,  // zeros have no place on it
-        Automatic     // logarithmic where all values are above 0 and the largest is 6 times the least
+        Automatic,    // logarithmic where all values are above 0 and the largest is 6 times the least
+        Around        // from the least value to the largest, with room of 0.5 at least on either side
     };
 
     // Room for all values that have a place; those that are not finite are left out. None, one or equal

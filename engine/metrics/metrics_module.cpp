@@ -33,8 +33,8 @@ Plane<PackedColor> differenceTimes(const Plane<PackedColor>& truth, const Plane<
     return opencv().differenceTimes(truth, image, factor);
 }
 
-Plane<PackedColor> drawErrorPlot(const std::vector<PlotPanel>& panels, const std::string& caption) {
-    return opencv().drawErrorPlot(panels, caption);
+Plane<PackedColor> chartPicture(const ChartDrawing& drawing) {
+    return opencv().chartPicture(drawing);
 }
 
 }  // namespace stereonav

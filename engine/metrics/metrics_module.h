@@ -1,8 +1,8 @@
 // What metrics ask of the module stereonav_metrics (OpenCV); engine/metrics/opencv has the functions.
 #pragma once
 
+#include "engine/metrics/chart_picture.h"
 #include "engine/metrics/difference_picture.h"
-#include "engine/metrics/error_plot.h"
 #include "engine/metrics/image_difference.h"
 
 namespace stereonav {
@@ -12,7 +12,7 @@ struct MetricsFunctions {
     decltype(&stereonav::psnrOf) psnrOf;
     decltype(&stereonav::edgeMask) edgeMask;
     decltype(&stereonav::differenceTimes) differenceTimes;
-    decltype(&stereonav::drawErrorPlot) drawErrorPlot;
+    decltype(&stereonav::chartPicture) chartPicture;
 };
 
 }  // namespace stereonav

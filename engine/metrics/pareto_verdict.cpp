@@ -2,14 +2,21 @@
 
 #include <fmt/format.h>
 
-#include "engine/metrics/error_plot.h"
+#include <algorithm>
 
 namespace stereonav {
 namespace {
 
+bool beats(glm::dvec2 a, glm::dvec2 b) {
+    return a.x <= b.x && a.y <= b.y && (a.x < b.x || a.y < b.y);
+}
+
+glm::dvec2 placeOf(const Way& way) {
+    return {way.time.low, way.error};
+}
+
 bool beats(const Way& a, const Way& b) {
-    return a.time.count > 0 && a.time.low <= b.time.low && a.error <= b.error &&
-           (a.time.low < b.time.low || a.error < b.error);
+    return a.time.count > 0 && beats(placeOf(a), placeOf(b));
 }
 
 // By more than what repeats of the same thing usually differ by.
@@ -40,12 +47,21 @@ std::string verdictText(const Way& way, const ParetoVerdict& verdict) {
 
 }  // namespace
 
+std::vector<std::size_t> paretoFront(const std::vector<glm::dvec2>& points) {
+    std::vector<std::size_t> front;
+    for (std::size_t k = 0; k < points.size(); ++k)
+        if (std::ranges::none_of(points, [&](glm::dvec2 other) { return beats(other, points[k]); }))
+            front.push_back(k);
+    std::ranges::stable_sort(front, {}, [&](std::size_t k) { return points[k].x; });
+    return front;
+}
+
 std::vector<std::size_t> frontOf(const std::vector<Way>& ways) {
-    std::vector<PlotPoint> points;
+    std::vector<glm::dvec2> points;
     std::vector<std::size_t> measured;
     for (std::size_t n = 0; n < ways.size(); ++n)
         if (ways[n].time.count > 0) {
-            points.push_back({ways[n].name, ways[n].time.low, ways[n].error});
+            points.push_back(placeOf(ways[n]));
             measured.push_back(n);
         }
     std::vector<std::size_t> front = paretoFront(points);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <string>
 #include <vector>
 
@@ -10,35 +11,35 @@
 
 namespace stereonav {
 
-// A way as it was measured.
 struct Way {
     std::string name;
-    Spread time;       // >= 0, in any unit
-    double error = 0;  // >= 0, in any unit
+    Spread time;       // >= 0
+    double error = 0;  // >= 0
     bool isDefault = false;
 };
 
-// Returns the indices of the ways that none beats (smaller or equal in both, smaller in one), by rising time.
-// Ways that were not measured are never among them.
+// Returns the indices of the points that none beats (smaller or equal in both, smaller in one), by rising x.
+std::vector<std::size_t> paretoFront(const std::vector<glm::dvec2>& points);
+
+// Returns the indices of the ways that none beats, by rising time. Ways that were not measured are never among them.
 std::vector<std::size_t> frontOf(const std::vector<Way>& ways);
 
 // How a way stands to the front.
 struct ParetoVerdict {
     bool onFront = false;
-    // Whether it is not on the front, but nothing beats it by more than the spread of its time and kSameError
-    // of its error.
+    // Not on the front, but nothing beats it by more than the spread of its time and kSameError of its error.
     bool withinNoise = false;
-    // The ways that beat it: the fastest, and the share of time it saves; the one with the least error, and
-    // the share of error it saves. "" where none does.
+    // Those that beat it: the fastest, and the share of time it saves; the one with the least error, and the
+    // share of error it saves. "" where none does.
     std::string faster, better;
-    double timeSaved = 0, errorSaved = 0;  // 0 to 1
+    double timeSaved = 0, errorSaved = 0;
 };
 constexpr double kSameError = 0.01;  // errors nearer to each other than this share count as the same
 
-// Judges ways[which].
+// ways[which] is one of them.
 ParetoVerdict verdictOf(const std::vector<Way>& ways, std::size_t which);
 
-// Returns one sentence about the front, and one about each default.
+// One sentence about the front, and one about each default.
 std::string frontText(const std::vector<Way>& ways);
 
 }  // namespace stereonav

@@ -201,13 +201,13 @@ std::vector<double> numbersIn(std::string text) {
 class Scale {
 public:
     Scale(const std::string& svg, bool vertical) {
-        const std::string anchor = vertical ? "text-anchor='end'>" : "text-anchor='middle'>";
-        for (std::size_t at = svg.find("class='grid'"); at != std::string::npos;
-             at = svg.find("class='grid'", at + 1)) {
-            const std::size_t path = svg.rfind("d='M", at), text = svg.find("<text", at),
+        const std::string anchor = vertical ? "text-anchor=\"end\">" : "text-anchor=\"middle\">";
+        for (std::size_t at = svg.find("class=\"grid\""); at != std::string::npos;
+             at = svg.find("class=\"grid\"", at + 1)) {
+            const std::size_t path = svg.find("d=\"M", at), text = svg.find("<text", at),
                               said = svg.find(anchor, text), end = svg.find("</text>", text);
             if (said == std::string::npos || said > end) continue;
-            const std::vector<double> where = numbersIn(svg.substr(path, at - path));
+            const std::vector<double> where = numbersIn(svg.substr(path, text - path));
             mLines.emplace_back(where.at(vertical ? 1 : 0), std::stod(svg.substr(said + anchor.size())));
         }
         EXPECT_GE(mLines.size(), 3u);
@@ -257,8 +257,8 @@ TEST_F(GroundExports, AProfileIsTheLineInItsTableAndItsDrawing) {
         EXPECT_EQ(unit, times == 1 ? 1 : 1000);
         EXPECT_NE(svg.find(">height, m<"), std::string::npos);
         const Scale along(svg, false), up(svg, true);
-        const std::size_t curve = svg.rfind("d='", svg.find("class='line'"));
-        const std::vector<double> places = numbersIn(svg.substr(curve, svg.find("class='line'") - curve));
+        const std::size_t curve = svg.find("d=\"", svg.find("class=\"curve\""));
+        const std::vector<double> places = numbersIn(svg.substr(curve, svg.find("/>", curve) - curve));
         ASSERT_EQ(places.size(), 2 * table.rows());
         for (std::size_t n = 0; n < table.rows(); ++n) {
             EXPECT_NEAR(unit * along.at(places[2 * n]), table.number(n, "distance_m"), 0.001 * times * plan);

@@ -37,7 +37,7 @@ const std::vector<std::vector<double>> kHardValues{{},
 
 TEST(ChartScale, HoldsItsValuesAndHasTicks) {
     for (const auto& values : kHardValues)
-        for (const Kind kind : {Kind::Linear, Kind::Logarithmic, Kind::Automatic}) {
+        for (const Kind kind : {Kind::Linear, Kind::Logarithmic, Kind::Automatic, Kind::Around}) {
             const ChartScale scale(values, kind);
             for (const double v : values) {
                 const double place = scale.place(v);
@@ -99,7 +99,7 @@ TEST(SvgChart, IsWellFormedWhateverIsDrawn) {
 
 TEST(SvgChart, DrawsEveryPointOnceAndRingsTheDefault) {
     const std::string svg = svgOf(chartOf({1, 2, 3}, {3, 2, 0}, Kind::Logarithmic));
-    EXPECT_EQ(countOf(svg, "class=\"dot s0\""), 3u);
+    EXPECT_EQ(countOf(svg, "class=\"dot s0"), 3u);
     EXPECT_EQ(countOf(svg, "class=\"default\""), 1u);
     EXPECT_EQ(countOf(svg, "class=\"front\""), 1u);
     for (const char* name : {"point &lt;0&gt;", "point &lt;1&gt;", "point &lt;2&gt;"})
@@ -109,7 +109,7 @@ TEST(SvgChart, DrawsEveryPointOnceAndRingsTheDefault) {
 TEST(SvgChart, LeavesOutWhatWasNotMeasured) {
     Chart chart = chartOf({1, 2}, {1, 2}, Kind::Linear);
     chart.series[0].points[1].y.count = 0;
-    EXPECT_EQ(countOf(svgOf(chart), "class=\"dot s0\""), 1u);
+    EXPECT_EQ(countOf(svgOf(chart), "class=\"dot s0"), 1u);
 }
 
 TEST(SvgChart, ManySeriesHaveALegendAndStayWellFormed) {
@@ -136,6 +136,17 @@ TEST(SvgChart, LongNamesInTheLegendLoseTheirMiddle) {
         EXPECT_THAT(svg, HasSubstr(">begin"));
         EXPECT_THAT(svg, HasSubstr(std::string(letter) + "end<"));
     }
+}
+
+TEST(SvgChart, ACurveIsInterruptedWhereNothingIsKnown) {
+    Chart chart{"ground", "distance", "height", Kind::Linear, Kind::Around};
+    chart.series.push_back({"", {}, false, {{0, 5}, {1, 6}, {2, NAN}, {3, 7}, {4, 8}, {5, NAN}, {6, 5}}});
+    chart.titled = true;
+    const std::string svg = svgOf(chart, true);
+    EXPECT_EQ(test::xmlProblem(svg), "");
+    EXPECT_EQ(countOf(svg, "class=\"curve\""), 2u);
+    EXPECT_THAT(svg, Not(HasSubstr("nan")));
+    EXPECT_EQ(countOf(svg, ">ground<"), 2u) << "drawn, and said by readers of screens";
 }
 
 TEST(SvgChart, LabelsNeverMeet) {

@@ -5,7 +5,7 @@
 namespace stereonav {
 namespace {
 
-constexpr MetricsFunctions kFunctions = {differenceOf, psnrOf, edgeMask, differenceTimes, drawErrorPlot};
+constexpr MetricsFunctions kFunctions = {differenceOf, psnrOf, edgeMask, differenceTimes, chartPicture};
 
 }  // namespace
 

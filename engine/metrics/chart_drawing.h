@@ -1,0 +1,77 @@
+// Charts, and the marks that they are drawn with: points with the spread of their repeats, named where there
+// is room, the points that none beats joined by a line.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/metrics/chart_scale.h"
+#include "engine/metrics/spread.h"
+
+namespace stereonav {
+
+struct ChartPoint {
+    std::string name;
+    Spread x, y;
+    bool isDefault = false;  // of the program: drawn with a ring
+};
+
+struct ChartSeries {
+    std::string name;
+    std::vector<ChartPoint> points;
+    bool joined = false;                 // by a line, in their order
+    std::vector<glm::dvec2> curve = {};  // a line without points, interrupted where y is not finite
+};
+
+// Pixels of a drawing, which scales with its page.
+constexpr double kChartWidth = 420, kChartHeight = 320, kChartFont = 11;
+
+struct Chart {
+    std::string title, xLabel, yLabel;
+    ChartScale::Kind xKind = ChartScale::Kind::Automatic, yKind = ChartScale::Kind::Automatic;
+    std::vector<ChartSeries> series = {};
+    bool front = true;    // less is better in both: mark those that none beats
+    bool titled = false;  // the title is drawn; else it is for readers of screens alone
+    double width = kChartWidth;
+};
+
+// A line, a dot or words.
+struct ChartMark {
+    std::string style;  // ink, grid, frame, spread, front, curve, join s0 to s5, default, dot s0 to s5 (best)
+    std::vector<glm::dvec2> places;  // corners of a line; one: the middle of a dot, or where words stand
+    std::string words = {};          // for a dot: what it stands for
+    const char* anchor = "middle";   // which part of the words stands at the place: start, middle or end
+    bool upright = false;            // words read upwards
+    double radius = 0;               // above 0: a dot
+};
+
+struct ChartDrawing {
+    double width = 0, height = 0;
+    std::vector<ChartMark> marks;
+};
+
+// Points with a value that is not finite, or not measured, are left out. On a logarithmic axis zeros lie on a
+// line of their own, "0", below the rest.
+ChartDrawing drawingOf(const Chart& chart);
+
+// The charts in a row, and below them the caption and what their fronts mean.
+ChartDrawing sideBySide(const std::vector<Chart>& charts, const std::string& caption);
+
+// What labels stand beside: for tests, and for drawingOf.
+struct LabelBox {
+    double x = 0, y = 0, width = 0, height = 0;
+    bool overlaps(const LabelBox& other) const {
+        return x < other.x + other.width && other.x < x + width && y < other.y + other.height &&
+               other.y < y + height;
+    }
+};
+struct LabelWish {
+    std::string text;
+    double x = 0, y = 0;  // of the point
+};
+// For each wish, in their order, a box near its point that is inside the frame and clear of all points and
+// boxes before; width 0 where there is no such place.
+std::vector<LabelBox> placeLabels(const std::vector<LabelWish>& wishes, const LabelBox& frame);
+
+}  // namespace stereonav
