@@ -1,108 +1,140 @@
-// Precomputed light: how long bakes take (Wyman et al. 2006, Table 1) and what each way of choosing paths
-// gains at equal error. With --marks "name value" lines alone, with --table bakes and with --frames the cost
-// of frames alone. Times of whole volumes are rates measured on a random part of the texels and scaled;
-// processor times, of all threads together, say what they would be on a machine that does nothing else.
+// What each choice of paths of precomputed light gains at equal error, on the engine of Wyman et al. 2006, by
+// processor time of all threads. With --marks one line "name value": what all of them gain. Their tables of
+// bakes and frames are those of `stereonav report --papers --parts papers-light`.
+// The error is the root of the mean squared difference, over texels, of luminance from its expectation,
+// measured between runs with different seeds.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <functional>
+#include <string>
+#include <vector>
 
+#include "app/report/papers/data.h"
 #include "engine/base/error.h"
+#include "engine/base/parallel.h"
+#include "engine/light/bake/bake_rate.h"
+#include "engine/math/luminance.h"
 #include "engine/simd/simd_target.h"
-#include "tests/bench/bench_light_gain.h"
-#include "tests/bench/bench_light_lookup.h"
-#include "tests/bench/bench_light_occlusion.h"
-#include "tests/bench/bench_light_view.h"
 
 namespace stereonav::bench {
 namespace {
 
-constexpr int kOrder = 5, kChannels = 1;
 constexpr int kNaiveSamples = 2500;
 
-struct Marks {
-    LightSubject subject = lightSubject();
-    std::vector<Brick> bricks = shuffledBricks(subject.volume.frame.size);
-    double found_s = fields_s(subject.volume);
+struct GainPoint {
+    int samples = 0;
+    double error = 0;        // RMS
+    double processor_s = 0;  // for one run over the texels
+};
 
-    TexelLighter lighter(const TexelSampling& sampling = {}) const {
-        return TexelLighter(subject.volume, subject.volume.frame, subject.setup, sampling);
+// One run: luminances of all texels on a surface, in order.
+std::vector<double> bakeOnce(const TexelLighter& lighter, const std::vector<TexelPiece>& bricks,
+                             int samples) {
+    std::vector<std::vector<TexelSum>> sums(bricks.size());
+    parallelFor(static_cast<int>(bricks.size()), [&](int n) {
+        const TexelPiece& brick = bricks[static_cast<std::size_t>(n)];
+        auto& sum = sums[static_cast<std::size_t>(n)];
+        sum.resize(brick.size());
+        lighter.addIrradiance(brick, samples, sum);
+    });
+    std::vector<double> light;
+    for (const auto& brick : sums)
+        for (const TexelSum& sum : brick)
+            if (sum.samples > 0) light.push_back(luminance(glm::dvec3(sum.mean)));
+    return light;
+}
+
+GainPoint measureError(const PaperEngine& subject, TexelSampling sampling,
+                       const std::vector<TexelPiece>& bricks, int samples, int runs) {
+    std::vector<double> sum, squares;
+    GainPoint point;
+    point.samples = samples;
+    point.processor_s = 1e300;
+    for (int run = 0; run < runs; ++run) {
+        sampling.seed = static_cast<std::uint64_t>(100 + run);
+        const TexelLighter lighter(subject.volume, subject.volume.frame, subject.setup, sampling);
+        bakeOnce(lighter, bricks, 1);  // finds the fields
+        const double before = processorSeconds();
+        const std::vector<double> light = bakeOnce(lighter, bricks, samples);
+        point.processor_s = std::min(point.processor_s, processorSeconds() - before);
+        sum.resize(light.size());
+        squares.resize(light.size());
+        for (std::size_t n = 0; n < light.size(); ++n) {
+            sum[n] += light[n];
+            squares[n] += light[n] * light[n];
+        }
     }
-    // With the fields found, which fields_s counts.
-    double irradiance_s(int samples, double seconds, BakeRate* rate = nullptr) const {
-        const TexelLighter light = lighter();
-        irradianceRate(light, bricks, 1, 1.5);
-        const BakeRate r = irradianceRate(light, bricks, samples, seconds);
-        if (rate) *rate = r;
-        return found_s + r.all_s;
+    double total = 0;
+    for (std::size_t n = 0; n < sum.size(); ++n)
+        total += std::max(0.0, (squares[n] - sum[n] * sum[n] / runs) / (runs - 1));
+    point.error = std::sqrt(total / static_cast<double>(std::max<std::size_t>(sum.size(), 1)));
+    return point;
+}
+
+struct NamedSampling {
+    std::string name;
+    TexelSampling sampling;
+};
+
+std::vector<NamedSampling> samplings() {
+    TexelSampling all, naive;
+    naive.naive = true;
+    std::vector<NamedSampling> list{{"naive", naive}, {"all", all}};
+    const auto without = [&](const char* name, bool TexelSampling::*what) {
+        TexelSampling some = all;
+        some.*what = false;
+        list.push_back({std::string("all but ") + name, some});
+    };
+    without("low discrepancy", &TexelSampling::lowDiscrepancy);
+    without("cosine", &TexelSampling::cosine);
+    without("next event", &TexelSampling::nextEvent);
+    without("roulette", &TexelSampling::roulette);
+    without("leaping", &TexelSampling::leaping);
+    return list;
+}
+
+// The time at which a way of sampling reaches an error, from measured points: between them by powers.
+double timeFor(double error, const std::vector<GainPoint>& points) {
+    for (std::size_t n = 0; n + 1 < points.size(); ++n) {
+        const GainPoint &a = points[n], &b = points[n + 1];
+        if (error > a.error || error < b.error) continue;
+        const double share = std::log(a.error / error) / std::log(a.error / b.error);
+        return a.processor_s * std::pow(b.processor_s / a.processor_s, share);
     }
-    double transfer_s(int samples, double seconds, BakeRate* rate = nullptr) const {
-        const TexelLighter light = lighter();
-        irradianceRate(light, bricks, 1, 1.5);
-        const BakeRate r = transferRate(light, bricks, samples, kOrder, kChannels, seconds);
-        if (rate) *rate = r;
-        return found_s + r.all_s;
-    }
-    std::vector<Brick> someBricks(std::size_t count) const {
-        return {bricks.begin(), bricks.begin() + static_cast<std::ptrdiff_t>(std::min(count, bricks.size()))};
-    }
-    // Processor time of naive sampling for that of ours at the error that it reaches with kNaiveSamples. Both
-    // leap: the difference is the sampling alone.
-    double equalErrorSpeedup() const {
-        const std::vector<Brick> some = someBricks(12);
-        TexelSampling naive;
-        naive.naive = true;
-        const GainPoint slow = measureError(subject, naive, some, kNaiveSamples / 10, 8);
-        std::vector<GainPoint> ours;
-        for (const int samples : {1, 2, 4, 8, 16, 32})
-            ours.push_back(measureError(subject, {}, some, samples, 8));
-        return 10 * slow.processor_s / timeFor(slow.error / std::sqrt(10.0), ours);
+    const GainPoint& last = error > points.front().error ? points.front() : points.back();
+    return last.processor_s * std::pow(last.error / error, 2);  // as for independent samples
+}
+
+struct Subject {
+    PaperEngine engine = paperEngine(PaperData(""));
+    std::vector<TexelPiece> bricks = shuffledBricks(engine.volume.frame.size);
+
+    Subject() { bricks.resize(std::min<std::size_t>(bricks.size(), 12)); }
+    GainPoint errorOf(const TexelSampling& sampling, int samples) const {
+        return measureError(engine, sampling, bricks, samples, 8);
     }
 };
 
-// Prints the paper's Table 1, from rates of `seconds` each.
-void printBakes(const Marks& marks) {
-    constexpr double kSeconds = 20;
-    const OneView view = viewOf900(marks.subject);
-    const std::vector<Brick> all = inSmallPieces(marks.bricks);
-    const TexelLighter light = marks.lighter();
-    irradianceRate(light, all, 1, 1.5);  // finds what rays leap by
-    std::printf("one view of 900x900: %zu texels, %zu pixels on the surface\n", view.texelCount,
-                view.pixelCount);
-    std::printf("%-34s %8s %10s %10s %22s %10s\n", "", "samples", "minutes", "processor",
-                "M samples/s a thread", "measured");
-    const auto row = [&](const char* name, double before_s, const auto& rateOf) {
-        for (const int samples : {100, 625, 2500, 10000}) {
-            const BakeRate rate = rateOf(samples);
-            std::printf("%-34s %8d %10.2f %10.2f %22.3f %9.1f%%\n", name, samples,
-                        (before_s + rate.all_s) / 60, rate.processor_s / 60, rate.samples_s / 1e6,
-                        100 * rate.part);
-            std::fflush(stdout);
-        }
-    };
-    const auto irradiance = [&](const std::vector<Brick>& bricks) {
-        return [&](int samples) { return irradianceRate(light, bricks, samples, kSeconds); };
-    };
-    const auto transfer = [&](const std::vector<Brick>& bricks) {
-        return [&](int samples) { return transferRate(light, bricks, samples, kOrder, kChannels, kSeconds); };
-    };
-    row("transfer, of one view", 0, transfer(view.texels));
-    row("transfer, all", marks.found_s, transfer(all));
-    row("irradiance, of one view", 0, irradiance(view.texels));
-    row("irradiance, all", marks.found_s, irradiance(all));
-    row("paths from pixels, of one view", 0,
-        [&](int samples) { return pointRate(light, view.pixels, samples, kSeconds); });
+// Processor time of naive sampling for that of ours at the error that it reaches with kNaiveSamples. Both
+// leap: the difference is the sampling alone.
+double equalErrorSpeedup(const Subject& subject) {
+    TexelSampling naive;
+    naive.naive = true;
+    const GainPoint slow = subject.errorOf(naive, kNaiveSamples / 10);
+    std::vector<GainPoint> ours;
+    for (const int samples : {1, 2, 4, 8, 16, 32}) ours.push_back(subject.errorOf({}, samples));
+    return 10 * slow.processor_s / timeFor(slow.error / std::sqrt(10.0), ours);
 }
 
-void printGains(const Marks& marks) {
-    const std::vector<Brick> some = marks.someBricks(12);
+void printGains(const Subject& subject) {
     std::printf("\n%-26s %10s %10s %10s   times of naive sampling for the error of 250 of its samples\n",
                 "sampling", "error 16", "error 64", "error 256");
     double naive = 0;
     double target = 0;
     for (const NamedSampling& s : samplings()) {
         std::vector<GainPoint> points;
-        for (const int samples : {1, 4, 16, 64, 256})
-            points.push_back(measureError(marks.subject, s.sampling, some, samples, 8));
+        for (const int samples : {1, 4, 16, 64, 256}) points.push_back(subject.errorOf(s.sampling, samples));
         if (naive == 0) {
             naive = points[4].processor_s * 250 / 256;
             target = points[4].error * std::sqrt(256.0 / 250);
@@ -112,38 +144,15 @@ void printGains(const Marks& marks) {
     }
 }
 
-enum class Part { All, Marks, Frames, Table };
-
-// Which kernels and how many threads the numbers below are of.
-void printMachine() {
-    std::printf("instruction_set %s\n", nameOf(availableTarget(SimdTarget::Auto)).data());
-    std::printf("threads %d\n", threadCount());
-}
-
-int run(Part part) {
-    printMachine();
-    if (part == Part::Frames) {
-        printLookup(measureLookup(lightSubject(), kOrder, 100), false);
-        return 0;
+int run(bool marks) {
+    std::printf("instruction_set %s\nthreads %d\n", nameOf(availableTarget(SimdTarget::Auto)).data(),
+                threadCount());
+    const Subject subject;
+    if (!marks) {
+        std::printf("%s, %d bounces\n", subject.engine.title.c_str(), subject.engine.setup.bounces);
+        printGains(subject);
     }
-    const Marks marks;
-    if (part == Part::Marks) {
-        BakeRate rate;
-        std::printf("irradiance100_s %.1f\n", marks.irradiance_s(100, 8, &rate));
-        std::printf("irradiance100_processor_s %.1f\n", rate.processor_s);
-        std::printf("transfer100_s %.1f\n", marks.transfer_s(100, 7, &rate));
-        std::printf("transfer100_processor_s %.1f\n", rate.processor_s);
-        std::printf("equal_error_speedup %.1f\n", marks.equalErrorSpeedup());
-        printLookup(measureLookup(marks.subject, kOrder, 40), true);
-        printOcclusionMarks();
-        return 0;
-    }
-    std::printf("%s, %d bounces, %d threads, fields of all isovalues found in %.2f s\n",
-                marks.subject.name.c_str(), marks.subject.setup.bounces, threadCount(), marks.found_s);
-    printBakes(marks);
-    if (part == Part::Table) return 0;
-    printGains(marks);
-    printLookup(measureLookup(marks.subject, kOrder, 40), false);
+    std::printf("equal_error_speedup %.1f\n", equalErrorSpeedup(subject));
     return 0;
 }
 
@@ -152,14 +161,7 @@ int run(Part part) {
 
 int main(int count, char** arguments) {
     try {
-        using stereonav::bench::Part;
-        const auto asks = [&](const char* option) {
-            return count > 1 && std::strcmp(arguments[1], option) == 0;
-        };
-        return stereonav::bench::run(asks("--marks")    ? Part::Marks
-                                     : asks("--frames") ? Part::Frames
-                                     : asks("--table")  ? Part::Table
-                                                        : Part::All);
+        return stereonav::bench::run(count > 1 && std::strcmp(arguments[1], "--marks") == 0);
     } catch (const stereonav::Error& e) {
         std::fprintf(stderr, "%s\n", e.what());
         return 1;
