@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/report/trial.h"
-#include "engine/metrics/image_difference.h"
 
 namespace stereonav {
 
@@ -19,18 +18,13 @@ public:
     void addTime(std::size_t repeat, double ms) { mMs[repeat] += ms / mFrames; }
     // Adds the error of a frame; to be called once per frame.
     void addError(const Plane<PackedColor>& left, const Plane<PackedColor>& right, const EyePair& made) {
-        for (const double psnr_db : {psnrOf(left, made.left.color), psnrOf(right, made.right.color)}) {
-            const double rms = rmsOfPsnr(psnr_db);
+        for (const double rms : {rmsOf(left, made.left.color), rmsOf(right, made.right.color)}) {
             mSquares += rms * rms / (2 * mFrames);
             mWorst = std::max(mWorst, rms);
         }
     }
     WayPoint point(const std::string& name, const std::string& detail, bool isDefault) const {
-        WayPoint point;
-        point.way = {name, spreadOf(mMs), std::sqrt(mSquares), isDefault};
-        point.worstError = mWorst;
-        point.detail = detail;
-        return point;
+        return {{name, spreadOf(mMs), std::sqrt(mSquares), isDefault}, detail, mWorst};
     }
 
 private:

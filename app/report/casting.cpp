@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/report/run.h"
+#include "app/report/trial.h"
 #include "engine/base/parallel.h"
-#include "engine/metrics/image_difference.h"
 #include "engine/volume/volume_renderer.h"
 #include "terrain/cast/equidistant_caster.h"
 #include "terrain/cast/plain_caster.h"
@@ -19,9 +18,8 @@ constexpr double kFinestStep = 1.0 / 16, kDefaultStep = 0.5;
 
 EyeView viewOf(const ReportScene& scene, int frame, int frames) {
     const Scene& s = scene.loaded();
-    const Pose pose =
-        s.path.samples().empty() ? s.startPose : s.path.frames(frames)[static_cast<std::size_t>(frame)];
-    return makeEyeView(pose, s.lens);
+    const std::size_t n = s.path.samples().empty() ? 0 : static_cast<std::size_t>(frame);
+    return makeEyeView(posesOf(s, frames)[n], s.lens);
 }
 
 // The left eye of a frame with the finest step.
@@ -56,9 +54,6 @@ WayChart stepChart(ReportRun& run, const ReportScene& scene) {
         "repeats.",
         repeats);
     chart.timeLabel = "left eye, ms a frame";
-    chart.timeUnit = "ms";
-    chart.errorLabel = "RMS error, 8-bit levels";
-    chart.errorUnit = "levels";
     const std::vector<Plane<PackedColor>> truths = stepTruths(run, scene, frames);
     for (const double step : {0.125, 0.25, kDefaultStep, 1.0, 2.0, 4.0}) {
         std::vector<double> ms(static_cast<std::size_t>(repeats));
@@ -76,16 +71,14 @@ WayChart stepChart(ReportRun& run, const ReportScene& scene) {
                 renderEye(renderer, view, image);
                 time += watch.elapsed_ms() / frames;
             }
-            const double psnr = psnrOf(truths[static_cast<std::size_t>(frame)], image.color);
-            const double rms = psnr >= kIdenticalPsnr_db ? 0.0 : 255 * std::pow(10.0, -psnr / 20);
+            const double rms = rmsOf(truths[static_cast<std::size_t>(frame)], image.color);
             squares += rms * rms / frames;
             worst = std::max(worst, rms);
         }
-        WayPoint point;
-        point.way = {fmt::format("{:g}", step), spreadOf(ms), std::sqrt(squares), step == kDefaultStep};
-        point.worstError = worst;
-        point.detail = fmt::format("samples {:g} voxels apart", step);
-        chart.points.push_back(std::move(point));
+        chart.points.push_back(
+            {{fmt::format("{:g}", step), spreadOf(ms), std::sqrt(squares), step == kDefaultStep},
+             fmt::format("samples {:g} voxels apart", step),
+             worst});
     }
     return chart;
 }
@@ -131,12 +124,10 @@ DepthError depthError(const Depths& depths, const Depths& exact) {
 
 WayPoint depthPoint(const std::string& name, const std::string& detail, const std::vector<double>& ns,
                     const DepthError& error, bool isDefault) {
-    WayPoint point;
-    point.way = {name, spreadOf(ns), 100 * error.rms, isDefault};
-    point.worstError = 100 * error.worst;
-    point.detail = detail;
-    point.others = {{"other hits %", 100 * error.missed}};
-    return point;
+    return {{name, spreadOf(ns), 100 * error.rms, isDefault},
+            detail,
+            100 * error.worst,
+            {{"other hits %", 100 * error.missed}}};
 }
 
 WayChart terrainChart(ReportRun& run, const ReportScene& scene) {
@@ -153,10 +144,8 @@ WayChart terrainChart(ReportRun& run, const ReportScene& scene) {
     chart.setting = run.settingOf(s, lens);
     chart.text =
         "Nanoseconds a ray from the start pose. Stepped: the casting of Wan et al. 2004 in plain code, steps "
-        "in sample "
-        "spacings. Exact in plain code: cell by cell. Exact: the program's own, with its shading. Other "
-        "hits: pixels where "
-        "one of both met nothing.";
+        "in sample spacings. Exact in plain code: cell by cell. Exact: the program's own, with its shading. "
+        "Other hits: pixels where one of both met nothing.";
     chart.timeLabel = "ns a ray";
     chart.timeUnit = "ns";
     chart.errorLabel = "RMS error of the depth, %";
@@ -264,9 +253,9 @@ void reportCasting(ReportRun& run, double) {
     run.checkTime();
     addChart(run.report(), section, normalsChart(run));
     section.blocks.emplace_back(std::move(leaping));
-    section.blocks.emplace_back(ReportText{
-        "Fixed, with nothing to choose: opaque surfaces are met exactly (bilinear cells of terrain, "
-        "cubic hits in cells of volumes)."});
+    section.blocks.emplace_back(
+        ReportText{"Fixed, with nothing to choose: opaque surfaces are met exactly (bilinear cells of "
+                   "terrain, cubic hits in cells of volumes)."});
     run.report().sections.push_back(std::move(section));
 }
 

@@ -64,8 +64,7 @@ WayChart edgeChart(ReportRun& run, const ReportScene& scene) {
     FrameMaker& frames = scene.frames();
     const std::vector<RayWay> ways = waysOf(run);
     const int repeats = run.pick(2, 4), factor = run.pick(4, 8);
-    const std::vector<Pose> poses = loaded.path.samples().empty() ? std::vector<Pose>{loaded.startPose}
-                                                                  : loaded.path.frames(run.pick(1, 3));
+    const std::vector<Pose> poses = posesOf(loaded, run.pick(1, 3));
     const auto count = static_cast<double>(poses.size());
     std::vector<BothEyes> eyes(ways.size(), {static_cast<std::size_t>(repeats), count});
     RefinedFrames refined;
@@ -93,14 +92,10 @@ WayChart edgeChart(ReportRun& run, const ReportScene& scene) {
     chart.setting = fmt::format("{}, {} frames", run.settingOf(loaded), poses.size());
     chart.text = fmt::format(
         "Both eyes by the default way, against {} rays in each pixel of each eye; {} repeats. Rays are added "
-        "where "
-        "a colour differs from its neighbours and the depth is bent.",
+        "where a colour differs from its neighbours and the depth is bent.",
         factor * factor, repeats);
     chart.why = "In a view without edges rays there cost a look for them and nothing is gained.";
     chart.timeLabel = "both eyes, ms a frame";
-    chart.timeUnit = "ms";
-    chart.errorLabel = "RMS error, 8-bit levels";
-    chart.errorUnit = "levels";
     for (std::size_t n = 0; n < ways.size(); ++n)
         chart.points.push_back(eyes[n].point(ways[n].name, ways[n].detail, ways[n].isDefault));
     return chart;

@@ -147,15 +147,12 @@ void chart(ReportRun& run, ReportSection& section, const ReportScene& scene, dou
     frame.setting = fmt::format("{}, {} frames", run.settingOf(scene.loaded()), felt.frames());
     frame.text = fmt::format(
         "Against {} rays a pixel. Eyes 1/30 of the zero-parallax distance apart; times are the mean frame's "
-        "of "
-        "the scene's flight. A number after a way's name is a setting other than its own.",
+        "of the scene's flight. A number after a way's name is a setting other than its own.",
         felt.rays());
     frame.why =
         "One ray a pixel flickers and differs between the eyes by itself, full casts too: ways nearer to "
-        "each "
-        "other than that are chosen by their error against the full cast.";
+        "each other than that are chosen by their error against the full cast.";
     frame.timeLabel = "right eye, ms a frame";
-    frame.timeUnit = "ms";
     addFeltCharts(run, section, scene.id, frame, times.points(), felt.errors());
     section.blocks.emplace_back(ReportPictures{"What would be noticed, " + scene.title,
                                                "From the middle of the flight.", felt.pictures()});
@@ -192,16 +189,14 @@ PeerBytes makeFeltWay(ReportRun& run, ByteReader& order) {
 }
 
 void reportFelt(ReportRun& run, double seconds) {
-    ReportSection section{"felt",
-                          "What a viewer feels",
-                          "Flicker: how far the right eye's change over a 30th of a second is from the "
-                          "truth's change. Rivalry: how "
-                          "far the two eyes differ, at points that both see, from how their truths differ. "
-                          "Butteraugli: how much of "
-                          "the right eye's error a person would notice, by libjxl, white at 80 cd/m2; at 1 a "
-                          "flip between picture "
-                          "and truth is just noticed.",
-                          {}};
+    ReportSection section{
+        "felt",
+        "What a viewer feels",
+        "Flicker: how far the right eye's change over a 30th of a second is from the truth's change. "
+        "Rivalry: how far the two eyes differ, at points that both see, from how their truths differ. "
+        "Butteraugli: how much of the right eye's error a person would notice, by libjxl, white at 80 cd/m2; "
+        "at 1 a flip between picture and truth is just noticed.",
+        {}};
     const Stopwatch watch;
     for (const ReportScene& scene : run.scenes()) {
         if (scene.loaded().path.samples().empty()) continue;  // nothing moves

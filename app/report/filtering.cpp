@@ -8,7 +8,6 @@
 
 #include "app/report/fine_pictures.h"
 #include "app/report/trial.h"
-#include "engine/metrics/image_difference.h"
 #include "engine/metrics/supersampled_picture.h"
 #include "terrain/cast/terrain_renderer.h"
 
@@ -71,8 +70,7 @@ WayChart filteringChart(ReportRun& run, const ReportScene& scene) {
     Progress progress([&](double, const std::string&) { run.tell("filtering, " + scene.title); });
     std::vector<FilterWay> ways = waysOf(loaded);
     for (FilterWay& way : ways) way.ms.assign(static_cast<std::size_t>(repeats), 0.0);
-    const std::vector<Pose> poses =
-        loaded.path.samples().empty() ? std::vector<Pose>{loaded.startPose} : loaded.path.frames(frames);
+    const std::vector<Pose> poses = posesOf(loaded, frames);
     const auto count = static_cast<double>(poses.size());
     std::vector<FineView> views;
     for (const Pose& pose : poses) views.push_back({makeEyeView(pose, loaded.lens)});
@@ -87,7 +85,7 @@ WayChart filteringChart(ReportRun& run, const ReportScene& scene) {
             for (FilterWay& way : ways) {
                 way.ms[static_cast<std::size_t>(r)] += cast(way, view, progress, image) / count;
                 if (r > 0) continue;
-                const double rms = rmsOfPsnr(psnrOf(truths[n], image.color));
+                const double rms = rmsOf(truths[n], image.color);
                 way.squares += rms * rms / count;
                 way.worst = std::max(way.worst, rms);
             }
@@ -104,16 +102,9 @@ WayChart filteringChart(ReportRun& run, const ReportScene& scene) {
         "A finer level is nearer to the truth of a still picture and shimmers in motion, which no single "
         "frame shows; a coarser one blurs.";
     chart.timeLabel = "left eye, ms a frame";
-    chart.timeUnit = "ms";
-    chart.errorLabel = "RMS error, 8-bit levels";
-    chart.errorUnit = "levels";
-    for (const FilterWay& way : ways) {
-        WayPoint point;
-        point.way = {way.name, spreadOf(way.ms), std::sqrt(way.squares), way.isDefault};
-        point.detail = way.detail;
-        point.worstError = way.worst;
-        chart.points.push_back(std::move(point));
-    }
+    for (const FilterWay& way : ways)
+        chart.points.push_back(
+            {{way.name, spreadOf(way.ms), std::sqrt(way.squares), way.isDefault}, way.detail, way.worst});
     return chart;
 }
 

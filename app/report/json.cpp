@@ -213,10 +213,8 @@ ReportSection comparisonSection(const ReportComparison& comparison, const Earlie
         worse += c.verdict == Verdict::Worse, better += c.verdict == Verdict::Better;
     section.text = fmt::format(
         "With {}: of {} times and errors {} got worse and {} better beyond the noise. Of times the least of "
-        "the "
-        "repeats are compared, within what repeats of both runs and the machine itself spread by, at least "
-        "{:.0f} %; "
-        "errors, which repeat exactly, within {:.0f} %.",
+        "the repeats are compared, within what repeats of both runs and the machine itself spread by, at "
+        "least {:.0f} %; errors, which repeat exactly, within {:.0f} %.",
         file, comparison.changes.size(), worse, better, 100 * kLeastTimeBound, 100 * kErrorBound);
     ReportTable table{"What moved", "", {"figure", "before", "now", "unit", "ratio", "bound", "verdict"}, {}};
     for (const ReportChange& c : comparison.changes)

@@ -131,14 +131,12 @@ WayPoint irradiancePoint(ReportRun& run, const LightSubject& subject, bool naive
         worst = std::max(worst, relativeWorst(light, subject.truth));
         ms.push_back(baked.ms);
     }
-    WayPoint point;
-    point.way = {fmt::format("{}{}", naive ? "naive " : "", samples), perThousand(ms, subject),
-                 100 * std::sqrt(squares), !naive && samples == kDefaultSamples};
-    point.worstError = 100 * worst;
-    point.detail = fmt::format("{} samples a texel, {}", samples,
-                               naive ? "uniform directions, no knowledge of the sky"
-                                     : "directions by cosine and by the sky's brightness");
-    return point;
+    return {{fmt::format("{}{}", naive ? "naive " : "", samples), perThousand(ms, subject),
+             100 * std::sqrt(squares), !naive && samples == kDefaultSamples},
+            fmt::format("{} samples a texel, {}", samples,
+                        naive ? "uniform directions, no knowledge of the sky"
+                              : "directions by cosine and by the sky's brightness"),
+            100 * worst};
 }
 
 WayChart irradianceChart(ReportRun& run, const LightSubject& subject) {
@@ -179,12 +177,11 @@ WayChart transferChart(ReportRun& run, const LightSubject& subject) {
             worst = std::max(worst, relativeWorst(light, subject.truth));
             ms.push_back(t.ms);
         }
-        WayPoint p;
-        p.way = {fmt::format("order {} at {}", order, samples), perThousand(ms, subject),
-                 100 * std::sqrt(squares), order == kDefaultOrder && samples == kDefaultSamples};
-        p.worstError = 100 * worst;
-        p.detail = fmt::format("{} numbers, {} samples a texel", harmonicsCount(order), samples);
-        chart.points.push_back(std::move(p));
+        chart.points.push_back(
+            {{fmt::format("order {} at {}", order, samples), perThousand(ms, subject),
+              100 * std::sqrt(squares), order == kDefaultOrder && samples == kDefaultSamples},
+             fmt::format("{} numbers, {} samples a texel", harmonicsCount(order), samples),
+             100 * worst});
     };
     for (const int samples : {16, 64, 256, 1024}) point(kDefaultOrder, samples);
     for (const int order : {1, 2, 3, 4, 6}) point(order, kDefaultSamples);
@@ -235,7 +232,6 @@ WayChart lightChart(ReportRun& run, const LightSubject& subject, const char* id,
     chart.setting = fmt::format("{} texels, {} threads, seed {}, truth of {} samples", subject.truth.size(),
                                 threadCount(), run.options().seed, subject.truthSamples);
     chart.timeLabel = "ms for 1000 texels";
-    chart.timeUnit = "ms";
     chart.errorLabel = "RMS error, % of the light";
     chart.errorUnit = "%";
     return chart;

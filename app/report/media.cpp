@@ -216,9 +216,6 @@ WayChart emptyChart(const PairTrial& trial) {
     WayChart chart;
     chart.setting = trial.setting();
     chart.timeLabel = "ms a frame, both eyes";
-    chart.timeUnit = "ms";
-    chart.errorLabel = "RMS error, 8-bit levels";
-    chart.errorUnit = "levels";
     return chart;
 }
 
@@ -241,8 +238,7 @@ void addWaysCharts(ReportRun& run, ReportSection& section, const ReportScene& sc
     felt.title = scene.title;
     felt.text = fmt::format(
         "Of the flight's first frame and the next one, against a sweep of {} slices for each eye; times are "
-        "those "
-        "of the chart of both eyes. What the measures are stands in the part on what a viewer feels.",
+        "those of the chart of both eyes. What the measures are stands in the part on what a viewer feels.",
         trial.truthSlices());
     const std::vector<WayPoint> points = chart.points;
     addChart(run.report(), section, std::move(chart));
@@ -263,8 +259,7 @@ WayChart separationsChart(ReportRun& run, const ReportScene& scene, const std::v
     chart.title = "Separations, " + scene.title;
     chart.text =
         "Both eyes in one sweep, from 1/1000 to 1/4 of the zero-parallax distance apart; the ring marks "
-        "1/30. "
-        "Bars upwards reach to the worse eye.";
+        "1/30. Bars upwards reach to the worse eye.";
     chart.front = false;
     return chart;
 }

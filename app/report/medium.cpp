@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
-#include "app/report/run.h"
+#include "app/report/trial.h"
+#include "app/report/whole_medium.h"
 #include "engine/base/parallel.h"
 #include "engine/medium/model/built_in_media.h"
 #include "engine/medium/model/medium_transfer.h"
 #include "engine/medium/paths/delta_tracking.h"
 #include "engine/medium/paths/delta_tracking_bounds.h"
 #include "engine/medium/sweep/medium_sweep.h"
-#include "engine/metrics/image_difference.h"
 
 namespace stereonav {
 namespace {
@@ -33,19 +32,11 @@ MediumTransfer withoutSurface(const char* preset) {
     return MediumTransfer(points, transfer.referenceLength(), preset);
 }
 
-// Returns a view of the whole medium, lit over the viewer's shoulder.
 MediumSubject subjectOf(const std::string& name, Medium medium, int size) {
-    constexpr double kHeading = 0.6, kPitch = -0.3;
     MediumSubject subject{name, std::move(medium), {}, {}};
-    const double whole = glm::length(subject.medium.bounds().high - subject.medium.bounds().low);
-    const Pose middle = poseFromAngles(subject.medium.bounds().center(), kHeading, kPitch, 0);
-    const Pose pose = poseFromAngles(middle.position - 1.6 * whole * middle.forward(), kHeading, kPitch, 0);
-    Lens lens;
-    lens.width = lens.height = size;
-    lens.verticalFov = 0.5;
-    lens.nearDepth = 1e-3 * whole;
-    subject.view = makeEyeView(pose, lens);
-    subject.look.light.direction = glm::normalize(pose.forward() + 0.5 * pose.right() - 0.6 * pose.up());
+    const WholeMedium whole = wholeMedium(subject.medium, size);
+    subject.view = makeEyeView(whole.pose, whole.lens);
+    subject.look.light.direction = whole.light;
     return subject;
 }
 
@@ -88,19 +79,6 @@ std::shared_ptr<TrackedSubject> keptSubject(ReportRun& run, const MediumOrder& o
     });
 }
 
-// Returns the light as a picture over black.
-Plane<PackedColor> shown(const Plane<glm::vec4>& light) {
-    Plane<PackedColor> picture(light.width(), light.height());
-    for (int y = 0; y < light.height(); ++y)
-        for (int x = 0; x < light.width(); ++x) picture.at(x, y) = packColor(glm::vec3(light.at(x, y)));
-    return picture;
-}
-
-double rmsOf(const Plane<PackedColor>& truth, const Plane<PackedColor>& picture) {
-    const double psnr = psnrOf(truth, picture);
-    return psnr >= kIdenticalPsnr_db ? 0.0 : 255 * std::pow(10.0, -psnr / 20);
-}
-
 struct SweepWay {
     std::string name, detail;
     SweepSetting setting;
@@ -140,9 +118,6 @@ WayChart sweepChart(ReportRun& run, const MediumSubject& subject, const MediumLo
                     const Plane<PackedColor>& truth) {
     WayChart chart;
     chart.timeLabel = "ms a picture";
-    chart.timeUnit = "ms";
-    chart.errorLabel = "RMS error, 8-bit levels";
-    chart.errorUnit = "levels";
     chart.setting = run.settingOf(subject.view.width, subject.view.height);
     MediumSweep sweep(subject.medium);
     for (const SweepWay& way : waysOf(run, look.model == MediumModel::Indirect)) {
@@ -154,11 +129,8 @@ WayChart sweepChart(ReportRun& run, const MediumSubject& subject, const MediumLo
             sweep.render(look, way.setting, {&subject.view, 1}, subject.view.head, 0, {&picture, 1});
             ms.push_back(watch.elapsed_ms());
         }
-        WayPoint point;
-        point.way = {way.name, spreadOf(ms), rmsOf(truth, shown(picture.light)), way.isDefault};
-        point.worstError = point.way.error;
-        point.detail = way.detail;
-        chart.points.push_back(std::move(point));
+        const double rms = rmsOf(truth, shown(picture.light));
+        chart.points.push_back({{way.name, spreadOf(ms), rms, way.isDefault}, way.detail, rms});
     }
     return chart;
 }
@@ -231,9 +203,8 @@ void againstPaths(ReportRun& run, ReportSection& section, const MediumSubject& s
     chart.title = fmt::format("Volume light, {}, {}", subject.name, words);
     chart.text = fmt::format(
         "The {} sweep of the program's own {}, on the CPU; against paths traced through it ({}), {} a pixel, "
-        "whose own standard "
-        "error is {} in linear light. The model is an approximation: more slices come nearer to the model, "
-        "not to the truth.",
+        "whose own standard error is {} in linear light. The model is an approximation: more slices come "
+        "nearer to the model, not to the truth.",
         words, subject.name, model == MediumModel::Direct ? "scattered once" : "all orders",
         truth.tracking.samples, numberText(truthNoise(tracked)));
     if (model == MediumModel::Indirect)

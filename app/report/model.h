@@ -26,13 +26,13 @@ struct WayPoint {
     Way way;                // the way's name is also the end of the figures' ids
     std::string detail;     // settings, in words
     double worstError = 0;  // worst of the frames, or of the texels
-    std::vector<std::pair<std::string, double>>
-        others;  // further columns of the table; the same for all points
+    std::vector<std::pair<std::string, double>> others =
+        {};  // further columns of the table; the same for all points
 };
 struct WayChart {
     std::string id, title, text;  // text: what was measured, how, and against which reference
     std::string setting;          // conditions that comparable figures share: "500x400, 4 frames, 2 threads"
-    std::string timeLabel, timeUnit, errorLabel, errorUnit;
+    std::string timeLabel, timeUnit = "ms", errorLabel = "RMS error, 8-bit levels", errorUnit = "levels";
     std::vector<WayPoint> points;
     bool front =
         true;         // the points are alternatives: less is better in both; false: cases of a single choice

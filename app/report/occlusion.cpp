@@ -69,9 +69,8 @@ WayPoint estimated(ReportRun& run, const GreyVolume& volume, OcclusionMethod met
     std::vector<double> values;
     for (const glm::ivec3& at : texels.at)
         values.push_back(std::min(kFlatWallGain * openness.at(at) / 255.0, 1.0));
-    WayPoint point;
-    point.way = {name, spreadOf(ms), 0, method == OcclusionMethod::Gaussian};
-    point.detail = "from moments and extrema of a box, all voxels";
+    WayPoint point{{name, spreadOf(ms), 0, method == OcclusionMethod::Gaussian},
+                   "from moments and extrema of a box, all voxels"};
     setErrors(point, values, texels);
     return point;
 }
@@ -91,9 +90,8 @@ WayPoint directed(ReportRun& run, const GreyVolume& volume, DirectionMethod meth
         });
         ms.push_back(watch.elapsed_ms() * scale);
     }
-    WayPoint point;
-    point.way = {name, spreadOf(ms), 0, false};
-    point.detail = "42 directions a voxel; the time of the texels, scaled to all voxels";
+    WayPoint point{{name, spreadOf(ms)},
+                   "42 directions a voxel; the time of the texels, scaled to all voxels"};
     setErrors(point, values, texels);
     return point;
 }
@@ -114,7 +112,6 @@ WayChart chartOf(ReportRun& run, const GreyVolume& volume, int radius) {
         "voxel of noise or metal moves. Drawn in to three standard deviations they move less, at about twice "
         "the time.";
     chart.timeLabel = "ms for the volume";
-    chart.timeUnit = "ms";
     chart.errorLabel = "RMS error of openness";
     chart.errorUnit = "of 1";
     chart.points = {estimated(run, volume, OcclusionMethod::Gaussian, "gaussian", radius, texels),

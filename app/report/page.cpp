@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/image/inline_picture.h"
+
 namespace stereonav {
 namespace {
 
@@ -167,22 +169,6 @@ std::string sectionOf(const ReportSection& section) {
 
 }  // namespace
 
-std::string base64(std::span<const unsigned char> bytes) {
-    constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t n = 0; n < bytes.size(); n += 3) {
-        const std::size_t left = bytes.size() - n;
-        const unsigned three =
-            bytes[n] << 16 | (left > 1 ? bytes[n + 1] << 8 : 0) | (left > 2 ? bytes[n + 2] : 0);
-        text += kDigits[three >> 18];
-        text += kDigits[three >> 12 & 63];
-        text += left > 1 ? kDigits[three >> 6 & 63] : '=';
-        text += left > 2 ? kDigits[three & 63] : '=';
-    }
-    return text;
-}
-
 std::string pageOf(const Report& report) {
     std::string html =
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
@@ -191,13 +177,10 @@ std::string pageOf(const Report& report) {
         std::string(kStyle) + "</style></head><body>\n<h1>stereonav report</h1>\n";
     html += paragraph(
         "What the program's shortcuts cost and save. In each chart down is less error and left is less time; "
-        "the "
-        "green line joins what nothing else beats in both (the Pareto front), a ring marks what the program "
-        "does "
-        "when nothing is said. A dot lies at the least time of its repeats, since what else a machine does "
-        "only ever "
-        "adds, and a thin bar reaches to their median. Tables have the median and, in brackets, the least "
-        "and the most.");
+        "the green line joins what nothing else beats in both (the Pareto front), a ring marks what the "
+        "program does when nothing is said. A dot lies at the least time of its repeats, since what else a "
+        "machine does only ever adds, and a thin bar reaches to their median. Tables have the median and, in "
+        "brackets, the least and the most.");
     for (const std::string& warning : report.warnings) html += paragraph(warning, "warn");
     html += "<nav>";
     for (const ReportSection& s : report.sections)

@@ -2,7 +2,6 @@
 // phone and paper, light and dark.
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "app/report/model.h"
@@ -10,7 +9,5 @@
 namespace stereonav {
 
 std::string pageOf(const Report& report);
-
-std::string base64(std::span<const unsigned char> bytes);
 
 }  // namespace stereonav

@@ -16,17 +16,17 @@ struct ReportSection;
 struct PaperRow {
     std::string paper;  // "Wan et al. 2004"
     std::string table;  // place in the paper: "Table 2", "Section 5"
-    std::string row, column;
+    std::string row = {}, column = {};
     // The paper's figure, or its statement in words where it has no figure.
-    std::optional<double> theirs;
-    std::string said;
+    std::optional<double> theirs = {};
+    std::string said = {};
     // Our figure in the same unit; with count 0 there is none, and `none` gives the reason.
-    Spread ours;
-    std::string none;
-    std::string unit;
-    std::string measured;  // what was measured
-    std::string how;       // "rate of 5 s on 1.2 %, scaled"; "": measured completely
-    std::string why;       // reason for a difference
+    Spread ours = {};
+    std::string none = {};
+    std::string unit = {};
+    std::string measured = {};  // what was measured
+    std::string how = {};       // "rate of 5 s on 1.2 %, scaled"; "": measured completely
+    std::string why = {};       // reason for a difference
     enum class Kind { Time, Error, Other };
     Kind kind = Kind::Other;  // how later runs may compare it: less is better, except for Other
 };

@@ -167,9 +167,8 @@ public:
     std::string text() const {
         return fmt::format(
             "A look into the middle hole of the made block under a clear sky, {} bounces. Truth: paths "
-            "traced "
-            "from every pixel, {} each, whose own error is {} %. Bakes are of the texels that this picture "
-            "looks up; seconds of them are in the table.",
+            "traced from every pixel, {} each, whose own error is {} %. Bakes are of the texels that this "
+            "picture looks up; seconds of them are in the table.",
             kReportBounces, 2 * mTruthSamples, numberText(100 * mTruthError));
     }
 
@@ -244,11 +243,10 @@ private:
 
     WayPoint pointOf(const std::vector<double>& ms, const std::vector<double>& light, double bake_s,
                      std::size_t texels) const {
-        WayPoint point;
-        point.way = {"", spreadOf(ms), 100 * relativeRms(light, mTruth), false};
-        point.worstError = 100 * relativeWorst(light, mTruth);
-        point.others = {{"bake, s", bake_s}, {"texels", static_cast<double>(texels)}};
-        return point;
+        return {{"", spreadOf(ms), 100 * relativeRms(light, mTruth)},
+                "",
+                100 * relativeWorst(light, mTruth),
+                {{"bake, s", bake_s}, {"texels", static_cast<double>(texels)}}};
     }
 
     ReportRun& mRun;
@@ -268,7 +266,6 @@ WayChart pictureChart(const PixelSubject& subject, const char* id, const char* t
     chart.text = subject.text();
     chart.setting = subject.setting();
     chart.timeLabel = "ms a frame";
-    chart.timeUnit = "ms";
     chart.errorLabel = "RMS error, % of the light";
     chart.errorUnit = "%";
     return chart;
@@ -312,8 +309,7 @@ void addPixelCharts(ReportRun& run, ReportSection& section) {
     WayChart paths = pictureChart(subject, "light/pixels", "Path tracing");
     paths.text +=
         " Traced: nothing is baked, every pixel has so many paths. Baked: light is looked up; transfer is "
-        "dotted "
-        "with the sky in every frame, for what is seen.";
+        "dotted with the sky in every frame, for what is seen.";
     paths.why = "More samples and texels cost nothing in a frame, but time and memory in the bake.";
     for (const int samples : {1, 4, 16, 64, 256})
         if (samples <= run.pick(64, 256))

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "app/report/run.h"
+#include "app/report/trial.h"
 #include "engine/base/parallel.h"
 #include "engine/frame/cast_frames.h"
 #include "engine/volume/volume_renderer.h"
@@ -55,9 +55,8 @@ Case caseOf(ReportRun& run, const Scene& scene, FrameMaker& frames, const std::s
     StereoSetting stereo = scene.stereo;
     stereo.separation = stereo.zeroParallax / part;
     std::vector<StereoViews> views;
-    const std::vector<Pose> poses =
-        scene.path.samples().empty() ? std::vector<Pose>{scene.startPose} : scene.path.frames(run.pick(2, 3));
-    for (const Pose& pose : poses) views.push_back(makeStereoViews(pose, lens, stereo));
+    for (const Pose& pose : posesOf(scene, run.pick(2, 3)))
+        views.push_back(makeStereoViews(pose, lens, stereo));
     const FramePlan plan = frames.measure(views).value();
     Case c{title,
            fmt::format("{}x{}", size.width, size.height),
@@ -147,8 +146,7 @@ std::string summaryOf(const std::vector<Case>& cases) {
     const auto count = static_cast<double>(cases.size());
     return fmt::format(
         "Warping was cheaper in {} of {} cases. The plan chose the cheaper way in {}; its choices cost {} ms "
-        "a "
-        "frame too much on average, {} ms at worst.",
+        "a frame too much on average, {} ms at worst.",
         warps, cases.size(), right, numberText(sum / count), numberText(worst));
 }
 

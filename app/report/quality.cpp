@@ -12,23 +12,11 @@
 namespace stereonav {
 namespace {
 
-constexpr double kShare = 1.0 / 30;  // separation as a share of the zero-parallax distance
-
-StereoSetting stereoOf(const Scene& scene) {
-    StereoSetting stereo = scene.stereo;
-    stereo.separation = stereo.zeroParallax * kShare;
-    return stereo;
-}
-
-std::vector<Pose> posesOf(const Scene& scene, int frames) {
-    return scene.path.samples().empty() ? std::vector<Pose>{scene.startPose} : scene.path.frames(frames);
-}
-
 MeasuredWarps measured(ReportRun& run, const ReportScene& scene, const std::vector<NamedWarp>& warps) {
     const Scene& loaded = scene.loaded();
     std::vector<StereoViews> views;
     for (const Pose& pose : posesOf(loaded, run.pick(5, 15)))
-        views.push_back(makeStereoViews(pose, loaded.lens, stereoOf(loaded)));
+        views.push_back(makeStereoViews(pose, loaded.lens, chartedEyes(loaded)));
     run.tell("quality, measuring " + scene.title);
     return measureWarps(rendererOf(loaded), views, warps, 1);
 }
@@ -65,7 +53,7 @@ std::vector<Variant> variantsOf(ReportRun& run, const std::vector<NamedWarp>& wa
 WayChart dialChart(ReportRun& run, const ReportScene& scene, double seconds) {
     const std::vector<NamedWarp> warps = warpsWorthTrying(rendererOf(scene.loaded()));
     const MeasuredWarps known = measured(run, scene, warps);
-    RightEyeTrial trial(scene, stereoOf(scene.loaded()), variantsOf(run, warps, known));
+    RightEyeTrial trial(scene, chartedEyes(scene.loaded()), variantsOf(run, warps, known));
     trial.run(run, "quality, " + scene.title, run.pick(2, 10), seconds);
     WayChart chart;
     chart.id = "quality/" + scene.id;
@@ -78,9 +66,6 @@ WayChart dialChart(ReportRun& run, const ReportScene& scene, double seconds) {
         trial.repeats());
     chart.why = "The default casts the holes alone; whoever wants more turns the dial.";
     chart.timeLabel = "right eye, ms a frame";
-    chart.timeUnit = "ms";
-    chart.errorLabel = "RMS error, 8-bit levels";
-    chart.errorUnit = "levels";
     chart.points = trial.points();
     return chart;
 }
@@ -91,7 +76,7 @@ double makeEyes(const ReportScene& from, const Pose& pose, double scale, EyePair
     Lens lens = scene.lens;
     lens.width = std::max(1, static_cast<int>(std::lround(scale * lens.width)));
     lens.height = std::max(1, static_cast<int>(std::lround(scale * lens.height)));
-    const StereoViews views = makeStereoViews(pose, lens, stereoOf(scene));
+    const StereoViews views = makeStereoViews(pose, lens, chartedEyes(scene));
     const Stopwatch watch;
     from.frames().make(views, 0, {}, scale < 1 ? small : eyes);
     if (scale < 1) {
@@ -114,7 +99,7 @@ WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
     std::vector<EyePair> small(scales.size());
     for (const Pose& pose : poses) {
         run.tell("resolution, " + scene.title);
-        frames.make(makeStereoViews(pose, scene.loaded().lens, stereoOf(scene.loaded())), 0,
+        frames.make(makeStereoViews(pose, scene.loaded().lens, chartedEyes(scene.loaded())), 0,
                     {frames.exactMethod(), {}}, truth);
         for (std::size_t r = 0; r < static_cast<std::size_t>(repeats); ++r)
             for (std::size_t n = 0; n < ways.size(); ++n) {
@@ -131,9 +116,6 @@ WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
         "makes them where nothing else is fast enough; {} repeats, against both eyes cast in full.",
         repeats);
     chart.timeLabel = "both eyes, ms a frame";
-    chart.timeUnit = "ms";
-    chart.errorLabel = "RMS error, 8-bit levels";
-    chart.errorUnit = "levels";
     for (std::size_t n = 0; n < ways.size(); ++n)
         chart.points.push_back(ways[n].point(
             fmt::format("{:.2g}", scales[n]),
@@ -144,12 +126,11 @@ WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
 }  // namespace
 
 void reportQuality(ReportRun& run, double seconds) {
-    ReportSection section{
-        "quality",
-        "Quality by wish",
-        "What the quality dial makes of a wish, what a smaller picture saves, and what more rays at edges "
-        "give.",
-        {}};
+    ReportSection section{"quality",
+                          "Quality by wish",
+                          "What the quality dial makes of a wish, what a smaller picture saves, and what "
+                          "more rays at edges give.",
+                          {}};
     const Stopwatch watch;
     for (const ReportScene& scene : run.scenes()) {
         run.checkTime();

@@ -64,13 +64,11 @@ WayPoint relightPoint(ReportRun& run, const LightSubject& subject, const std::ve
     for (const glm::ivec3& t : subject.texels)
         light.push_back(luminance(glm::dvec3(texelLight(to.texels[to.layout.index(t.x, t.y, t.z)]))));
     light = subject.onlyLit(light);
-    WayPoint p;
-    p.way = {fmt::format("order {}", order), spreadOf(ms), 100 * relativeRms(light, subject.truth),
-             order == kDefaultOrder};
-    p.worstError = 100 * relativeWorst(light, subject.truth);
-    p.others = {{"bytes a texel", 2.0 * harmonicsCount(order)}};
-    p.detail = "half floats, as the program keeps them";
-    return p;
+    return {{fmt::format("order {}", order), spreadOf(ms), 100 * relativeRms(light, subject.truth),
+             order == kDefaultOrder},
+            "half floats, as the program keeps them",
+            100 * relativeWorst(light, subject.truth),
+            {{"bytes a texel", 2.0 * harmonicsCount(order)}}};
 }
 
 }  // namespace
@@ -79,8 +77,7 @@ WayChart relightChart(ReportRun& run, const LightSubject& subject) {
     WayChart chart = lightChart(run, subject, "light/relight", "Turning the sky: order");
     chart.text +=
         " Time to dot every texel with a turned sky; error against the path-traced light. Bytes a texel are "
-        "in the "
-        "table.";
+        "in the table.";
     chart.why = "Order 5 is the default of bake.";
     const int samples = run.pick(512, 2048);
     run.tell("light, transfer");

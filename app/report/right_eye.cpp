@@ -20,18 +20,13 @@ WayChart chartOf(ReportRun& run, const ReportScene& scene, const RightEyeTrial& 
     chart.setting = fmt::format("{}, {} frames", run.settingOf(scene.loaded()), trial.frames());
     chart.text = fmt::format(
         "Eyes 1/30 of the zero-parallax distance apart; the mean frame of the scene's flight, {} repeats. "
-        "Error "
-        "against the full right cast of one ray a pixel, which is exact by definition. A number after a "
-        "way's name is a setting other than its own.",
+        "Error against the full right cast of one ray a pixel, which is exact by definition. A number after "
+        "a way's name is a setting other than its own.",
         trial.repeats());
     chart.why =
         "The default's thresholds are one choice for all scenes. A lower one casts more pixels again (holes "
-        "in the "
-        "table): where its time is not longer, repeats spread by more than those rays take.";
+        "in the table): where its time is not longer, repeats spread by more than those rays take.";
     chart.timeLabel = "right eye, ms a frame";
-    chart.timeUnit = "ms";
-    chart.errorLabel = "RMS error, 8-bit levels";
-    chart.errorUnit = "levels";
     chart.points = trial.points();
     return chart;
 }
@@ -39,8 +34,7 @@ WayChart chartOf(ReportRun& run, const ReportScene& scene, const RightEyeTrial& 
 // Returns pictures of the middle frame by the default way.
 ReportPictures picturesOf(const ReportScene& scene, const StereoSetting& stereo) {
     const Scene& s = scene.loaded();
-    const std::vector<Pose> poses =
-        s.path.samples().empty() ? std::vector<Pose>{s.startPose} : s.path.frames(3);
+    const std::vector<Pose> poses = posesOf(s, 3);
     const StereoViews views = makeStereoViews(poses[poses.size() / 2], s.lens, stereo);
     FrameMaker& frames = scene.frames();
     EyePair full;
@@ -83,12 +77,8 @@ WayChart separationsOf(ReportRun& run, const ReportScene& scene, double seconds)
     chart.setting = fmt::format("{}, {} to {} frames", run.settingOf(scene.loaded()), least, most);
     chart.text =
         "The default way with the eyes from 1/1000 to 1/4 of the zero-parallax distance apart; the ring "
-        "marks 1/30, "
-        "which the other charts use. Bars upwards reach to the worst frame.";
+        "marks 1/30, which the other charts use. Bars upwards reach to the worst frame.";
     chart.timeLabel = "right eye, ms a frame";
-    chart.timeUnit = "ms";
-    chart.errorLabel = "RMS error, 8-bit levels";
-    chart.errorUnit = "levels";
     chart.front = false;
     return chart;
 }

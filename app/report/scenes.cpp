@@ -85,12 +85,11 @@ std::vector<std::string> rowOf(ReportRun& run, const ReportScene& scene, const c
 }
 
 ReportTable featureTable(ReportRun& run) {
-    ReportTable table{
-        "Single features, off and on",
-        "The start pose; the least times of some repeats; the right eye by the default way, against the same "
-        "scene's full cast (100 dB: identical).",
-        {"scene", "feature", "left ms", "right ms", "right PSNR dB", "planes MB"},
-        {}};
+    ReportTable table{"Single features, off and on",
+                      "The start pose; the least times of some repeats; the right eye by the default way, "
+                      "against the same scene's full cast (100 dB: identical).",
+                      {"scene", "feature", "left ms", "right ms", "right PSNR dB", "planes MB"},
+                      {}};
     for (const ReportScene& scene : run.scenes()) {
         table.rows.push_back(
             rowOf(run, scene, "as it is", scene.frames(), rendererOf(scene.loaded()).viewDependence()));
@@ -114,9 +113,8 @@ void reportScenes(ReportRun& run, double) {
     ReportSection section{"left-out", "What each scene left out", "", {}};
     section.text = fmt::format(
         "Planes, memory and stages that a scene does not need are neither allocated nor run. This report "
-        "holds all "
-        "its scenes at once: {} threads, {} shared libraries loaded. stereonav info SCENE tells the same of "
-        "one scene alone.",
+        "holds all its scenes at once: {} threads, {} shared libraries loaded. stereonav info SCENE tells "
+        "the same of one scene alone.",
         threadCount(), librariesInMemory());
     for (const ReportScene& scene : run.scenes()) section.blocks.emplace_back(sceneTable(run, scene));
     run.checkTime();

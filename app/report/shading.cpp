@@ -10,11 +10,12 @@
 
 #include "app/report/run.h"
 #include "app/report/subjects.h"
+#include "app/report/trial.h"
+#include "app/report/whole_medium.h"
 #include "engine/base/parallel.h"
 #include "engine/medium/model/built_in_media.h"
 #include "engine/medium/sweep/medium_scene.h"
 #include "engine/medium/sweep/medium_sweep.h"
-#include "engine/metrics/image_difference.h"
 #include "engine/volume/plain_volume_caster.h"
 
 namespace stereonav {
@@ -87,10 +88,8 @@ WayChart normalsChart(ReportRun& run) {
     chart.setting = fmt::format("{} places", places.size());
     chart.text =
         "Normals where rays meet a made block with three holes, in plain code on one thread: the smoothed "
-        "gradient "
-        "(Wyman et al. 2006, section 4) at the place itself, over 64 voxels, against normals that are kept "
-        "at the "
-        "corners of cells, and the trilinear function's own gradient.";
+        "gradient (Wyman et al. 2006, section 4) at the place itself, over 64 voxels, against normals that "
+        "are kept at the corners of cells, and the trilinear function's own gradient.";
     chart.timeLabel = "ns a normal";
     chart.timeUnit = "ns";
     chart.errorLabel = "RMS error, degrees";
@@ -135,16 +134,10 @@ WayChart shadingWidthChart(ReportRun& run) {
     const auto field = makeWaxField();
     const Medium medium(field, allSurface(findMediumTransfer("wax")));
     const int size = run.pick(64, 256);
-    const double whole = glm::length(medium.bounds().high - medium.bounds().low);
-    const Pose middle = poseFromAngles(medium.bounds().center(), 0.6, -0.3, 0);
-    const Pose pose = poseFromAngles(middle.position - 1.6 * whole * middle.forward(), 0.6, -0.3, 0);
-    Lens lens;
-    lens.width = lens.height = size;
-    lens.verticalFov = 0.5;
-    lens.nearDepth = 1e-3 * whole;
-    const EyeView view = makeEyeView(pose, lens);
+    const WholeMedium whole = wholeMedium(medium, size);
+    const EyeView view = makeEyeView(whole.pose, whole.lens);
     MediumLook look;
-    look.light.direction = glm::normalize(pose.forward() + 0.5 * pose.right() - 0.6 * pose.up());
+    look.light.direction = whole.light;
     MediumSweep sweep(medium);
     const auto shaded = [&](double width, MediumPicture& picture) {
         run.tell("shading width");
@@ -154,16 +147,9 @@ WayChart shadingWidthChart(ReportRun& run) {
         sweep.render(look, setting, {&view, 1}, view.head, 0, {&picture, 1});
         return watch.elapsed_ms();
     };
-    const auto packed = [](const MediumPicture& picture) {
-        Plane<PackedColor> colors(picture.light.width(), picture.light.height());
-        for (int y = 0; y < colors.height(); ++y)
-            for (int x = 0; x < colors.width(); ++x)
-                colors.at(x, y) = packColor(glm::vec3(picture.light.at(x, y)));
-        return colors;
-    };
     MediumPicture picture;
     shaded(0, picture);
-    const Plane<PackedColor> truth = packed(picture);
+    const Plane<PackedColor> truth = shown(picture.light);
     WayChart chart;
     chart.id = "medium/wax/shading width";
     chart.title = "Shading width";
@@ -172,9 +158,6 @@ WayChart shadingWidthChart(ReportRun& run) {
         "The block of wax with its surfaces, shaded at places up to so many voxels apart and between them "
         "(--shading-width), against shading at each sample (0).";
     chart.timeLabel = "ms a picture";
-    chart.timeUnit = "ms";
-    chart.errorLabel = "RMS error, 8-bit levels";
-    chart.errorUnit = "levels";
     const std::vector<double> widths =
         run.brief() ? std::vector<double>{0, 1, 4} : std::vector<double>{0, 0.25, 0.5, 1, 2, 4, 8};
     std::vector<std::vector<double>> ms(widths.size());
@@ -182,18 +165,14 @@ WayChart shadingWidthChart(ReportRun& run) {
     for (int repeat = 0; repeat < run.pick(3, 9); ++repeat)
         for (std::size_t n = 0; n < widths.size(); ++n) {
             ms[n].push_back(shaded(widths[n], picture));
-            if (repeat > 0) continue;
-            const double psnr = psnrOf(truth, packed(picture));
-            errors[n] = psnr >= kIdenticalPsnr_db ? 0.0 : 255 * std::pow(10.0, -psnr / 20);
+            if (repeat == 0) errors[n] = rmsOf(truth, shown(picture.light));
         }
-    for (std::size_t n = 0; n < widths.size(); ++n) {
-        WayPoint point;
-        point.way = {fmt::format("{:g}", widths[n]), spreadOf(ms[n]), errors[n],
-                     widths[n] == SweepSetting{}.shadingWidth};
-        point.worstError = errors[n];
-        point.detail = widths[n] == 0 ? "at each sample" : fmt::format("up to {:g} voxels apart", widths[n]);
-        chart.points.push_back(std::move(point));
-    }
+    for (std::size_t n = 0; n < widths.size(); ++n)
+        chart.points.push_back(
+            {{fmt::format("{:g}", widths[n]), spreadOf(ms[n]), errors[n],
+              widths[n] == SweepSetting{}.shadingWidth},
+             widths[n] == 0 ? "at each sample" : fmt::format("up to {:g} voxels apart", widths[n]),
+             errors[n]});
     return chart;
 }
 

@@ -10,6 +10,7 @@
 #include "app/report/mood.h"
 #include "app/report/run.h"
 #include "app/report/stereo_trial.h"
+#include "app/report/trial.h"
 #include "engine/base/parallel.h"
 
 namespace stereonav {
@@ -68,9 +69,7 @@ using TimesByThreads = std::map<int, StageTimes>;
 TimesByThreads measureStages(ReportRun& run, const ReportScene& scene, const std::vector<int>& counts,
                              double seconds) {
     const ThreadsBack back;
-    const std::vector<Pose> poses = scene.loaded().path.samples().empty()
-                                        ? std::vector<Pose>{scene.loaded().startPose}
-                                        : scene.loaded().path.frames(run.pick(2, 5));
+    const std::vector<Pose> poses = posesOf(scene.loaded(), run.pick(2, 5));
     StereoSetting stereo = scene.loaded().stereo;
     stereo.separation = stereo.zeroParallax / 30;
     std::map<int, std::array<std::vector<double>, kStages>> sums;  // sums over the frames, by repeat
@@ -174,8 +173,7 @@ void addStageTable(ReportRun& run, ReportSection& section, const ReportScene& sc
         "Milliseconds a frame: the median and, in brackets, the least and the most of the repeats. Speed-up "
         "from the least times. Memory: bytes of the planes that the stage reads and writes, as a share of "
         "what the triad moves in that time (more than all: they stayed in caches); uneven tiles: the longest "
-        "queue over an even share, from the times of single "
-        "tiles.",
+        "queue over an even share, from the times of single tiles.",
         {"stage"},
         {}};
     for (const auto& [threads, t] : times)
@@ -207,12 +205,7 @@ void addStageTable(ReportRun& run, ReportSection& section, const ReportScene& sc
 }
 
 void addSpeedups(ReportSection& section, const std::string& title, const TimesByThreads& times) {
-    LineChart chart;
-    chart.chart.title = "Speed-up, " + title;
-    chart.chart.xLabel = "threads";
-    chart.chart.yLabel = "times as fast as one";
-    chart.chart.xKind = chart.chart.yKind = ChartScale::Kind::Linear;
-    chart.chart.front = false;
+    LineChart chart = emptySpeedups("Speed-up, " + title);
     for (const std::size_t s : {kLeft, kWarp, kFill}) {
         ChartSeries series{kStageNames[s], {}, true};
         for (const auto& [threads, t] : times)

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "app/report/coherence.h"
+#include "app/report/trial.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/metrics/surface_difference.h"
 
@@ -46,6 +47,11 @@ std::vector<int> paperThreads(int all) {
     return threads;
 }
 
+LineChart emptySpeedups(const std::string& title) {
+    using Kind = ChartScale::Kind;
+    return {{title, "threads", "times as fast as one", Kind::Linear, Kind::Linear, {}, false}, ""};
+}
+
 ThreadsBack::~ThreadsBack() {
     setThreadCount(mBefore);
 }
@@ -65,9 +71,8 @@ StereoTrial::StereoTrial(const Scene& scene, std::vector<StereoWay> ways, int fr
     : mScene(scene), mWays(std::move(ways)) {
     StereoSetting stereo = scene.stereo;
     stereo.separation = stereo.zeroParallax / 30;
-    const std::vector<Pose> poses =
-        scene.path.samples().empty() ? std::vector<Pose>{scene.startPose} : scene.path.frames(frames);
-    for (const Pose& pose : poses) mViews.push_back(makeStereoViews(pose, scene.lens, stereo));
+    for (const Pose& pose : posesOf(scene, frames))
+        mViews.push_back(makeStereoViews(pose, scene.lens, stereo));
 }
 
 void StereoTrial::castLeft(const StereoViews& views, Schedule schedule) {

@@ -15,6 +15,9 @@ namespace stereonav {
 // Returns 1, the paper's 4, 8, 12 and 16 as far as this machine has them, and all of its threads.
 std::vector<int> paperThreads(int all);
 
+// Returns a chart without series.
+LineChart emptySpeedups(const std::string& title);
+
 // Restores the thread count at the end of its life.
 class ThreadsBack {
 public:

@@ -186,14 +186,11 @@ WayChart terrainLightChart(ReportRun& run) {
                                 threadCount(), run.options().seed, run.pick(512, 4096));
     chart.text = fmt::format(
         "The generated terrain in small, the sun {:g} degrees high; light at {} places between samples "
-        "against path "
-        "tracing, whose own noise, {} %, is taken out. Most of the error lies at the edges of shadows. Time "
-        "of "
-        "the bake for 1000 samples of the ground.",
+        "against path tracing, whose own noise, {} %, is taken out. Most of the error lies at the edges of "
+        "shadows. Time of the bake for 1000 samples of the ground.",
         kSunElevation, subject.places(), numberText(subject.truthNoise_percent()));
     chart.why = "The default's order is for skies with more shape than this one.";
     chart.timeLabel = "ms for 1000 samples";
-    chart.timeUnit = "ms";
     chart.errorLabel = "RMS error, % of the light";
     chart.errorUnit = "%";
     chart.points.push_back(

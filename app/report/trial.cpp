@@ -61,6 +61,14 @@ double rmsOfPsnr(double psnr_db) {
     return psnr_db >= kIdenticalPsnr_db ? 0.0 : 255 * std::pow(10.0, -psnr_db / 20);
 }
 
+double rmsOf(const Plane<PackedColor>& truth, const Plane<PackedColor>& picture) {
+    return rmsOfPsnr(psnrOf(truth, picture));
+}
+
+std::vector<Pose> posesOf(const Scene& scene, int frames) {
+    return scene.path.samples().empty() ? std::vector<Pose>{scene.startPose} : scene.path.frames(frames);
+}
+
 int measureWhatFits(int most, double seconds,
                     const std::function<void(const std::vector<int>& some, int of)>& measure) {
     const Stopwatch watch;
@@ -87,14 +95,14 @@ RightEyeTrial::RightEyeTrial(const ReportScene& scene, const StereoSetting& ster
 }
 
 void RightEyeTrial::run(ReportRun& run, const std::string& what, int frames, double seconds) {
-    std::vector<Pose> poses = posesOf(frames);
+    std::vector<Pose> poses = posesOf(mScene, frames);
     const Stopwatch watch;
     for (std::size_t n = 0; n < poses.size(); ++n) {
         run.tell(what);
         frame(run, makeStereoViews(poses[n], mScene.lens, mStereo), what);
         // The number of frames is limited by the time; the first is the same for any number of them.
         const double affordable = 1000 * seconds / std::max(watch.elapsed_ms(), 1e-3);
-        if (n == 0 && affordable < frames) poses = posesOf(std::max(1, static_cast<int>(affordable)));
+        if (n == 0 && affordable < frames) poses = posesOf(mScene, std::max(1, static_cast<int>(affordable)));
         if (n == 0) chooseRepeats(watch.elapsed_ms(), poses.size(), seconds);
         for (std::size_t k = 0; k < mSums.size(); ++k) mSums[k].least_ms += mFastest[k];
     }
@@ -105,10 +113,6 @@ std::vector<WayPoint> RightEyeTrial::points() const {
     std::vector<WayPoint> points;
     for (std::size_t n = 0; n < mVariants.size(); ++n) points.push_back(pointOf(mVariants[n], mSums[n]));
     return points;
-}
-
-std::vector<Pose> RightEyeTrial::posesOf(int frames) const {
-    return mScene.path.samples().empty() ? std::vector<Pose>{mScene.startPose} : mScene.path.frames(frames);
 }
 
 // Chooses the number of repeats by the time of the first frame, which was repeated kLeastRepeats times.

@@ -22,13 +22,17 @@ Variant methodVariant(RightEyeMethod method);
 // Returns the same way with one setting changed.
 Variant tuned(RightEyeMethod method, float WarpSetting::*what, const char* name, float value);
 
+// Returns the poses of frames of a flight; the start alone where the scene has none.
+std::vector<Pose> posesOf(const Scene& scene, int frames);
+
 // Returns the variants in the charts of a scene's right eyes: its methods, and one with other thresholds.
 std::vector<Variant> rightEyeVariants(const Scene& scene);
 // Returns the scene's eyes in those charts: 1/30 of the zero-parallax distance apart.
 StereoSetting chartedEyes(const Scene& scene);
 
-// Returns the root mean square error in 8-bit levels.
+// Return the root mean square error in 8-bit levels.
 double rmsOfPsnr(double psnr_db);
+double rmsOf(const Plane<PackedColor>& truth, const Plane<PackedColor>& picture);
 
 // Measures as many of `most` places of a flight as `seconds` allow, at least one, and returns their number.
 // measure: measures these places of so many. The first place is measured alone, and its time decides how many
@@ -58,7 +62,6 @@ private:
         double squares = 0, worst = 0, ssim = 0, holes = 0, kept = 0, bound_db = 0;
     };
 
-    std::vector<Pose> posesOf(int frames) const;
     void chooseRepeats(double first_ms, std::size_t frames, double seconds);
     void frame(ReportRun& run, const StereoViews& views, const std::string& what);
     void measureError(std::size_t n);

@@ -1,5 +1,7 @@
 #include "app/report/untimed.h"
 
+#include <array>
+
 #include "app/report/run.h"
 #include "app/report/stereo_trial.h"
 #include "engine/base/parallel.h"
@@ -10,33 +12,10 @@ namespace {
 
 using MakePiece = PeerBytes (*)(ReportRun& run, ByteReader& order);
 
-MakePiece makerOf(Untimed what) {
-    switch (what) {
-        case Untimed::LightTruth:
-            return makeLightTruth;
-        case Untimed::PixelTruth:
-            return makePixelTruth;
-        case Untimed::GroundTruth:
-            return makeGroundTruth;
-        case Untimed::TrackedRows:
-            return makeTrackedRows;
-        case Untimed::ManySlices:
-            return makeManySlices;
-        case Untimed::Openness:
-            return makeOpenness;
-        case Untimed::FinePicture:
-            return makeFinePicture;
-        case Untimed::FeltWay:
-            return makeFeltWay;
-        case Untimed::LateWay:
-            return makeLateWay;
-        case Untimed::SweptTruth:
-            return makeSweptTruth;
-        case Untimed::StepTruth:
-            break;
-    }
-    return makeStepTruth;
-}
+// The makers, by Untimed.
+constexpr std::array<MakePiece, 11> kMakers{makeLightTruth, makePixelTruth, makeGroundTruth, makeTrackedRows,
+                                            makeManySlices, makeOpenness,   makeFinePicture, makeFeltWay,
+                                            makeLateWay,    makeSweptTruth, makeStepTruth};
 
 }  // namespace
 
@@ -46,8 +25,7 @@ UntimedWork::UntimedWork(ReportRun& run) : mRun(run) {
 
 PeerBytes UntimedWork::make(std::span<const std::byte> piece) {
     ByteReader reader(piece);
-    const MakePiece maker = makerOf(reader.get<Untimed>());
-    return maker(mRun, reader);
+    return kMakers.at(static_cast<std::size_t>(reader.get<Untimed>()))(mRun, reader);
 }
 
 std::vector<PeerBytes> UntimedWork::all(const std::vector<UntimedPiece>& pieces) {

@@ -1,17 +1,13 @@
 #include "engine/image/inline_picture.h"
 
-#include <vector>
-
 #include "engine/image/png_writer.h"
 
 namespace stereonav {
 
-std::string inlinePicture(const Plane<PackedColor>& image) {
-    // RFC 4648, section 4.
+std::string base64(std::span<const unsigned char> bytes) {
     constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const std::vector<unsigned char> bytes = pngBytes(image);
-    std::string text = "data:image/png;base64,";
-    text.reserve(text.size() + (bytes.size() + 2) / 3 * 4);
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t n = 0; n < bytes.size(); n += 3) {
         const std::size_t left = bytes.size() - n;
         const unsigned second = left > 1 ? bytes[n + 1] : 0, third = left > 2 ? bytes[n + 2] : 0;
@@ -22,6 +18,10 @@ std::string inlinePicture(const Plane<PackedColor>& image) {
         text += left > 2 ? kDigits[three & 63] : '=';
     }
     return text;
+}
+
+std::string inlinePicture(const Plane<PackedColor>& image) {
+    return "data:image/png;base64," + base64(pngBytes(image));
 }
 
 }  // namespace stereonav

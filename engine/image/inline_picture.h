@@ -1,6 +1,7 @@
 // Pictures inside of pages.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "engine/image/packed_color.h"
@@ -8,8 +9,11 @@
 
 namespace stereonav {
 
-// Returns "data:image/png;base64,...", to stand as the address of a picture in HTML. Throws as pngBytes()
-// does.
+// Returns the bytes as text, padded to a multiple of four letters (RFC 4648, section 4).
+std::string base64(std::span<const unsigned char> bytes);
+
+// Returns "data:image/png;base64,...", to stand as the address of a picture in HTML. image: at least 1 x 1.
+// Throws as pngBytes() does.
 std::string inlinePicture(const Plane<PackedColor>& image);
 
 }  // namespace stereonav

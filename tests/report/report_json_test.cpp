@@ -8,6 +8,7 @@
 #include "app/report/json.h"
 #include "app/report/page.h"
 #include "engine/base/error.h"
+#include "engine/image/inline_picture.h"
 #include "tests/support/xml_check.h"
 
 namespace stereonav {

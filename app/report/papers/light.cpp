@@ -33,16 +33,10 @@ constexpr Table1Row kTable1[] = {{"Sphr. Harm. (lazy compute)", {0.33, 2.63, 10.
 
 constexpr const char* kWhyRates =
     "Theirs: 30 R12000 of 400 MHz, naive sampling, a prototype. Ours: rays of a packet in vectors that leap "
-    "over "
-    "what holds no surface, on the threads named; a figure that is a rate was not run to its end.";
+    "over what holds no surface, on the threads named; a figure that is a rate was not run to its end.";
 
 PaperRow rowOf(const char* table, const std::string& row, const std::string& column) {
-    PaperRow r;
-    r.paper = kWyman;
-    r.table = table;
-    r.row = row;
-    r.column = column;
-    return r;
+    return {.paper = kWyman, .table = table, .row = row, .column = column};
 }
 
 // Returns which share was run, and the time for all of it on a machine that does nothing else.
@@ -211,8 +205,7 @@ void addNoise(ReportRun& run, const PaperEngine& engine, const EngineView& view,
         row.how = fmt::format("two runs on {} texels", sums.texels);
         row.why =
             "They show pictures: root of the mean square of the noise, of the mean light. Few texels where "
-            "samples "
-            "are many.";
+            "samples are many.";
         row.kind = PaperRow::Kind::Other;  // depends on the number of texels measured in time
         rows.push_back(std::move(row));
     };
@@ -245,8 +238,7 @@ void addFrames(ReportRun& run, const PaperEngine& engine, EngineView& view, std:
         share.measured = measured;
         share.why =
             "Hard shadow rays of packets are cheaper here beside the first ray than there. Harmonics are "
-            "dotted "
-            "anew each frame here, of what is in view; theirs dots at each pixel.";
+            "dotted anew each frame here, of what is in view; theirs dots at each pixel.";
         rows.push_back(std::move(share));
     };
     add("Diffuse (no shadows)", times.diffuse, 17.0, 1);
@@ -276,8 +268,7 @@ void addMemory(const PaperEngine& engine, const EngineView& view, std::vector<Pa
                       some = fmt::format("{} texels", held.texels);
     constexpr const char* kWhyAll =
         "Theirs: three bytes a texel, and 25 floats a channel. Ours: four half floats, and 25 half floats of "
-        "one "
-        "channel (grey albedo).";
+        "one channel (grey albedo).";
     constexpr const char* kWhySome =
         "As above, and only pages of texels that lookups on the surface shown ask for are taken.";
     add("Irradiance", "a texel for every voxel", 9.75, texels * sizeof(PackedTexel), all, kWhyAll);

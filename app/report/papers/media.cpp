@@ -4,15 +4,14 @@
 
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <memory>
 
 #include "app/report/papers/data.h"
 #include "app/report/papers/gpu.h"
 #include "app/report/papers/run.h"
+#include "app/report/whole_medium.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "engine/camera/stereo_rig.h"
 #include "engine/medium/model/built_in_media.h"
 #include "engine/medium/sweep/medium_scene.h"
 #include "engine/medium/sweep/medium_sweep.h"
@@ -56,16 +55,9 @@ MediaSubject subjectOf(const PaperData& data) {
 
 // Returns views of the whole medium, lit over the viewer's shoulder.
 StereoViews viewsOf(MediaSubject& subject, int size) {
-    constexpr double kHeading = 0.6, kPitch = -0.3;
-    const double whole = glm::length(subject.medium.bounds().high - subject.medium.bounds().low);
-    const Pose middle = poseFromAngles(subject.medium.bounds().center(), kHeading, kPitch, 0);
-    const Pose pose = poseFromAngles(middle.position - 1.6 * whole * middle.forward(), kHeading, kPitch, 0);
-    Lens lens;
-    lens.width = lens.height = size;
-    lens.verticalFov = 0.5;
-    lens.nearDepth = 1e-3 * whole;
-    subject.look.light.direction = glm::normalize(pose.forward() + 0.5 * pose.right() - 0.6 * pose.up());
-    return makeStereoViews(pose, lens, {1.6 * whole / 30, 1.6 * whole});
+    const WholeMedium whole = wholeMedium(subject.medium, size);
+    subject.look.light.direction = whole.light;
+    return makeStereoViews(whole.pose, whole.lens, {whole.distance / 30, whole.distance});
 }
 
 // Returns the paper's statement for a model, relative to the unshaded rate: "50 to 60 percent slower than
@@ -94,17 +86,15 @@ private:
 
     PaperRow& add(const char* table, const std::string& row, const std::string& column, const Spread& ours,
                   const char* unit, const std::string& said, const char* why, const std::string& where) {
-        PaperRow added;
-        added.paper = kKniss;
-        added.table = table;
-        added.row = row;
-        added.column = column;
-        added.said = said;
-        added.ours = ours;
-        added.unit = unit;
-        added.measured = fmt::format("{}, {} slices, {}", mSubject.title, mSlices, where);
-        added.why = why;
-        mRows.push_back(std::move(added));
+        mRows.push_back({.paper = kKniss,
+                         .table = table,
+                         .row = row,
+                         .column = column,
+                         .said = said,
+                         .ours = ours,
+                         .unit = unit,
+                         .measured = fmt::format("{}, {} slices, {}", mSubject.title, mSlices, where),
+                         .why = why});
         return mRows.back();
     }
 
@@ -176,8 +166,7 @@ private:
         constexpr const char* kTable = "Section 4 and fig. 15, in GLSL";
         constexpr const char* kWhy =
             "Theirs switched between OpenGL contexts, which was expensive; framebuffer objects cost next to "
-            "nothing "
-            "to switch between.";
+            "nothing to switch between.";
         PaperGpu gpu;
         const std::string problem = gpu.problem(), where = gpu.renderer();
         const Stopwatch watch;
@@ -204,8 +193,7 @@ private:
                     .none = none;
                 add(kTable, name, "rate, of the unshaded one", ratio(unshaded, one), "of 1", saidOf(model),
                     "The shaders take every sample of a slice; a software rasteriser weighs arithmetic "
-                    "otherwise than "
-                    "their cards.",
+                    "otherwise than their cards.",
                     where)
                     .none = none;
             }

@@ -201,12 +201,8 @@ struct Found {
 
 PaperRow rowOf(const OcclusionSubject& subject, const std::string& table, const std::string& row,
                const std::string& column) {
-    PaperRow r;
-    r.paper = kRuiz;
-    r.table = table;
-    r.row = fmt::format("{}, {}", subject.name, row);
-    r.column = column;
-    return r;
+    return {
+        .paper = kRuiz, .table = table, .row = fmt::format("{}, {}", subject.name, row), .column = column};
 }
 
 // Adds figs. 5 and 6: maps by method and radius.
@@ -214,8 +210,7 @@ void addMaps(const OcclusionSubject& subject, const std::string& measured, int r
              const std::array<MapFigures, kPaperMethods.size()>& all, Found& found) {
     constexpr const char* kWhy =
         "They show pictures alone. Error: of the openness as it is shown (at most 1; twice O for boxes, half "
-        "of "
-        "which lies in a flat wall) against obscurance traced in 256 directions.";
+        "of which lies in a flat wall) against obscurance traced in 256 directions.";
     const bool fig5 = radius == 10;
     const auto said = [&](const PaperMethod& m, const char* directed, const char* penner, const char* ours) {
         return m.directed ? directed : m.box == OcclusionMethod::Chebyshev ? penner : ours;
@@ -252,8 +247,7 @@ void addLit(TracedVolume& volume, const OcclusionSubject& subject, const std::st
             const std::array<OpennessVolume, kPaperMethods.size()>& maps, Found& found) {
     ReportPictures pictures{fmt::format("Figs. {} and {}, {}", 5, subject.size.z > 200 ? 7 : 8, subject.name),
                             "Ambient light alone, C = k O C_TF (eq. 5), of the isosurface that is shown "
-                            "where nothing is said: the map "
-                            "itself, in the surface's colour. Radius 10.",
+                            "where nothing is said: the map itself, in the surface's colour. Radius 10.",
                             {}};
     pictures.pictures.push_back(volume.picture("without ambient occlusion", nullptr, nullptr));
     const double plain = volume.brightness();
@@ -278,8 +272,7 @@ void addTimes(ReportRun& run, const OcclusionSubject& subject, const GreyVolume&
               const std::string& title, std::vector<PaperRow>& rows) {
     constexpr const char* kWhy =
         "Theirs: CUDA on a GeForce GTX 280, with transfers, at a cost that grows with the radius. Ours: sums "
-        "that "
-        "slide, so that the radius costs nothing, on the processor.";
+        "that slide, so that the radius costs nothing, on the processor.";
     const GreyVolume volume = resizedTo(grey, run.quick() ? subject.size / 4 : subject.size);
     const glm::ivec3 size = volume.frame.size;
     const std::string measured = fmt::format("{}, resampled to {}x{}x{} voxels, {} threads", title, size.x,

@@ -10,6 +10,7 @@
 #include "app/report/papers/run.h"
 #include "app/report/stereo_trial.h"
 #include "app/report/subjects.h"
+#include "app/report/whole_medium.h"
 #include "engine/light/bake/bake_rate.h"
 #include "engine/light/occlusion/occlusion.h"
 #include "engine/medium/model/built_in_media.h"
@@ -32,16 +33,6 @@ std::vector<int> allThreads(int all) {
     for (int n = 1; n <= all; n = n < 16 ? n + 1 : 2 * n) counts.push_back(n);
     if (counts.back() != all) counts.push_back(all);
     return counts;
-}
-
-EyeView wholeView(const Medium& medium, int size) {
-    const double whole = glm::length(medium.bounds().high - medium.bounds().low);
-    const Pose middle = poseFromAngles(medium.bounds().center(), 0.6, -0.3, 0);
-    Lens lens;
-    lens.width = lens.height = size;
-    lens.verticalFov = 0.5;
-    lens.nearDepth = 1e-3 * whole;
-    return makeEyeView(poseFromAngles(middle.position - 1.6 * whole * middle.forward(), 0.6, -0.3, 0), lens);
 }
 
 // Returns the least time of each work on each number of threads.
@@ -71,12 +62,7 @@ std::vector<std::vector<Spread>> measure(ReportRun& run, const std::vector<Work>
 
 LineChart speedupChart(const std::vector<Work>& works, const std::vector<int>& counts,
                        const std::vector<std::vector<Spread>>& times) {
-    LineChart chart;
-    chart.chart.title = "Speed-up over threads";
-    chart.chart.xLabel = "threads";
-    chart.chart.yLabel = "times as fast as one";
-    chart.chart.xKind = chart.chart.yKind = ChartScale::Kind::Linear;
-    chart.chart.front = false;
+    LineChart chart = emptySpeedups("Speed-up over threads");
     for (std::size_t w = 0; w < works.size(); ++w) {
         ChartSeries series{works[w].name, {}, true};
         for (std::size_t c = 0; c < counts.size(); ++c)
@@ -119,7 +105,8 @@ void reportPapersScaling(ReportRun& run, double seconds) {
     pieces.resize(std::min<std::size_t>(pieces.size(), run.quick() ? 64 : 1024));
     const Medium cloud(makeCloudField(), findMediumTransfer("cloud"), cloudPerturbation());
     MediumSweep sweep(cloud);
-    const EyeView cloudView = wholeView(cloud, run.quick() ? 64 : 256);
+    const WholeMedium whole = wholeMedium(cloud, run.quick() ? 64 : 256);
+    const EyeView cloudView = makeEyeView(whole.pose, whole.lens);
     MediumPicture swept;
     Progress none;
 
@@ -151,19 +138,18 @@ void reportPapersScaling(ReportRun& run, double seconds) {
     std::vector<PaperRow> rows;
     for (std::size_t w = 0; w < works.size(); ++w)
         for (std::size_t c = 0; c < counts.size(); ++c) {
-            PaperRow row;
-            row.paper = works[w].paper;
-            row.table = "Scaling";
-            row.row = works[w].name;
-            row.column = fmt::format("{} thread{}", counts[c], counts[c] == 1 ? "" : "s");
-            row.said = works[w].said;
-            row.ours = times[w][c];
-            row.unit = "ms";
-            row.measured = works[w].measured;
-            row.why = "Times by the clock; hyper-threads and what else runs on the machine cost some of it.";
-            row.how = fmt::format("{:.2f} times as fast as one", times[w].front().low / times[w][c].low);
-            row.kind = PaperRow::Kind::Time;
-            rows.push_back(std::move(row));
+            rows.push_back(
+                {.paper = works[w].paper,
+                 .table = "Scaling",
+                 .row = works[w].name,
+                 .column = fmt::format("{} thread{}", counts[c], counts[c] == 1 ? "" : "s"),
+                 .said = works[w].said,
+                 .ours = times[w][c],
+                 .unit = "ms",
+                 .measured = works[w].measured,
+                 .how = fmt::format("{:.2f} times as fast as one", times[w].front().low / times[w][c].low),
+                 .why = "Times by the clock; hyper-threads and what else runs on the machine cost some of it.",
+                 .kind = PaperRow::Kind::Time});
         }
     ReportSection section{"papers-scaling",
                           "Scaling over threads",

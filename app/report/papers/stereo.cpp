@@ -111,16 +111,14 @@ public:
 private:
     PaperRow& add(const char* table, const std::string& row, const std::string& column, Spread ours,
                   const char* unit, const char* why) {
-        PaperRow added;
-        added.paper = kWan;
-        added.table = table;
-        added.row = fmt::format("{} ({})", row, mTheirs.figure);
-        added.column = column;
-        added.ours = ours;
-        added.unit = unit;
-        added.measured = mMeasured;
-        added.why = why;
-        mRows.push_back(std::move(added));
+        mRows.push_back({.paper = kWan,
+                         .table = table,
+                         .row = fmt::format("{} ({})", row, mTheirs.figure),
+                         .column = column,
+                         .ours = ours,
+                         .unit = unit,
+                         .measured = mMeasured,
+                         .why = why});
         return mRows.back();
     }
 
@@ -134,10 +132,8 @@ private:
         for (const auto& [name, pixels] : gaps)
             add("Table 1", name, "share of the holes", exactly(100 * pixels / holes), "%",
                 "Table 1 lists the algorithm and has no figures. Here the head lies midway between the eyes, "
-                "there "
-                "it is the left eye: what lies nearer than zero parallax opens the right end, what lies "
-                "beyond it "
-                "the left one.")
+                "there it is the left eye: what lies nearer than zero parallax opens the right end, what "
+                "lies beyond it the left one.")
                 .said = pixels == mAsThere.rightEnd ? "most, in a few columns (section 3.3)" : "no figure";
     }
 
@@ -200,11 +196,10 @@ private:
         PaperRow& fill = add(kTable, "hole filling of the right image's time", "1 processor",
                              exactly(100 * there.fill.low / std::max(there.right.low, 1e-9)), "%",
                              "Of the sky they have none to cast, which is most of the holes here.");
-        PaperRow& slow =
-            add(kTable, "hole filling without ray coherence", "1 processor", ratioOf(alone.fill, there.fill),
-                "times the time",
-                "Here a ray without coherence still leaps by the pyramid of heights, which theirs "
-                "had not: there is less to gain. Rate without: the reciprocal.");
+        PaperRow& slow = add(kTable, "hole filling without ray coherence", "1 processor",
+                             ratioOf(alone.fill, there.fill), "times the time",
+                             "Here a ray without coherence still leaps by the pyramid of heights, which "
+                             "theirs had not: there is less to gain. Rate without: the reciprocal.");
         if (shaded)
             fill.theirs = 25, slow.theirs = 4;
         else
@@ -236,8 +231,7 @@ private:
         constexpr const char* kTable = "Section 3, partitions";
         constexpr const char* kWhy =
             "Theirs argues from 16 processors. With few threads and tasks of microseconds partitions differ "
-            "by "
-            "noise.";
+            "by noise.";
         const int n = paperThreads(mAll).back();
         const std::string column = fmt::format("{} thread{}", n, n == 1 ? "" : "s");
         const auto row = [&](const char* name, const char* said, const Spread& ours, const Spread& theirs) {
@@ -327,26 +321,23 @@ std::vector<PaperRow> colonRows(ReportRun& run, const PaperData& data, double se
     std::vector<PaperRow> rows;
     const auto add = [&](const char* name, const std::string& column, Spread ours, double theirs,
                          const char* unit, const char* why, PaperRow::Kind kind) {
-        PaperRow row;
-        row.paper = kWan;
-        row.table = "Section 5";
-        row.row = name;
-        row.column = column;
-        row.theirs = theirs;
-        row.ours = ours;
-        row.unit = unit;
-        row.measured = measured;
-        row.why = why;
-        row.kind = kind;
-        rows.push_back(std::move(row));
+        rows.push_back({.paper = kWan,
+                        .table = "Section 5",
+                        .row = name,
+                        .column = column,
+                        .theirs = theirs,
+                        .ours = ours,
+                        .unit = unit,
+                        .measured = measured,
+                        .why = why,
+                        .kind = kind});
     };
     const std::string threads = fmt::format("16 processors there, {} here", all);
     constexpr const char* kWhy =
         "As Table 2: other processors; the wall is reached in leaps and sampled in vectors.";
     constexpr const char* kWhyW12 =
         "Splatting depths saves the way to the wall alone. Here beams and leaps have made that cheap: nearly "
-        "all "
-        "of a ray is compositing within the wall, which selective warps where it may.";
+        "all of a ray is compositing within the wall, which selective warps where it may.";
     const StereoTimes &splat = trial.times(all, 0), &own = trial.times(all, 1);
     using Kind = PaperRow::Kind;
     add("left image (fig. 9, translucent colon)", threads, scaled(splat.left, 1e-3), 0.08, "s", kWhy,
@@ -366,12 +357,11 @@ std::vector<PaperRow> colonRows(ReportRun& run, const PaperData& data, double se
 
 void reportPapersStereo(ReportRun& run, double seconds) {
     const PaperData data(run.options().data);
-    ReportSection section{
-        "papers-stereo",
-        "Wan et al. 2004: stereo by warping",
-        "Interactive stereoscopic rendering of volumetric environments. Their times are of an SGI "
-        "Power Challenge with up to 16 R10000 of 194 MHz.",
-        {}};
+    ReportSection section{"papers-stereo",
+                          "Wan et al. 2004: stereo by warping",
+                          "Interactive stereoscopic rendering of volumetric environments. Their times are of "
+                          "an SGI Power Challenge with up to 16 R10000 of 194 MHz.",
+                          {}};
     std::vector<PaperRow> rows;
     const auto append = [&rows](std::vector<PaperRow> more) {
         for (PaperRow& row : more) rows.push_back(std::move(row));
