@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options/picture_options.h"
+#include "app/command/render_command.h"
 
 namespace stereonav {
 

@@ -205,6 +205,17 @@ std::vector<Option> compareOptions() {
                        "leave it out: errors are those from two sweeps"},
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.of<CompareOptions>().truthRays = std::stoi(value.text); }},
+        {.key = "size",
+         .value = sizeValue(),
+         .help = "of one eye",
+         .advice = "try 1280x720",
+         .fallback = "500x400",
+         .behind = "size",
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 to.of<CompareOptions>().size = {static_cast<int>(value.numbers[0]),
+                                                 static_cast<int>(value.numbers[1])};
+             }},
     };
 }
 

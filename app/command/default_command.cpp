@@ -42,7 +42,6 @@ int runDefault() {
     if (!hasDisplay()) return playAndCompare();
     ViewOptions options;
     options.scene.given.command = command::kView;
-    options.startPage = true;
     return runView(options);
 }
 

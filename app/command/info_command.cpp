@@ -4,7 +4,7 @@
 #include "app/command/info_series.h"
 #include "app/command/process_facts.h"
 #include "app/options/command.h"
-#include "app/options/picture_options.h"
+#include "app/options/option_take.h"
 #include "app/output/command_result.h"
 #include "app/output/handed_name.h"
 #include "app/output/progress_bar.h"
@@ -14,8 +14,17 @@
 
 namespace stereonav {
 namespace {
+
+struct InfoOptions {
+    SceneOptions scene;
+    SizeOption size;
+    Telling telling;
+    // Folder for a preview of each series of a DICOM folder, which is then the only result; "": none.
+    std::string series;
+};
+
 int runInfo(const InfoOptions& options) {
-    if (!options.series.empty()) return listSeriesOf(options);
+    if (!options.series.empty()) return listSeries(options.scene, options.series, options.telling.json);
     ProgressBar bar(!options.telling.quiet);
     const std::unique_ptr<Scene> loaded = loadScene(options.scene, options.size, bar.progress(), kInfoBytes);
     const Scene& scene = *loaded;
@@ -38,6 +47,17 @@ int runInfo(const InfoOptions& options) {
     return 0;
 }
 
+std::vector<Option> infoOptions() {
+    return {
+        {.key = "series-pictures",
+         .value = fileValue(),
+         .help = "of a DICOM folder: list its series alone, and write a picture of each into this folder",
+         .scenes = scene_type::kStudies,
+         .elsewhere = {nullptr, "expected with a folder of DICOM slices", "name one, or leave it out"},
+         .take = into<&InfoOptions::series>},
+    };
+}
+
 }  // namespace
 
 Command infoCommand() {
@@ -46,6 +66,8 @@ Command infoCommand() {
             .scenes = scene_type::kAll,
             .command = command::kInfo,
             .traits = command::kShowing | command::kTelling,
+            .chapter = Chapter::Series,
+            .options = infoOptions,
             .start = startOf<InfoOptions, runInfo>};
 }
 

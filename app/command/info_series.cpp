@@ -49,22 +49,21 @@ std::string lineOf(const SeriesLook& look, std::size_t number, const std::string
 
 }  // namespace
 
-int listSeriesOf(const InfoOptions& options) {
-    checkOutputFolder("--series-pictures", options.series);
-    sceneTypeNamed(options.scene.scene);  // throws where nothing has this name
-    if (options.scene.threads > 0) setThreadCount(options.scene.threads);
-    const std::vector<SeriesLook> looks = lookAtSeries(options.scene.scene);
-    makeOutputFolder(options.series);
+int listSeries(const SceneOptions& study, const std::string& folder, bool json) {
+    checkOutputFolder("--series-pictures", folder);
+    sceneTypeNamed(study.scene);  // throws where nothing has this name
+    if (study.threads > 0) setThreadCount(study.threads);
+    const std::vector<SeriesLook> looks = lookAtSeries(study.scene);
+    makeOutputFolder(folder);
     for (std::size_t n = 0; n < looks.size(); ++n)
-        if (looks[n].problem.empty()) writeColorImage(pictureFile(options.series, n + 1), looks[n].picture);
-    if (options.telling.json) {
-        const Json json{{"scene", handedName(options.scene.scene)},
-                        {"series", jsonOf(looks, options.series)}};
-        printDocument(jsonText(json, 2));
+        if (looks[n].problem.empty()) writeColorImage(pictureFile(folder, n + 1), looks[n].picture);
+    if (json) {
+        const Json list{{"scene", handedName(study.scene)}, {"series", jsonOf(looks, folder)}};
+        printDocument(jsonText(list, 2));
         return 0;
     }
-    printLine(stdout, options.scene.scene);
-    for (std::size_t n = 0; n < looks.size(); ++n) printLine(stdout, lineOf(looks[n], n + 1, options.series));
+    printLine(stdout, study.scene);
+    for (std::size_t n = 0; n < looks.size(); ++n) printLine(stdout, lineOf(looks[n], n + 1, folder));
     return 0;
 }
 

@@ -9,6 +9,7 @@
 #include "app/command/paint_notes.h"
 #include "app/command/play_frames.h"
 #include "app/options/command.h"
+#include "app/options/option_take.h"
 #include "app/options/output_place.h"
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
@@ -25,6 +26,7 @@
 namespace stereonav {
 namespace {
 
+constexpr double kPlayFps = 25;  // default frame rate
 constexpr int kMostFrames = 1'000'000;
 
 double fpsOf(const PlayOptions& options) {
@@ -170,6 +172,51 @@ void flyWithOthers(const PlayOptions& options, const FlownPart& flight, FlightFr
     progress.report(1, "flown");
 }
 
+std::vector<Option> playOptions() {
+    return {
+        {.key = "out",
+         .value = fileValue(),
+         .help = "folder for frame_00000.png and so on",
+         .take = into<&PlayOptions::out>},
+        {.key = "video",
+         .value = fileValue(),
+         .help = "a video: .mp4, .avi or .mkv (lossless)",
+         .take = into<&PlayOptions::video>},
+        {.key = "frames",
+         .value = wholeOrPartValue(within(1, 1e6, "frames")),
+         .help =
+             "this many, evenly over the path; or some of the whole path's at --fps, 0..249 being the first "
+             "250, with the numbers that they have there",
+         .advice = "leave it out for the whole path at --fps",
+         .fallback = "the whole path at --fps",
+         .take =
+             [](OptionTargets& to, const OptionValue& value) {
+                 const auto at = [&](std::size_t n) { return static_cast<int>(value.numbers[n]); };
+                 auto& options = to.of<PlayOptions>();
+                 if (value.numbers.size() == 1)
+                     options.frames = at(0);
+                 else
+                     options.part = {at(0), at(1)};
+             }},
+        {.key = "fps",
+         .value = numberValue(within(0.001, 1000, "frames a second")),
+         .help = "of a video, or of pictures",
+         .advice = "25 is common",
+         .fallback = "25",
+         .rules = {{[](const Asked& asked) {
+                        return asked.has("frames") && !asked.has("video") &&
+                               asked.given.text("frames").find("..") == std::string::npos;
+                    },
+                    "has no effect beside --frames, which says how many pictures there are",
+                    "leave one of them out, or give --video"}},
+         .take = into<&PlayOptions::fps>},
+        {.key = "hash",
+         .value = flagValue(),
+         .help = "print one content hash of both eyes of all frames",
+         .take = into<&PlayOptions::hash>},
+    };
+}
+
 }  // namespace
 
 int runPlay(const PlayOptions& options) {
@@ -223,6 +270,8 @@ Command playCommand() {
             .scenes = scene_type::kAll,
             .command = command::kPlay,
             .traits = command::kShowing | command::kTelling,
+            .chapter = Chapter::Pictures,
+            .options = playOptions,
             .start = startOf<PlayOptions, runPlay>};
 }
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/options/picture_options.h"
+#include "app/command/play_command.h"
 #include "app/output/stereo_frame.h"
 #include "app/output/video_file.h"
 #include "engine/camera/timed_poses.h"

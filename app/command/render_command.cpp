@@ -1,10 +1,15 @@
 // `stereonav render`: makes a picture of a scene from one pose.
+#include "app/command/render_command.h"
+
 #include <fmt/format.h>
 
 #include "app/command/paint_notes.h"
 #include "app/options/command.h"
+#include "app/options/option_numbers.h"
+#include "app/options/option_take.h"
 #include "app/options/output_place.h"
-#include "app/options/picture_options.h"
+#include "app/options/typed_values.h"
+#include "app/options/usual_words.h"
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
@@ -14,6 +19,7 @@
 #include "app/scene/traced_light.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
+#include "engine/frame/refined_frames.h"
 #include "engine/scene/capabilities.h"
 
 namespace stereonav {
@@ -125,6 +131,91 @@ int runRender(const RenderOptions& options) {
     return 0;
 }
 
+bool isTraced(const Asked& asked) {
+    return asked.is("light", "traced");
+}
+
+OptionRule unlessTraced() {
+    return {[](const Asked& asked) { return !isTraced(asked); }, "expected with --light traced", kLeaveItOut};
+}
+
+// Returns the options of the light of traced pictures.
+std::vector<Option> tracedOptions() {
+    return {
+        {.key = "samples",
+         .value = wholeValue(kSamplesRange),
+         .help = "paths from each pixel",
+         .advice = kSamplesAdvice,
+         .group = kTracedGroup,
+         .fallback = "64",
+         .behind = "shading-width",
+         .rules = {unlessTraced()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->traced->samples = static_cast<int>(value.whole); }},
+        {.key = "bounces",
+         .value = wholeValue(kBouncesRange),
+         .help = kBouncesHelp,
+         .advice = kBouncesAdvice,
+         .group = kTracedGroup,
+         .rules = {unlessTraced()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->traced->bounces = static_cast<int>(value.whole); }},
+        {.key = "albedo",
+         .value = numbersValue(albedoNumbers()),
+         .help = kAlbedoHelp,
+         .group = kTracedGroup,
+         .rules = {unlessTraced()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->traced->albedo = colorOf(value); }},
+        {.key = "point-light",
+         .value = numbersValue(pointLightNumbers()),
+         .help = kPointLightHelp,
+         .group = kTracedGroup,
+         .rules = {unlessTraced()},
+         .repeated = true,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->traced->lights.push_back(lampsOf(value)); }},
+        {.key = "reach",
+         .value = numberValue(kReachRange),
+         .help = "that rays look for light from outside",
+         .advice = kReachAdvice,
+         .group = kTracedGroup,
+         .rules = {unlessTraced()},
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->traced->reach_mm = value.number(); }},
+    };
+}
+
+std::vector<Option> renderOptions() {
+    std::vector<Option> all{
+        {.key = "out",
+         .value = fileValue(),
+         .help = "the picture's file, .jps and .mpo for 3D viewers; -: PNG to standard output",
+         .required = true,
+         .take = into<&RenderOptions::out>},
+        {.key = "pose",
+         .value = numbersValue(poseNumbers()),
+         .help = "where the head is",
+         .fallback = "the start pose",
+         .behind = "size",
+         .inFile = false,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.of<RenderOptions>().pose = poseOf(value); }},
+        {.key = "until-db",
+         .value = numberValue(within(1, kMostPsnr_db, "dB")),
+         .help =
+             fmt::format("as many rays a pixel, {} at most, as this PSNR against very many takes", kMostRays),
+         .advice = "55 is under half a grey level",
+         .group = kQualityGroup,
+         .behind = "rays",
+         .excludes = {{"edges"}, {"rays"}},
+         .rules = {{isTraced, "does not go with --light traced", "choose --samples instead"}},
+         .take = [](OptionTargets& to, const OptionValue& value) { to.rays->until_db = value.number(); }},
+    };
+    for (Option& option : tracedOptions()) all.push_back(std::move(option));
+    return all;
+}
+
 }  // namespace
 
 Command renderCommand() {
@@ -133,6 +224,8 @@ Command renderCommand() {
             .scenes = scene_type::kAll,
             .command = command::kRender,
             .traits = command::kShowing | command::kTelling,
+            .chapter = Chapter::Pictures,
+            .options = renderOptions,
             .start = startOf<RenderOptions, runRender>};
 }
 

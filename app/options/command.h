@@ -11,7 +11,7 @@
 namespace stereonav {
 
 // Chapters of the pages that list options by topic; a command's own options stand in one of them.
-enum class Chapter { Shapes, Ground, Measuring, Light, Colon, Kept };
+enum class Chapter { Pictures, Series, Shapes, Ground, Measuring, Light, Colon, Kept };
 
 struct Command {
     const char* name;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <stdexcept>
 #include <utility>
 
@@ -25,25 +26,13 @@ std::vector<Option> setOption() {
              "KEY=VALUE: another option by the key that it has in a scene file; may be given several times",
          .commands = kWithScene,
          .repeated = true,
+         .inFile = false,
          .take = [](OptionTargets&, const OptionValue&) {}}};
 }
 
-struct Part {
-    std::vector<Option> (*options)();
-    bool inFile;  // whether scene files may contain them
-};
-constexpr std::array<Part, 11> kShownParts{{{sourceOptions, true},
-                                            {studyOptions, true},
-                                            {lookOptions, true},
-                                            {paintOptions, true},
-                                            {groundPaintOptions, true},
-                                            {volumeLookOptions, true},
-                                            {qualityOptions, true},
-                                            {mediumOptions, true},
-                                            {tracedOptions, true},
-                                            {viewOptions, true},
-                                            {pictureOptions, false}}};
-constexpr std::array<Part, 2> kLastParts{{{setOption, false}, {tellingOptions, false}}};
+constexpr std::array kSharedParts{sourceOptions,      studyOptions,      lookOptions,    paintOptions,
+                                  groundPaintOptions, volumeLookOptions, qualityOptions, mediumOptions,
+                                  pictureOptions,     setOption,         tellingOptions};
 
 // Returns the bits of the commands that a row names directly or by a trait.
 CommandSet commandsWith(CommandSet asked) {
@@ -53,23 +42,42 @@ CommandSet commandsWith(CommandSet asked) {
     return found;
 }
 
-void addPart(const Part& part, CommandSet owner, std::vector<Option>& all) {
-    for (Option& option : part.options()) {
-        option.inFile = part.inFile && !option.positional() && option.inFile;
-        option.commands = option.commands ? commandsWith(option.commands) : owner;
-        all.push_back(std::move(option));
+// Returns the row that several commands have.
+std::vector<Option>::iterator sharedRow(std::vector<Option>& all, const std::string_view key) {
+    const auto row = std::ranges::find_if(all, [&](const Option& option) {
+        return option.key == key && !std::has_single_bit(option.commands);
+    });
+    if (row == all.end()) throw std::logic_error("an option is to stand behind one that is not shared");
+    return row;
+}
+
+void addOwnOptions(const Command& command, std::vector<Option>& all) {
+    auto at = sharedRow(all, kSetKey);
+    bool inFile = false;
+    for (Option& option : command.options()) {
+        if (*option.behind) {
+            at = sharedRow(all, option.behind);
+            inFile = at->inFile;
+            ++at;
+        }
+        option.inFile = option.inFile && inFile;
+        option.commands = command.command;
+        at = std::next(all.insert(at, std::move(option)));
     }
 }
 
 std::vector<Option> makeTable() {
+    std::vector<Option> all;
+    for (const auto& part : kSharedParts)
+        for (Option& option : part()) {
+            option.commands = commandsWith(option.commands);
+            all.push_back(std::move(option));
+        }
     std::vector<const Command*> byChapter;
     for (const Command& command : commands())
         if (command.options) byChapter.push_back(&command);
     std::ranges::stable_sort(byChapter, {}, [](const Command* command) { return command->chapter; });
-    std::vector<Option> all;
-    for (const Part& part : kShownParts) addPart(part, 0, all);
-    for (const Command* command : byChapter) addPart({command->options, false}, command->command, all);
-    for (const Part& part : kLastParts) addPart(part, 0, all);
+    for (const Command* command : byChapter) addOwnOptions(*command, all);
     return all;
 }
 

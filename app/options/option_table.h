@@ -59,7 +59,11 @@ struct Option {
     const char* advice = "";    // what to write instead of a refused value
     const char* group = "";     // heading in help
     const char* fallback = "";  // value in effect where the option is left out
-    CommandSet commands = 0;    // commands that have it; empty for options of single commands
+    // Place of a command's own option in help and pages, and of those that follow it in the command's list:
+    // behind this option, which several commands have; "": in the command's chapter. Scene files may say what
+    // stands behind options that they may say.
+    const char* behind = "";
+    CommandSet commands = 0;  // commands that have it; empty for options of single commands
     SceneSet scenes = scene_type::kAll;
     OptionRule elsewhere{};  // message with another scene, in place of the one about types
     std::vector<Exclusion> excludes{};
@@ -92,8 +96,6 @@ std::vector<Option> groundPaintOptions();
 std::vector<Option> volumeLookOptions();
 std::vector<Option> qualityOptions();
 std::vector<Option> mediumOptions();
-std::vector<Option> tracedOptions();
-std::vector<Option> viewOptions();
 std::vector<Option> pictureOptions();
 std::vector<Option> tellingOptions();
 

@@ -43,18 +43,12 @@ public:
         if constexpr (requires { options.path; }) path = &options.path;
     }
 
-    // Returns the command's structure; null where it is of another type.
-    template <typename Options>
-    Options* find() const {
-        return mType && *mType == typeid(Options) ? static_cast<Options*>(mOptions) : nullptr;
-    }
-
     // Returns the command's structure; throws where it is of another type than the row of the table expects.
     template <typename Options>
     Options& of() const {
-        Options* const options = find<Options>();
-        if (!options) throw std::logic_error("an option is for a command without its structure");
-        return *options;
+        if (!mType || *mType != typeid(Options))
+            throw std::logic_error("an option is for a command without its structure");
+        return *static_cast<Options*>(mOptions);
     }
 
 private:

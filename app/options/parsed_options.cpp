@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "app/options/picture_options.h"
 #include "app/options/refusals.h"
 #include "app/options/scene_file_options.h"
 #include "app/options/usual_words.h"
@@ -105,8 +104,6 @@ void takeSetOption(const std::string& text, ParsedOptions& parsed) {
 void finishOptions(ParsedOptions& parsed) {
     SceneOptions* const scene = parsed.to.scene;
     if (!scene) return refuseWhatDoesNotApply(parsed.given, 0, "");
-    // A desktop's menu starts `view` without options, with a file or with none.
-    if (auto* const view = parsed.to.find<ViewOptions>()) view->startPage = parsed.given.empty();
     takeSceneFile(parsed);
     scene->given = parsed.given;
     refuseWhatDoesNotApply(*scene, parsed.typeOf(*scene));

@@ -1,4 +1,4 @@
-// Options: a scene shown as a medium that light goes through; and the light of traced pictures.
+// Options: a scene shown as a medium that light goes through.
 #include "app/options/option_numbers.h"
 #include "app/options/option_table.h"
 #include "app/options/option_take.h"
@@ -166,11 +166,6 @@ std::vector<Option> mediumFineness() {
     };
 }
 
-OptionRule unlessTraced() {
-    return {[](const Asked& asked) { return !asked.is("light", "traced"); }, "expected with --light traced",
-            kLeaveItOut};
-}
-
 }  // namespace
 
 std::vector<Option> mediumOptions() {
@@ -178,56 +173,6 @@ std::vector<Option> mediumOptions() {
     for (const auto& part : {mediumLight(), mediumFineness()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
-}
-
-std::vector<Option> tracedOptions() {
-    return {
-        {.key = "samples",
-         .value = wholeValue(kSamplesRange),
-         .help = "paths from each pixel",
-         .advice = kSamplesAdvice,
-         .group = kTracedGroup,
-         .fallback = "64",
-         .commands = kRender,
-         .rules = {unlessTraced()},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->traced->samples = static_cast<int>(value.whole); }},
-        {.key = "bounces",
-         .value = wholeValue(kBouncesRange),
-         .help = kBouncesHelp,
-         .advice = kBouncesAdvice,
-         .group = kTracedGroup,
-         .commands = kRender,
-         .rules = {unlessTraced()},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->traced->bounces = static_cast<int>(value.whole); }},
-        {.key = "albedo",
-         .value = numbersValue(albedoNumbers()),
-         .help = kAlbedoHelp,
-         .group = kTracedGroup,
-         .commands = kRender,
-         .rules = {unlessTraced()},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->traced->albedo = colorOf(value); }},
-        {.key = "point-light",
-         .value = numbersValue(pointLightNumbers()),
-         .help = kPointLightHelp,
-         .group = kTracedGroup,
-         .commands = kRender,
-         .rules = {unlessTraced()},
-         .repeated = true,
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->traced->lights.push_back(lampsOf(value)); }},
-        {.key = "reach",
-         .value = numberValue(kReachRange),
-         .help = "that rays look for light from outside",
-         .advice = kReachAdvice,
-         .group = kTracedGroup,
-         .commands = kRender,
-         .rules = {unlessTraced()},
-         .take = [](OptionTargets& to,
-                    const OptionValue& value) { to.scene->traced->reach_mm = value.number(); }},
-    };
 }
 
 }  // namespace stereonav

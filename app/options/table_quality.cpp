@@ -139,16 +139,6 @@ std::vector<Option> qualityOptions() {
          .rules = {notOfTracedLight()},
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.rays->rays = static_cast<int>(value.whole); }},
-        {.key = "until-db",
-         .value = numberValue(within(1, kMostPsnr_db, "dB")),
-         .help =
-             fmt::format("as many rays a pixel, {} at most, as this PSNR against very many takes", kMostRays),
-         .advice = "55 is under half a grey level",
-         .group = kQualityGroup,
-         .commands = kRender,
-         .excludes = {{"edges"}, {"rays"}},
-         .rules = {notOfTracedLight()},
-         .take = [](OptionTargets& to, const OptionValue& value) { to.rays->until_db = value.number(); }},
     };
 }
 

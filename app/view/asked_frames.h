@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 
-#include "app/options/picture_options.h"
+#include "app/options/view_options.h"
 #include "app/view/frame_governor.h"
 #include "app/view/late_view.h"
 #include "app/view/screenshots.h"

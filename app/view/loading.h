@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "app/options/picture_options.h"
+#include "app/options/view_options.h"
 #include "app/scene/scene_loading.h"
 #include "app/view/beside_work.h"
 #include "app/view/session.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "app/options/picture_options.h"
+#include "app/options/view_options.h"
 #include "app/output/command_result.h"
 
 namespace stereonav {

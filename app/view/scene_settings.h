@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "app/options/picture_options.h"
+#include "app/options/view_options.h"
 #include "app/view/session.h"
 #include "app/view/setting_texts.h"
 #include "app/view/settings_history.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/options/option_table.h"
-#include "app/options/picture_options.h"
+#include "app/options/view_options.h"
 #include "engine/camera/stereo_rig.h"
 
 namespace stereonav {

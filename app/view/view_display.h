@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/options/picture_options.h"
+#include "app/options/view_options.h"
 #include "app/view/screen_sizes.h"
 #include "app/view/view_frame.h"
 #include "engine/display/frame_sequence.h"

@@ -135,7 +135,6 @@ TEST_F(OptionTable, LetsValuesGoToTheStructureOfTheirCommandAlone) {
     EXPECT_EQ(own.error, 0.25);
     EXPECT_TRUE(own.full);
     EXPECT_EQ(own.scene.volume.opacity, 0.25);
-    EXPECT_EQ(to.find<Other>(), nullptr);
     EXPECT_THROW(into<&Other::full>(to, value), std::logic_error);
 }
 

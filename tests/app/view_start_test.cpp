@@ -6,7 +6,7 @@
 
 #include "app/options/option_table.h"
 #include "app/options/parsed_options.h"
-#include "app/options/picture_options.h"
+#include "app/options/view_options.h"
 #include "app/scene/shown_as.h"
 #include "app/view/loading.h"
 #include "app/view/session.h"
@@ -179,7 +179,7 @@ TEST(StartPageAtFirst, IsShownWhereViewIsGivenNothing) {
         chooseCommand(command::kView, parsed);
         if (key) takeOption(*findOption(command::kView, key), text, key, parsed);
         finishOptions(parsed);
-        return parsed.to.of<ViewOptions>().startPage;
+        return parsed.to.of<ViewOptions>().scene.given.empty();
     };
     EXPECT_TRUE(shown(nullptr, ""));
     EXPECT_FALSE(shown("SCENE", "colon"));

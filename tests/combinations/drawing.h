@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "app/options/picture_options.h"
+#include "app/command/render_command.h"
 #include "app/scene/narrowed_eyes.h"
 #include "app/scene/scene_loading.h"
 #include "engine/image/eye_image.h"

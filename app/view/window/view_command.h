@@ -1,7 +1,7 @@
 // `stereonav view`, which also runs without a command.
 #pragma once
 
-#include "app/options/picture_options.h"
+#include "app/options/view_options.h"
 
 namespace stereonav {
 

@@ -53,7 +53,7 @@ Viewer::Viewer(const ViewOptions& options)
       mMarks(mPictures, mPointer, mStage, mKept, mInstruments),
       mDrawing(mSession, mWindow, mDisplay, mStage, mPictures, mPointer, mMarks),
       mClipboard(mWindow, mSession) {
-    mStage.panels().shown().start = options.startPage;
+    mStage.panels().shown().start = options.scene.given.empty();
     mKeptWindow.restore(mStage, mDisplay.sizes(), mNotices);
     mChanges.begin();
 }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/options/picture_options.h"
+#include "app/options/view_options.h"
 #include "app/view/asked_frames.h"
 #include "app/view/bench_flight.h"
 #include "app/view/clipboard.h"
