@@ -46,8 +46,7 @@ void makeBuiltIn(const SceneOptions& options, SimdTarget, Progress&, ShownMedium
     }
     // Bounds without the noise, whose displacements may reach anywhere.
     const WorldBox box = Medium(field, findMediumTransfer(shown.transfer)).bounds();
-    seeFromOutside(box.low, box.high, "the flight around the medium", scene);
-    adjustViews(options, scene);
+    seeFromOutside(box.low, box.high, SeenAs::Outside, "the flight around the medium", scene);
     scene.flyFreely();
 }
 

@@ -1,6 +1,5 @@
 // The type of scenes for meshes: glTF files.
 #include "app/scene/file_glance.h"
-#include "app/scene/scene_loading.h"
 #include "app/scene/scene_type.h"
 #include "app/scene/shown_mesh.h"
 #include "engine/gltf/gltf_file.h"
@@ -20,9 +19,7 @@ std::unique_ptr<Scene> loadMesh(const SceneOptions& options, SimdTarget simd, Pr
     Progress reading(progress, 0, 0.5), sorting(progress, 0.5, 1);
     TriangleMesh mesh = readMesh(options.scene, reading);
     const SunPlace sun = options.sun ? SunPlace{options.sun->azimuth, options.sun->elevation} : kSun;
-    auto scene = std::make_unique<ShownMesh>(MeshCaster(std::move(mesh), options.scene, sorting), sun, simd);
-    adjustViews(options, *scene);
-    return scene;
+    return std::make_unique<ShownMesh>(MeshCaster(std::move(mesh), options.scene, sorting), sun, simd);
 }
 
 }  // namespace

@@ -17,14 +17,14 @@ constexpr double kExtentSeconds = 10;  // time to cross the extent at normal spe
 
 }  // namespace
 
-void seeFromOutside(const glm::dvec3& low, const glm::dvec3& high, const std::string& flight, Scene& scene) {
+void seeFromOutside(const glm::dvec3& low, const glm::dvec3& high, SeenAs seen, const std::string& flight,
+                    Scene& scene) {
     const glm::dvec3 middle = 0.5 * (low + high);
     const double half = 0.5 * glm::length(high - low), radius = half > 0 ? half : 1e-6;
     const double distance = kFraming * radius / std::sin(0.5 * kFov);
     scene.lens.verticalFov = kFov;
     scene.lens.nearDepth = 0.005 * radius;
-    scene.stereo.zeroParallax = distance;
-    scene.stereo.separation = distance / 30;
+    scene.stereo = defaultEyes(seen, distance);
     const Orbit orbit{middle, distance, -0.15};
     scene.startPose = poseOn(orbit, 0);
     scene.path = flightAround(orbit, flight);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/camera/default_eyes.h"
 #include "engine/nav/flight.h"
 #include "engine/scene/scene.h"
 
@@ -13,7 +14,8 @@ namespace stereonav {
 // Sets lens, eyes, start and flight of `scene`: a ball around the box from low to high (world, metres) fills
 // the picture, seen northwards from a little above, and the flight goes around it once. flight: its name in
 // messages, "the flight around the medium".
-void seeFromOutside(const glm::dvec3& low, const glm::dvec3& high, const std::string& flight, Scene& scene);
+void seeFromOutside(const glm::dvec3& low, const glm::dvec3& high, SeenAs seen, const std::string& flight,
+                    Scene& scene);
 
 // Returns a flight without ground or walls. extent: metres, crossed in ten seconds at normal speed, > 0.
 std::unique_ptr<Flight> freeFlight(const Pose& home, double extent);

@@ -101,6 +101,7 @@ std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& 
     scene->name = options.scene.empty() ? "terrain" : options.scene;
     scene->lens.width = size.width;
     scene->lens.height = size.height;
+    adjustViews(options, *scene);
     if (options.separation_m || options.zeroParallax_m) scene->eyesGiven = true;
     checkSize(size, options, each);
     return scene;

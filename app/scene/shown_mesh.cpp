@@ -9,7 +9,6 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSeparationShare = 45;  // distance over separation: the depths span half of it
 constexpr float kAmbient = 0.1f;
 constexpr double kWrap = 1;  // half of all views see sides that the sun does not reach
 
@@ -35,8 +34,8 @@ ShownMesh::ShownMesh(MeshCaster caster, const SunPlace& sun, SimdTarget target)
       mBox{mRenderer.caster().low(), mRenderer.caster().high()} {
     simd = availableTarget(target);
     mSun.turnTo(sun);
-    seeFromOutside(mRenderer.caster().low(), mRenderer.caster().high(), "the flight around the mesh", *this);
-    stereo.separation = stereo.zeroParallax / kSeparationShare;
+    seeFromOutside(mRenderer.caster().low(), mRenderer.caster().high(), SeenAs::Mesh,
+                   "the flight around the mesh", *this);
     offer(mRays);
     offer<const MeshRenderer>(mRenderer);
     offer<TurningLight>(mSun);

@@ -58,8 +58,7 @@ SceneFile describeTerrain(const SceneOptions& options) {
     if (options.light.kind == LightChoice::Kind::File) scene.light = options.light.file;
     if (options.sun) scene.look.sunAzimuth = options.sun->azimuth;
     if (options.sun) scene.look.sunElevation = options.sun->elevation;
-    if (options.separation_m) scene.separation = options.separation_m;
-    if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;
+    if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;  // which the eyes follow
     if (options.fov_deg) scene.verticalFov = *options.fov_deg * kRadians;
     scene.colorsAlone = shownAs(options).swept;
     refuseWithoutEffect(options, scene);
@@ -101,7 +100,8 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
         expectEarth(terrain.body, "--sky physical", "scatters light in the Earth's air");
     if (!options.ground.follow.empty()) {
         terrain.path = followedTrack(terrain, options.ground.follow, options.ground.followHeight_m);
-        if (!terrain.eyesGiven) terrain.stereo = followedEyes(options.ground.followHeight_m);
+        if (!terrain.eyesGiven && !options.separation_m)
+            terrain.stereo = followedEyes(options.ground.followHeight_m);
     }
     // Tiled ground has its own detail near the eye, and needs none here.
     terrain.detail = options.groundDetail && !shownAs(options).swept && !terrain.tiled && !terrain.standIn;

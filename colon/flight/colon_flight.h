@@ -17,6 +17,7 @@
 #include <memory>
 
 #include "colon/centreline/centreline.h"
+#include "engine/camera/default_eyes.h"
 #include "engine/camera/recorded_path.h"
 #include "engine/nav/flight.h"
 
@@ -109,7 +110,7 @@ FlightClearance clearanceOf(const RecordedPath& path, const FreeDistance& freeDi
 class SeparationControl {
 public:
     struct Setting {
-        double share = 1.0 / 30;                    // separation over the zero-parallax distance
+        double share = kUsualShare;                 // separation over the zero-parallax distance
         double smallest = 0.0002, largest = 0.004;  // metres
         double seconds = 2.0;                       // to follow
     };

@@ -18,6 +18,7 @@
 #include "colon/segmentation/lumen_pieces.h"
 #include "engine/base/cache.h"
 #include "engine/base/error.h"
+#include "engine/camera/default_eyes.h"
 #include "engine/volume/distance_transform.h"
 
 namespace stereonav {
@@ -159,8 +160,7 @@ void placeViewer(ColonScene& scene, const ColonOptions& options) {
     const double radius = std::max(middleRadius(scene.centreline), 1e-4);
     scene.clearance = options.clearance > 0 ? options.clearance : std::min(0.002, 0.25 * radius);
     // Looking along a tube, the middle of the picture is some two and a half radii away.
-    scene.stereo.zeroParallax = 2.5 * radius;
-    scene.stereo.separation = scene.stereo.zeroParallax / 30;
+    scene.stereo = defaultEyes(SeenAs::Lumen, 2.5 * radius);
     scene.lens.verticalFov = kFov;
     // The nearest thing in the corner of a wide picture is the clearance away along its ray.
     scene.lens.nearDepth = 0.2 * scene.clearance;

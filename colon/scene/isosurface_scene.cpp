@@ -19,6 +19,7 @@
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/base/parallel.h"
+#include "engine/camera/default_eyes.h"
 #include "engine/camera/orbit.h"
 #include "engine/math/constants.h"
 
@@ -163,8 +164,7 @@ void placeViewer(ColonScene& scene) {
     scene.lens.verticalFov = 40 * kPi / 180;
     const double distance = 1.1 * ball.radius / std::sin(0.5 * scene.lens.verticalFov);
     scene.lens.nearDepth = 0.005 * ball.radius;
-    scene.stereo.zeroParallax = distance;
-    scene.stereo.separation = distance / 30;
+    scene.stereo = defaultEyes(SeenAs::Outside, distance);
     const Orbit orbit{ball.middle, distance, -0.2};  // from a little above
     scene.startPose = poseOn(orbit, 0);
     scene.path = flightAround(orbit, "the flight around the volume");

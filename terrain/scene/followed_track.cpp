@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/base/error.h"
+#include "engine/camera/default_eyes.h"
 
 namespace stereonav {
 namespace {
@@ -130,8 +131,7 @@ RecordedPath followTrack(const Heightfield& ground, const std::vector<glm::dvec2
 }
 
 StereoSetting followedEyes(double height) {
-    const double seen = height / std::sin(-kFollowPitch);
-    return {seen / 30, seen};
+    return defaultEyes(SeenAs::Track, height / std::sin(-kFollowPitch));
 }
 
 }  // namespace stereonav

@@ -28,8 +28,8 @@ using GroundRises = std::function<double(const glm::dvec2& place)>;
 RecordedPath followTrack(const Heightfield& ground, const std::vector<glm::dvec2>& places, double height,
                          const std::string& source, const GroundRises& rises = {});
 
-// Returns eyes for such a flight at `height` metres: level ground in the middle of the picture lies in the
-// screen, a thirtieth of its distance between the eyes.
+// Returns the eyes for such a flight at `height` metres: level ground in the middle of the picture lies in
+// the screen.
 StereoSetting followedEyes(double height);
 
 }  // namespace stereonav

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "engine/base/error.h"
+#include "engine/camera/default_eyes.h"
 #include "terrain/built_in/built_in_terrain.h"
 #include "terrain/ground/nodata.h"
 #include "terrain/light/atmosphere.h"
@@ -34,7 +35,6 @@ namespace {
 constexpr double kClearancePerSpacing = 0.25;  // of the wider spacing
 constexpr double kNearPerSpacing = 0.05;       // of the finer spacing: well inside the clearance
 constexpr double kDefaultPitch = -0.2;         // radians; a start without its own looks a little down
-constexpr double kSeparationShare = 1.0 / 30;  // of the zero-parallax distance (Wan et al. 2004)
 constexpr double kFallbackShare = 0.25;        // of the shorter side, where the view meets no ground
 
 struct LoadedGround {
@@ -277,13 +277,13 @@ std::optional<double> distanceToGround(const Heightfield& ground, const Pose& po
 StereoSetting stereoOf(const SceneFile& file, const TerrainScene& scene) {
     const Heightfield& ground = scene.ground;
     const glm::dvec2 extent = glm::dvec2(ground.width() - 1, ground.height() - 1) * ground.spacing();
-    StereoSetting stereo;
-    const double seen = file.zeroParallax ? *file.zeroParallax
-                                          : distanceToGround(ground, scene.startPose)
-                                                .value_or(kFallbackShare * std::min(extent.x, extent.y));
-    stereo.zeroParallax = std::max(seen, 2 * scene.lens.nearDepth);
-    if (file.zeroParallax) stereo.zeroParallax = seen;
-    stereo.separation = file.separation.value_or(stereo.zeroParallax * kSeparationShare);
+    const auto seen = [&] {
+        return distanceToGround(ground, scene.startPose)
+            .value_or(kFallbackShare * std::min(extent.x, extent.y));
+    };
+    StereoSetting stereo = defaultEyes(
+        SeenAs::Ground, file.zeroParallax ? *file.zeroParallax : std::max(seen(), 2 * scene.lens.nearDepth));
+    if (file.separation) stereo.separation = *file.separation;
     return stereo;
 }
 

@@ -1,0 +1,36 @@
+// How far apart the eyes stand where neither an option nor a scene's file says it. This is the one place that
+// decides it.
+#pragma once
+
+#include "engine/camera/stereo_rig.h"
+
+namespace stereonav {
+
+// Separation as a share of the zero-parallax distance (Wan et al. 2004).
+constexpr double kUsualShare = 1.0 / 30;
+
+// What a scene is seen as.
+enum class SeenAs {
+    Ground,   // from its start
+    Track,    // ground below a track that is flown
+    Lumen,    // from inside
+    Outside,  // a volume or a medium, whole
+    Mesh      // whole
+};
+
+// Returns the eyes for a screen `zeroParallax` metres away, > 0.
+constexpr StereoSetting defaultEyes(SeenAs seen, double zeroParallax) {
+    switch (seen) {
+        case SeenAs::Ground:  // rounds otherwise than a thirtieth, by the last bit
+            return {kUsualShare * zeroParallax, zeroParallax};
+        case SeenAs::Mesh:  // of whose distance the depths span half
+            return {zeroParallax / 45, zeroParallax};
+        case SeenAs::Track:
+        case SeenAs::Lumen:
+        case SeenAs::Outside:
+            break;
+    }
+    return {zeroParallax / 30, zeroParallax};
+}
+
+}  // namespace stereonav
