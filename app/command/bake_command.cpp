@@ -10,6 +10,8 @@
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
 #include "app/scene/scene_type.h"
+#include "app/scene/terrain_type.h"
+#include "app/scene/volume_type.h"
 #include "engine/base/error.h"
 #include "engine/light/skies/spherical_harmonics.h"
 

@@ -19,7 +19,7 @@ struct ComparisonReport {
     int truthRays = 0;  // rays per pixel of the finer truths
     int edgeRays = 0;   // rays added at the edges of both eyes
     StereoSetting stereo;
-    std::optional<Fact> curvature;  // for ground over a round Earth (scene_facts.h)
+    std::optional<Fact> curvature;  // for ground over a round Earth: factOfCurvature
     double least = 0;               // least separation, metres: eyes come together where a lumen is narrow
     std::vector<MethodFigures> methods;  // medians over the frames
 };

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
-#include "app/scene/scene_type.h"
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_light.h"
 #include "app/scene/volume_paint.h"
+#include "terrain/raster/elevation_folder.h"
 
 namespace stereonav {
 namespace {
@@ -28,8 +26,7 @@ void checkShading(const VolumeOptions& volume, const VolumeSide& side) {
 
 // Adds a note where the folder holds ground as well: that is not opened.
 void noteGround(const SceneOptions& options, std::vector<std::string>& notes) {
-    std::error_code code;
-    if (std::filesystem::is_directory(options.scene, code) && terrainType().owns(options.scene))
+    if (!elevationFilesIn(options.scene).empty())
         notes.emplace_back(
             "left aside: elevation files in this folder; in one of their own they open as ground");
 }

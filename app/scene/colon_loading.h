@@ -1,7 +1,6 @@
 // CT studies for the commands: the way through a colon, or a surface seen from outside.
 #pragma once
 
-#include "app/scene/scene_loading.h"
 #include "app/scene/shown_volume.h"
 #include "colon/scene/colon_scene.h"
 

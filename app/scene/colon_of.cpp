@@ -2,21 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "app/scene/scene_type.h"
 #include "engine/base/error.h"
 
 namespace stereonav {
-
-void expectColonName(const std::string& scene) {
-    const SceneType& type = sceneTypeNamed(scene);
-    if (type.hasLine) return;
-    const std::string found = !type.hasGround      ? "a " + std::string(type.noun)
-                              : scene.empty()      ? "nothing, which is the built-in terrain"
-                              : scene == "terrain" ? "the built-in terrain"
-                                                   : "a terrain or another kind of file";
-    throw Error(scene.empty() ? "SCENE" : scene, "", "expected a CT study, found " + found,
-                "name a study, or colon for the built-in one");
-}
 
 const ColonScene& colonOf(const Scene& scene, const SceneOptions& options) {
     const auto* const colon = scene.offered<const ColonScene>();

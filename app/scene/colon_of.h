@@ -14,9 +14,6 @@
 
 namespace stereonav {
 
-// Throws Error, before anything is read, unless the name can be that of a colon.
-void expectColonName(const std::string& scene);
-
 // Returns the colon of a scene. Throws Error that names the scene where no colon was found.
 const ColonScene& colonOf(const Scene& scene, const SceneOptions& options);
 

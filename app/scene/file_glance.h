@@ -12,9 +12,4 @@ namespace stereonav {
 // no known type or its header is damaged; Cancelled.
 Facts glanceAt(const std::string& scene, Progress& progress);
 
-// The same for files of one type.
-Facts glanceAtMesh(const std::string& file, Progress& progress);
-Facts glanceAtTerrain(const std::string& file, Progress& progress);
-Facts glanceAtVolume(const std::string& file, Progress& progress);
-
 }  // namespace stereonav

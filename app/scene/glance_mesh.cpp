@@ -9,7 +9,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "app/scene/file_glance.h"
+#include "app/scene/mesh_facts.h"
 #include "engine/base/error.h"
 #include "engine/base/regular_file.h"
 #include "engine/text/json_check.h"

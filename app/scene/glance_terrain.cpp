@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "app/scene/file_glance.h"
+#include "app/scene/scene_facts.h"
 #include "engine/base/error.h"
 #include "terrain/read/dem_reader.h"
 #include "terrain/read/scene_file.h"

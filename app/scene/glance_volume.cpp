@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/scene/file_glance.h"
+#include "app/scene/volume_facts.h"
 #include "colon/study/study.h"
 
 namespace stereonav {

@@ -220,7 +220,7 @@ const SurveyGround& GroundPainting::survey(Progress& progress) {
     if (mSurvey) return *mSurvey;
     SceneOptions options = mOptions;
     if (mTerrain.tiled || mTerrain.standIn) options.tiles = TilesChoice::On;  // like the scene itself
-    mSurvey = std::make_unique<SurveyGround>(loadSurveyGround(options, progress));
+    mSurvey = std::make_unique<SurveyGround>(readSurveyGround(options, progress));
     return *mSurvey;
 }
 

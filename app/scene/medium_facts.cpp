@@ -1,11 +1,12 @@
-// Facts of a medium for `info`.
+#include "app/scene/medium_facts.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "app/scene/scene_facts.h"
+#include "app/scene/held_facts.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/pages.h"
 #include "engine/medium/sweep/medium_scene.h"

@@ -1,73 +1,9 @@
-// Scenes are loaded as usual; their content becomes a medium, and sweeps replace rays.
 #include "app/scene/medium_loading.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <utility>
-
-#include "app/scene/medium_of.h"
 #include "app/scene/medium_options.h"
-#include "app/scene/outside_view.h"
 #include "app/scene/shown_medium.h"
-#include "engine/base/error.h"
-#include "engine/light/skies/sky_map.h"
-#include "engine/math/constants.h"
-#include "engine/medium/model/built_in_media.h"
-#include "engine/medium/model/noise_file.h"
 
 namespace stereonav {
-namespace {
-
-// Direction of light on wax by default: from the left and behind, so that it shines through.
-constexpr double kWaxAzimuth = 300 * kRadians, kWaxElevation = 30 * kRadians;
-// Radiance of parallel light at which white media are just below white on the screen.
-constexpr float kCloudRadiance = 0.6f, kWaxRadiance = 0.75f;
-
-void makeBuiltIn(const SceneOptions& options, SimdTarget, Progress&, ShownMedium& scene) {
-    const bool cloud = options.scene == "cloud";
-    MediumScene& shown = scene.medium();
-    const std::shared_ptr<GreyVolume> field = cloud ? makeCloudField() : makeWaxField();
-    const glm::dvec3 size = glm::dvec3(field->frame.size) * field->frame.spacing;
-    shown.transfer = options.medium.medium.empty() ? options.scene : options.medium.medium;
-    shown.noise = !options.medium.noise.empty() ? options.medium.noise : cloud ? "cloud" : "none";
-    Perturbation noise = cloud && options.medium.noise.empty()
-                             ? cloudPerturbation()
-                             : findNoise(shown.noise, std::max({size.x, size.y, size.z}));
-    putField(field, std::move(noise), shown);
-    if (cloud) {
-        shown.sky = [](const glm::dvec3& direction) { return gradientSky(glm::vec3(direction)); };
-        shown.turnLight(kLightAzimuth, kLightElevation);
-        shown.look.light.radiance = glm::vec3(kCloudRadiance);
-    } else {
-        shown.look.light.radiance = glm::vec3(kWaxRadiance);
-        shown.look.background = glm::vec3(0.02f);
-        shown.turnLight(kWaxAzimuth, kWaxElevation);
-    }
-    // Bounds without the noise, whose displacements may reach anywhere.
-    const WorldBox box = Medium(field, findMediumTransfer(shown.transfer)).bounds();
-    seeFromOutside(box.low, box.high, SeenAs::Outside, "the flight around the medium", scene);
-    scene.flyFreely();
-}
-
-}  // namespace
-
-void putField(std::shared_ptr<const GreyVolume> field, Perturbation noise, MediumScene& shown) {
-    const MediumTransfer transfer = findMediumTransfer(shown.transfer);
-    shown.medium = Medium(field, transfer, noise);
-    shown.makeSurface = [field = std::move(field), transfer, noise = std::move(noise)] {
-        return Medium(field, allSurface(transfer), noise);
-    };
-}
-
-const SceneType& builtInMediumType() {
-    static const SceneType type{.noun = "medium",
-                                .builtIn = {"cloud", "wax"},
-                                .optionsFor = [](const std::string&) { return scene_type::kBuiltInMedium; },
-                                .makeMedium = makeBuiltIn};
-    return type;
-}
-
 std::unique_ptr<Scene> loadMediumScene(const SceneType& type, const SceneOptions& options, SimdTarget simd,
                                        Progress& progress) {
     constexpr const char* kMaking = "making the medium";

@@ -1,8 +1,7 @@
-// Media for the commands: built in, volumes and the colon under --medium, terrain as a height volume.
+// Scenes shown as media: they are loaded as usual, their content becomes a medium, and sweeps replace rays.
 #pragma once
 
-#include "app/scene/scene_loading.h"
-#include "app/scene/scene_type.h"
+#include "app/scene/type_of_scene.h"
 
 namespace stereonav {
 

@@ -1,6 +1,5 @@
-// Terrain as a medium: its ground as a layer, in its own colours or under a transfer function.
-#include "app/scene/medium_of.h"
-#include "app/scene/medium_options.h"
+#include "app/scene/medium_of_terrain.h"
+
 #include "app/scene/medium_terrain.h"
 #include "app/scene/scene_facts.h"
 #include "app/scene/shown_terrain.h"

@@ -1,11 +1,11 @@
-// A study as a medium: a colon from inside, lit by a lamp at the head, or any other volume from outside.
+#include "app/scene/medium_of_volume.h"
+
 #include <algorithm>
 
 #include "app/scene/colon_loading.h"
-#include "app/scene/medium_of.h"
-#include "app/scene/medium_options.h"
-#include "app/scene/scene_facts.h"
+#include "app/scene/medium_field.h"
 #include "app/scene/seen_volume_light.h"
+#include "app/scene/volume_facts.h"
 #include "engine/medium/model/noise_file.h"
 
 namespace stereonav {

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/scene/medium_options.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "engine/medium/model/noise_file.h"

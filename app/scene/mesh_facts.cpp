@@ -1,7 +1,8 @@
-// Facts of a mesh for `info` and the report.
+#include "app/scene/mesh_facts.h"
+
 #include <fmt/format.h>
 
-#include "app/scene/scene_facts.h"
+#include "app/scene/held_facts.h"
 #include "engine/mesh/mesh_renderer.h"
 
 namespace stereonav {

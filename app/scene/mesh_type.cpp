@@ -1,6 +1,6 @@
-// The type of scenes for meshes: glTF files.
-#include "app/scene/file_glance.h"
-#include "app/scene/scene_type.h"
+#include "app/scene/mesh_type.h"
+
+#include "app/scene/mesh_facts.h"
 #include "app/scene/shown_mesh.h"
 #include "engine/gltf/gltf_file.h"
 #include "engine/math/constants.h"

@@ -11,6 +11,7 @@
 
 #include "app/scene/narrowed_eyes.h"
 #include "app/scene/scene_type.h"
+#include "app/scene/survey_ground.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/memory.h"
@@ -107,6 +108,26 @@ std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& 
     return scene;
 }
 
+SurveyGround loadSurveyGround(const SceneOptions& options, Progress& progress) {
+    checkSceneOptions(options);
+    const SceneType& type = sceneTypeNamed(options.scene);
+    if (!type.hasGround)
+        throw Error(options.scene, "", fmt::format("expected a terrain, found a {}", type.noun),
+                    "name an elevation model");
+    return readSurveyGround(options, progress);
+}
+
+void expectColonName(const std::string& scene) {
+    const SceneType& type = sceneTypeNamed(scene);
+    if (type.hasLine) return;
+    const std::string found = !type.hasGround      ? "a " + std::string(type.noun)
+                              : scene.empty()      ? "nothing, which is the built-in terrain"
+                              : scene == "terrain" ? "the built-in terrain"
+                                                   : "a terrain or another kind of file";
+    throw Error(scene.empty() ? "SCENE" : scene, "", "expected a CT study, found " + found,
+                "name a study, or colon for the built-in one");
+}
+
 const RecordedPath& flightOf(const Scene& scene, const std::optional<RecordedPath>& path,
                              const std::string& file) {
     if (path) scene.check(*path, file);
@@ -126,12 +147,6 @@ std::string_view methodNamed(const std::string& name, const Scene& scene) {
     if (name == "auto") return frames.defaultMethod();
     return methodAmong(frames.methods(), name, "--method",
                        fmt::format(" of making the scene's {}", frames.whatMethodsMake()));
-}
-
-void adjustViews(const SceneOptions& options, Scene& scene) {
-    if (options.separation_m) scene.stereo.separation = *options.separation_m;
-    if (options.zeroParallax_m) scene.stereo.zeroParallax = *options.zeroParallax_m;
-    if (options.fov_deg) scene.lens.verticalFov = *options.fov_deg * kRadians;
 }
 
 std::optional<FramePlan> planScene(const Scene& scene) {

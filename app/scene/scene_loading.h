@@ -1,4 +1,4 @@
-// From options to a scene whose frames can be made: for all commands.
+// From options to what commands work on: a scene whose frames can be made, or ground for instruments.
 #pragma once
 
 #include <memory>
@@ -17,6 +17,8 @@
 
 namespace stereonav {
 
+struct SurveyGround;  // app/scene/survey_ground.h
+
 // Returns the inputs that the options name; words that are not files are among them.
 std::vector<NamedPlace> inputsOf(const SceneOptions& options);
 
@@ -27,6 +29,12 @@ void checkSceneOptions(const SceneOptions& options);
 // make; their memory is checked again beside the loaded scene. Throws Error, Cancelled.
 std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& size, Progress& progress,
                                  const PixelBytes& each = kRenderBytes);
+
+// Checks the options, sets the thread count, and reads ground for instruments. Throws Error, Cancelled.
+SurveyGround loadSurveyGround(const SceneOptions& options, Progress& progress);
+
+// Throws Error, before anything is read, unless the name can be that of a colon.
+void expectColonName(const std::string& scene);
 
 // Returns the flight read from a file, or the scene's own. Throws Error where there is none, and where a
 // flight from a file leaves the lumen of a colon.
@@ -41,8 +49,6 @@ void checkSize(const SizeOption& size, const SceneOptions& options, const PixelB
 void checkMethod(const SceneOptions& options, const std::string& method, const char* option = "--method");
 // Returns a method of the scene's FrameMaker; its default for "auto". Throws Error.
 std::string_view methodNamed(const std::string& name, const Scene& scene);
-// Sets separation, zero parallax and field of view as the options say.
-void adjustViews(const SceneOptions& options, Scene& scene);
 
 // Returns the frame plan of a loaded scene: measured along its flight, or at its start where it has none,
 // with the eyes as frames have them (NarrowedEyes). Empty where there is nothing to choose.

@@ -8,6 +8,10 @@
 #include <fstream>
 #include <utility>
 
+#include "app/scene/medium_type.h"
+#include "app/scene/mesh_type.h"
+#include "app/scene/terrain_type.h"
+#include "app/scene/volume_type.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 

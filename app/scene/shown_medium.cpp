@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "app/scene/medium_facts.h"
 #include "app/scene/outside_view.h"
-#include "app/scene/scene_facts.h"
 
 namespace stereonav {
 namespace {

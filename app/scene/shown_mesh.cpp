@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/scene/mesh_facts.h"
 #include "app/scene/outside_view.h"
-#include "app/scene/scene_facts.h"
 
 namespace stereonav {
 namespace {

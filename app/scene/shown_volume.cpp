@@ -6,11 +6,11 @@
 
 #include "app/options/refusals.h"
 #include "app/scene/colon_loading.h"
-#include "app/scene/scene_facts.h"
-#include "app/scene/shown_as.h"
 #include "app/scene/volume_ambient.h"
 #include "app/scene/volume_coverage.h"
+#include "app/scene/volume_facts.h"
 #include "app/scene/volume_light.h"
+#include "app/scene/volume_type.h"
 #include "colon/scene/transfer_presets.h"
 #include "engine/volume/transfer_text.h"
 #include "engine/volume/value_counts.h"
@@ -234,7 +234,7 @@ void ShownVolume::setAmbient() {
 std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progress& progress) const {
     SceneOptions options = mMade;
     applyChange(change, mFirst, options);
-    refuseWhatDoesNotApply(options, sceneTypeOf(options));
+    refuseWhatDoesNotApply(options, volumeType().optionsFor(options.scene) & ~scene_type::kMedia);
     Progress changing(progress, 0, 0.5), occluding(progress, 0.5, 0.75), modulating(progress, 0.75, 1);
     LitVolume made;
     made.world = std::make_unique<VolumeWorld>(

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "app/scene/scene_loading.h"
-#include "app/scene/scene_type.h"
 #include "app/scene/terrain_loading.h"
 #include "engine/base/error.h"
 #include "terrain/built_in/built_in_terrain.h"
@@ -109,12 +107,7 @@ double SurveyGround::heightAt(const glm::dvec2& grid_, const char* option) const
     return height;
 }
 
-SurveyGround loadSurveyGround(const SceneOptions& options, Progress& progress) {
-    checkSceneOptions(options);
-    const SceneType& type = sceneTypeNamed(options.scene);
-    if (!type.hasGround)
-        throw Error(options.scene, "", fmt::format("expected a terrain, found a {}", type.noun),
-                    "name an elevation model");
+SurveyGround readSurveyGround(const SceneOptions& options, Progress& progress) {
     SceneFile file = sceneFileFromName(options.scene);
     if (options.verticalScale) file.verticalScale = *options.verticalScale;
     if (options.openHoles) file.openHoles = true;

@@ -39,8 +39,8 @@ struct SurveyGround {
 // sweep has read (survey/fan_sweep.h).
 double bytesOfSurvey(double samples);
 
-// Loads the ground and sets the thread count. Missing heights are filled unless they are to stay open; in
-// tiles they stay open. Throws Error, Cancelled.
-SurveyGround loadSurveyGround(const SceneOptions& options, Progress& progress);
+// Reads the ground that the options name, a terrain. Missing heights are filled unless they are to stay open;
+// in tiles they stay open. Throws Error, Cancelled.
+SurveyGround readSurveyGround(const SceneOptions& options, Progress& progress);
 
 }  // namespace stereonav

@@ -1,8 +1,8 @@
-// Facts of a terrain for `info` and the report.
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "app/scene/held_facts.h"
 #include "app/scene/scene_facts.h"
 #include "engine/math/earth_bend.h"
 #include "terrain/cast/terrain_renderer.h"

@@ -7,7 +7,6 @@
 #include "app/scene/earth_alone.h"
 #include "app/scene/ground_paint.h"
 #include "app/scene/ground_paint_tracks.h"
-#include "app/scene/shown_as.h"
 #include "app/scene/shown_terrain.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
@@ -21,6 +20,10 @@ namespace stereonav {
 namespace {
 
 constexpr int kStandInSide = 1536;  // samples: read and coloured in a second or two
+
+bool asMedium(const SceneOptions& options) {
+    return !options.medium.medium.empty();
+}
 
 // Refuses options without effect on this terrain.
 void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
@@ -60,14 +63,14 @@ SceneFile describeTerrain(const SceneOptions& options) {
     if (options.sun) scene.look.sunElevation = options.sun->elevation;
     if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;  // which the eyes follow
     if (options.fov_deg) scene.verticalFov = *options.fov_deg * kRadians;
-    scene.colorsAlone = shownAs(options).swept;
+    scene.colorsAlone = asMedium(options);
     refuseWithoutEffect(options, scene);
     return scene;
 }
 
 // Checks what depends on the colours, which have to be loaded.
 void refuseSunWithoutEffect(const SceneOptions& options, const TerrainScene& terrain) {
-    if (!options.sun || shownAs(options).swept || terrain.illumination || terrain.landmarks) return;
+    if (!options.sun || asMedium(options) || terrain.illumination || terrain.landmarks) return;
     if (terrain.report.colorHoldsSun || terrain.look.specular > 0 || terrain.look.physicalSky) return;
     throw Error("--sun", "", "turns nothing: the ground's picture holds the light of its own day",
                 "add --shade-image or --sky physical, or leave it out; in pictures also --light auto, once "
@@ -104,7 +107,7 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
             terrain.stereo = followedEyes(options.ground.followHeight_m);
     }
     // Tiled ground has its own detail near the eye, and needs none here.
-    terrain.detail = options.groundDetail && !shownAs(options).swept && !terrain.tiled && !terrain.standIn;
+    terrain.detail = options.groundDetail && !asMedium(options) && !terrain.tiled && !terrain.standIn;
     terrain.ringsMayBeLate = terrain.tiled && options.detailLater;
     terrain.levelOfDetail = options.levelOfDetail;
     // Exaggerated heights sink more by the same factor, so that the same ground stays hidden.

@@ -1,7 +1,15 @@
 // Terrains for the commands.
 #pragma once
 
-#include "app/scene/scene_loading.h"
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/options/output_place.h"
+#include "app/options/scene_options.h"
+#include "engine/base/progress.h"
+#include "engine/scene/scene.h"
+#include "engine/simd/simd_target.h"
 #include "terrain/scene/terrain_scene.h"
 
 namespace stereonav {

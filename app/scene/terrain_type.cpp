@@ -1,9 +1,9 @@
-// The type of scenes for terrain: elevation models, scene files that name one, and the built-in terrain.
+#include "app/scene/terrain_type.h"
+
 #include <filesystem>
 
-#include "app/scene/file_glance.h"
-#include "app/scene/medium_of.h"
-#include "app/scene/scene_type.h"
+#include "app/scene/medium_of_terrain.h"
+#include "app/scene/scene_facts.h"
 #include "app/scene/terrain_loading.h"
 #include "terrain/raster/elevation_folder.h"
 

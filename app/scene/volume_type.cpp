@@ -1,8 +1,8 @@
-// The type of scenes for volumes: CT studies, and the built-in colon.
+#include "app/scene/volume_type.h"
+
 #include "app/scene/colon_loading.h"
-#include "app/scene/file_glance.h"
-#include "app/scene/medium_of.h"
-#include "app/scene/scene_type.h"
+#include "app/scene/medium_of_volume.h"
+#include "app/scene/volume_facts.h"
 #include "colon/study/study.h"
 
 namespace stereonav {

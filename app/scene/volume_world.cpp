@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "app/scene/asked_views.h"
 #include "app/scene/colon_loading.h"
 #include "app/scene/slice_pieces.h"
 #include "colon/flight/colon_flight.h"

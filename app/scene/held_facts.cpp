@@ -1,4 +1,4 @@
-#include "app/scene/scene_facts.h"
+#include "app/scene/held_facts.h"
 
 #include <fmt/format.h>
 

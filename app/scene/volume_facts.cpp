@@ -1,11 +1,12 @@
-// Facts of a CT study for `info` and the report.
+#include "app/scene/volume_facts.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "app/scene/scene_facts.h"
+#include "app/scene/held_facts.h"
 #include "app/scene/volume_inside.h"
 #include "colon/flight/colon_flight.h"
 #include "colon/scene/colon_scene.h"

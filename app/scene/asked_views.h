@@ -1,0 +1,12 @@
+// What options say of a scene's eyes and lens.
+#pragma once
+
+#include "app/options/scene_options.h"
+#include "engine/scene/scene.h"
+
+namespace stereonav {
+
+// Sets separation, zero parallax and field of view as the options say.
+void adjustViews(const SceneOptions& options, Scene& scene);
+
+}  // namespace stereonav
