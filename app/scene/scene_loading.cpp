@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "app/scene/asked_views.h"
 #include "app/scene/narrowed_eyes.h"
 #include "app/scene/scene_type.h"
 #include "app/scene/survey_ground.h"
