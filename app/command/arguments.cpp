@@ -14,7 +14,7 @@
 #include "app/options/number_text.h"
 #include "app/options/pages.h"
 #include "app/options/parsed_options.h"
-#include "app/scene/scene_type.h"
+#include "app/scene/scene_type_table.h"
 #include "app/scene/shown_as.h"
 #include "engine/base/error.h"
 #include "engine/text/printed.h"

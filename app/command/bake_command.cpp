@@ -9,9 +9,9 @@
 #include "app/options/option_take.h"
 #include "app/options/typed_values.h"
 #include "app/options/usual_words.h"
-#include "app/scene/scene_type.h"
-#include "app/scene/terrain_type.h"
-#include "app/scene/volume_type.h"
+#include "app/scene/scene_type_table.h"
+#include "app/scene/terrain/terrain_type.h"
+#include "app/scene/volume/volume_type.h"
 #include "engine/base/error.h"
 #include "engine/light/skies/spherical_harmonics.h"
 

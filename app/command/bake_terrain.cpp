@@ -17,7 +17,7 @@
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
-#include "app/scene/terrain_loading.h"
+#include "app/scene/terrain/terrain_loading.h"
 #include "engine/base/error.h"
 #include "engine/base/stopwatch.h"
 #include "engine/peers/peers.h"

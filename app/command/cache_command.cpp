@@ -15,7 +15,7 @@
 #include "app/options/command.h"
 #include "app/options/option_take.h"
 #include "app/output/command_result.h"
-#include "app/scene/scene_type.h"
+#include "app/scene/scene_type_table.h"
 #include "engine/base/cache.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"

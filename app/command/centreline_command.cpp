@@ -10,8 +10,8 @@
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
-#include "app/scene/scene_type.h"
-#include "app/scene/volume_inside.h"
+#include "app/scene/scene_type_table.h"
+#include "app/scene/volume/inside.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 

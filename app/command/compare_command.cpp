@@ -14,7 +14,7 @@
 #include "app/output/progress_bar.h"
 #include "app/output/stereo_frame.h"
 #include "app/scene/narrowed_eyes.h"
-#include "app/scene/scene_facts.h"
+#include "app/scene/terrain/terrain_facts.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/parallel.h"

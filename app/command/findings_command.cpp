@@ -11,10 +11,10 @@
 #include "app/options/output_place.h"
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
-#include "app/scene/colon_loading.h"
-#include "app/scene/colon_of.h"
-#include "app/scene/findings_words.h"
 #include "app/scene/scene_loading.h"
+#include "app/scene/volume/colon_of.h"
+#include "app/scene/volume/findings_words.h"
+#include "app/scene/volume/volume_loading.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/options/command.h"
-#include "app/scene/survey_line.h"
+#include "app/scene/terrain/survey_line.h"
 
 namespace stereonav {
 

@@ -7,7 +7,7 @@
 
 #include "app/options/output_place.h"
 #include "app/output/handed_name.h"
-#include "app/scene/scene_type.h"
+#include "app/scene/scene_type_table.h"
 #include "colon/study/study.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"

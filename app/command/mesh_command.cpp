@@ -11,7 +11,7 @@
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
-#include "app/scene/scene_type.h"
+#include "app/scene/scene_type_table.h"
 #include "engine/base/error.h"
 #include "terrain/mesh/terrain_mesh.h"
 #include "terrain/scene/terrain_scene.h"

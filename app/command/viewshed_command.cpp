@@ -11,7 +11,7 @@
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
-#include "app/scene/survey_part.h"
+#include "app/scene/terrain/survey_part.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"

@@ -7,9 +7,9 @@
 
 #include "app/options/parsed_options.h"
 #include "app/report/faults.h"
-#include "app/scene/scene_type.h"
+#include "app/scene/scene_type_table.h"
 #include "app/scene/shown_as.h"
-#include "app/scene/volume_inside.h"
+#include "app/scene/volume/inside.h"
 #include "engine/base/parallel.h"
 #include "engine/frame/cast_frames.h"
 

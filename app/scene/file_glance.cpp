@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "app/options/scene_file_options.h"
-#include "app/scene/scene_type.h"
+#include "app/scene/scene_type_table.h"
 
 namespace stereonav {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/scene/held_facts.h"
+#include "app/scene/type/held_facts.h"
 #include "engine/base/parallel.h"
 #include "engine/text/length_text.h"
 

@@ -9,10 +9,10 @@
 #include <numbers>
 #include <utility>
 
-#include "app/scene/asked_views.h"
 #include "app/scene/narrowed_eyes.h"
-#include "app/scene/scene_type.h"
-#include "app/scene/survey_ground.h"
+#include "app/scene/scene_type_table.h"
+#include "app/scene/terrain/survey_ground.h"
+#include "app/scene/type/asked_views.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/memory.h"

@@ -17,7 +17,7 @@
 
 namespace stereonav {
 
-struct SurveyGround;  // app/scene/survey_ground.h
+struct SurveyGround;  // app/scene/terrain/survey_ground.h
 
 // Returns the inputs that the options name; words that are not files are among them.
 std::vector<NamedPlace> inputsOf(const SceneOptions& options);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "app/scene/medium_loading.h"
-#include "app/scene/medium_options.h"
-#include "app/scene/scene_type.h"
+#include "app/scene/medium/medium_loading.h"
+#include "app/scene/medium/options.h"
+#include "app/scene/scene_type_table.h"
 #include "engine/base/error.h"
 #include "engine/frame/cast_frames.h"
 #include "engine/medium/sweep/swept_frames.h"

@@ -16,7 +16,7 @@
 
 namespace stereonav {
 
-struct SceneType;  // app/scene/type_of_scene.h
+struct SceneType;  // app/scene/type/scene_type.h
 
 // Bytes that a command holds per pixel of one eye beside the scene, measured at 1500x1500 or 2400x2000 and
 // rounded up. kRenderBytes: both eyes, and the composed picture while it is encoded (some formats take more:

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "app/scene/scene_type.h"
+#include "app/scene/scene_type_table.h"
 #include "app/view/notices.h"
 #include "app/view/raised_ground.h"
 

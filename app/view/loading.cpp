@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/scene/quality.h"
-#include "app/scene/shown_volume.h"
+#include "app/scene/volume/shown_volume.h"
 #include "app/view/sweep.h"
 #include "engine/scene/slices.h"
 

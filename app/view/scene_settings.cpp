@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/scene/scene_type.h"
+#include "app/scene/scene_type_table.h"
 #include "app/scene/shown_as.h"
 #include "app/view/live_settings.h"
 #include "app/view/loading.h"

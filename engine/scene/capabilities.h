@@ -203,7 +203,7 @@ public:
     virtual double northAt(const glm::dvec3& world) const = 0;
 };
 
-// How what surrounds a volume's voxels lights them and takes their opacity (app/scene/volume_ambient.h).
+// How what surrounds a volume's voxels lights them and takes their opacity (app/scene/volume/ambient.h).
 struct AmbientChoice {
     bool lit = false;           // ambient light in place of the lamp's
     std::string method;         // that estimates openness, as --ambient-method; "": gaussian

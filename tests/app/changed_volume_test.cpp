@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "app/scene/scene_loading.h"
-#include "app/scene/shown_volume.h"
+#include "app/scene/volume/shown_volume.h"
 #include "app/view/setting_texts.h"
 #include "engine/base/error.h"
 #include "engine/scene/capabilities.h"

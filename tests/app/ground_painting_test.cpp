@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "app/scene/terrain_loading.h"
+#include "app/scene/terrain/terrain_loading.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/camera/stereo_rig.h"

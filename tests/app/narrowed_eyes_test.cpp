@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/output/stereo_frame.h"
-#include "app/scene/colon_loading.h"
+#include "app/scene/volume/volume_loading.h"
 #include "app/view/stereo.h"
 #include "tests/app/volume_input.h"
 

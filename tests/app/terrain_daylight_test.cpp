@@ -1,6 +1,4 @@
 // Light of a tinted ground that is worked out behind the window.
-#include "app/scene/terrain_daylight.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +6,8 @@
 #include <ctime>
 #include <glm/geometric.hpp>
 
-#include "app/scene/shown_terrain.h"
+#include "app/scene/terrain/daylight.h"
+#include "app/scene/terrain/shown_terrain.h"
 #include "engine/base/lone_loops.h"
 #include "engine/base/parallel.h"
 #include "engine/camera/stereo_rig.h"

@@ -7,10 +7,10 @@
 #include <glm/vector_relational.hpp>
 #include <numbers>
 
-#include "app/scene/ground_figures.h"
 #include "app/scene/scene_loading.h"
-#include "app/scene/survey_part.h"
-#include "app/scene/terrain_loading.h"
+#include "app/scene/terrain/ground_figures.h"
+#include "app/scene/terrain/survey_part.h"
+#include "app/scene/terrain/terrain_loading.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/scene/capabilities.h"

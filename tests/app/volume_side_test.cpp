@@ -1,14 +1,13 @@
 // What is made of the side that a volume is seen from: of two that are put together by hand, and of scenes.
-#include "app/scene/volume_side.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <glm/vector_relational.hpp>
 
-#include "app/scene/colon_loading.h"
-#include "app/scene/light_loading.h"
-#include "app/scene/volume_inside.h"
+#include "app/scene/volume/inside.h"
+#include "app/scene/volume/light_loading.h"
+#include "app/scene/volume/side.h"
+#include "app/scene/volume/volume_loading.h"
 #include "app/view/pointed_place.h"
 #include "engine/base/error.h"
 #include "tests/app/volume_input.h"

@@ -4,7 +4,7 @@
 
 #include "app/output/stereo_frame.h"
 #include "app/scene/quality.h"
-#include "app/scene/traced_light.h"
+#include "app/scene/volume/traced_light.h"
 #include "engine/medium/sweep/swept_frames.h"
 #include "engine/sampling/pixel_samples.h"
 #include "engine/scene/capabilities.h"

@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "app/report/json.h"
-#include "app/scene/findings_words.h"
+#include "app/scene/volume/findings_words.h"
 #include "colon/scene/colon_cache.h"
 #include "colon/study/picture_decoder.h"
 #include "colon/study/study.h"

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/scene/held_facts.h"
+#include "app/scene/type/held_facts.h"
 #include "engine/scene/facts_json.h"
 
 namespace stereonav {

@@ -1,6 +1,6 @@
 // Findings as they are told: each figure of a document, a table and a line is that of the finding, in the
 // unit that its name says.
-#include "app/scene/findings_words.h"
+#include "app/scene/volume/findings_words.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scene/volume_ambient.h"
+#include "app/scene/volume/ambient.h"
 #include "engine/volume/transfer_function.h"
 
 namespace stereonav {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "app/scene/scene_loading.h"
-#include "app/scene/volume_flights.h"
+#include "app/scene/volume/flights.h"
 #include "colon/instruments/shared_wall.h"
 #include "colon/scene/colon_scene.h"
 #include "engine/base/file.h"

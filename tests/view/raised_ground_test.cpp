@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/scene/terrain_loading.h"
+#include "app/scene/terrain/terrain_loading.h"
 #include "app/view/live_settings.h"
 #include "app/view/session.h"
 #include "engine/base/file.h"
