@@ -1,7 +1,12 @@
 # The program: its rooms, its commands, and the modules that only it uses.
 stereonav_room(app/options LINK engine_frame engine_light engine_medium_model terrain_read colon_scene)
 stereonav_module(video app/ffmpeg LINK engine_image PkgConfig::FFMPEG)
-stereonav_room(app/scene LINK app_options terrain colon engine_light engine_medium engine_mesh engine_metrics engine_scene)
+stereonav_room(app/scene/type LINK app_options engine_scene)
+stereonav_room(app/scene/mesh LINK app_scene_type engine_mesh)
+stereonav_room(app/scene/medium LINK app_scene_type engine_medium colon_scene)
+stereonav_room(app/scene/terrain LINK app_scene_medium terrain)
+stereonav_room(app/scene/volume LINK app_scene_medium terrain_raster colon engine_light engine_metrics)
+stereonav_room(app/scene LINK app_scene_mesh app_scene_medium app_scene_terrain app_scene_volume)
 stereonav_room(app/output MODULES video LINK app_scene engine_letters engine_peers)
 if(STEREONAV_FAULTS)
   set(other_faults faults_off.cpp)
