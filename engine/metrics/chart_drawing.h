@@ -31,9 +31,9 @@ struct Chart {
     std::string title, xLabel, yLabel;
     ChartScale::Kind xKind = ChartScale::Kind::Automatic, yKind = ChartScale::Kind::Automatic;
     std::vector<ChartSeries> series = {};
-    bool front = true;    // less is better in both: mark those that none beats
-    bool titled = false;  // the title is drawn; else it is for readers of screens alone
-    double width = kChartWidth;
+    bool front = true;           // less is better in both: mark those that none beats
+    bool titled = false;         // the title is drawn; else it is for readers of screens alone
+    double width = kChartWidth;  // pixels
 };
 
 // A line, a dot or words.
@@ -43,24 +43,24 @@ struct ChartMark {
     std::string words = {};          // for a dot: what it stands for
     const char* anchor = "middle";   // which part of the words stands at the place: start, middle or end
     bool upright = false;            // words read upwards
-    double radius = 0;               // above 0: a dot
+    double radius = 0;               // pixels; above 0: a dot
 };
 
 struct ChartDrawing {
-    double width = 0, height = 0;
+    double width = 0, height = 0;  // pixels
     std::vector<ChartMark> marks;
 };
 
-// Points with a value that is not finite, or not measured, are left out. On a logarithmic axis zeros lie on a
-// line of their own, "0", below the rest.
+// Returns the chart's marks. Points with a value that is not finite, or not measured, are left out. On a
+// logarithmic axis zeros lie on a line of their own, "0", below the rest.
 ChartDrawing drawingOf(const Chart& chart);
 
-// The charts in a row, and below them the caption and what their fronts mean.
+// Returns the charts in a row, and below them the caption and what their fronts mean.
 ChartDrawing sideBySide(const std::vector<Chart>& charts, const std::string& caption);
 
 // What labels stand beside: for tests, and for drawingOf.
 struct LabelBox {
-    double x = 0, y = 0, width = 0, height = 0;
+    double x = 0, y = 0, width = 0, height = 0;  // pixels, y downwards
     bool overlaps(const LabelBox& other) const {
         return x < other.x + other.width && other.x < x + width && y < other.y + other.height &&
                other.y < y + height;

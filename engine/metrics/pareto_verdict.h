@@ -21,7 +21,8 @@ struct Way {
 // Returns the indices of the points that none beats (smaller or equal in both, smaller in one), by rising x.
 std::vector<std::size_t> paretoFront(const std::vector<glm::dvec2>& points);
 
-// Returns the indices of the ways that none beats, by rising time. Ways that were not measured are never among them.
+// Returns the indices of the ways that none beats, by rising time. Ways that were not measured are never
+// among them.
 std::vector<std::size_t> frontOf(const std::vector<Way>& ways);
 
 // How a way stands to the front.
@@ -32,7 +33,7 @@ struct ParetoVerdict {
     // Those that beat it: the fastest, and the share of time it saves; the one with the least error, and the
     // share of error it saves. "" where none does.
     std::string faster, better;
-    double timeSaved = 0, errorSaved = 0;
+    double timeSaved = 0, errorSaved = 0;  // shares, 0 to 1
 };
 constexpr double kSameError = 0.01;  // errors nearer to each other than this share count as the same
 

@@ -264,7 +264,7 @@ TEST_F(ReferenceFiles, TablesOfADatabaseAreNoOtherFiles) {
         GDALDataset* const open =
             GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_UPDATE);
         ASSERT_NE(open, nullptr);
-        // As a stranger writes it: without the module, which would look at the file.
+        // Written as a stranger would: without the module, which would look at the file.
         for (const std::string& text :
              {std::string("ALTER TABLE gpkg_tile_matrix RENAME TO held"),
               std::string("PRAGMA writable_schema=1"),
