@@ -206,9 +206,8 @@ int runCommandLine(int argc, char** argv) {
     app.set_version_flag("--version", versionText());
     app.require_subcommand(0, 1);
     app.footer(
-        "stereonav help COMMAND tells of one. Without a command: flies the built-in terrain, or, where there "
-        "is "
-        "no display, plays it to out/.");
+        "stereonav help COMMAND explains one of them. Without a command: a flight over the built-in terrain, "
+        "in a window or, without a display, into out/.");
     ParsedOptions parsed(sceneTypeOf);
     addCommands(app, parsed);
     try {

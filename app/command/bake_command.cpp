@@ -41,7 +41,7 @@ bool isStudyOpenness(const Asked& asked) {
 
 // Refuses light for a terrain: it is chosen when the terrain is shown.
 OptionRule chosenWhenShown() {
-    return {nullptr, "expected with a CT study, the scene is a terrain",
+    return {nullptr, "is for CT studies, the scene is a terrain",
             "a terrain's sun and sky are chosen when it is shown: --sun, --sky"};
 }
 
@@ -124,7 +124,7 @@ std::vector<Option> bakedLights() {
          .take = into<&BakeOptions::probe>},
         {.key = "sky",
          .value = numbersValue(skyNumbers()),
-         .help = "of a volume: light from everywhere",
+         .help = "light of one colour from everywhere, on a volume",
          .scenes = kVolumes,
          .elsewhere = chosenWhenShown(),
          .rules = bakedLightRules(),
@@ -147,11 +147,11 @@ std::vector<Option> bakedLights() {
                     const OptionValue& value) { to.of<BakeOptions>().albedo = colorOf(value); }},
         {.key = "order",
          .value = wholeValue(within(1, kMaxHarmonicsOrder)),
-         .help = "of transfer's harmonics",
+         .help = "order of the spherical harmonics of --what transfer",
          .advice = "5 is usual",
          .rules = {unlessOpenGround(),
                    {[](const Asked& asked) { return asked.shows(kVolumes) && !isTransfer(asked); },
-                    "expected with --what transfer", kLeaveItOut},
+                    "needs --what transfer", kLeaveItOut},
                    unlessFewOnGround(
                        [](const Asked& asked) { return beyondOnGround(asked, "order", within(1, 6)); },
                        "1 to 6", "order")},
@@ -163,9 +163,9 @@ std::vector<Option> bakeGoals() {
     return {
         {.key = "samples",
          .value = wholeValue(kSamplesRange),
-         .help = "of each texel; of a terrain each bounce",
+         .help = "samples of each texel; of a terrain for each bounce",
          .advice = kSamplesAdvice,
-         .fallback = "256; of a terrain 32",
+         .fallback = "256; terrains 32",
          .rules = {unlessOpenGround(),
                    unlessFewOnGround(
                        [](const Asked& asked) { return beyondOnGround(asked, "samples", within(1, 65536)); },
@@ -173,7 +173,7 @@ std::vector<Option> bakeGoals() {
          .take = into<&BakeOptions::samples>},
         {.key = "error",
          .value = numberValue({0, 1, true, true}),
-         .help = "go on until the relative error is this",
+         .help = "relative error at which the bake ends",
          .advice = "0.02 is two percent",
          .scenes = kVolumes,
          .elsewhere = chosenWhenShown(),
@@ -181,7 +181,7 @@ std::vector<Option> bakeGoals() {
          .take = into<&BakeOptions::error>},
         {.key = "minutes",
          .value = numberValue(above(0, 1e6, "minutes")),
-         .help = "go on for so long",
+         .help = "time after which the bake ends",
          .advice = "a fraction is fine",
          .scenes = kVolumes,
          .elsewhere = chosenWhenShown(),
@@ -195,15 +195,15 @@ std::vector<Option> bakedPlaces() {
     return {
         {.key = "resolution",
          .value = numberValue(within(0.001, 8)),
-         .help = "texels a voxel along each axis; of a terrain baked samples a height sample in memory: "
-                 "at most 1, or 2, 4, 8 where finer ones are in tiles",
+         .help = "texels per voxel along each axis; of a terrain baked samples per height sample in memory: "
+                 "at most 1, or 2, 4, 8 where tiles hold finer ones",
          .advice = "use 0.5, 1 or 2",
          .fallback = "1",
          .rules = resolutionRules(),
          .take = into<&BakeOptions::resolution>},
         {.key = "isovalues",
          .value = numbersValue(isovaluesNumbers()).checked(problemOfRange),
-         .help = "all surfaces between, to choose from later",
+         .help = "bake the surfaces of all isovalues between two, to choose from later",
          .scenes = kVolumes,
          .elsewhere = chosenWhenShown(),
          .rules = {{[](const Asked& asked) { return asked.has("isovalue"); }, kOneRange, kRanges}},
@@ -213,7 +213,8 @@ std::vector<Option> bakedPlaces() {
              }},
         {.key = "reach",
          .value = numberValue(kReachRange),
-         .help = "that rays look for light from outside: what meets nothing within is open",
+         .help = "distance at which rays stop looking for light from outside: a ray that meets nothing "
+                 "before is open",
          .advice = kReachAdvice,
          .fallback = "no limit; in a colon its mean radius for openness",
          .scenes = kVolumes,
@@ -221,7 +222,7 @@ std::vector<Option> bakedPlaces() {
          .take = into<&BakeOptions::reach_mm>},
         {.key = "full",
          .value = flagValue(),
-         .help = "every texel, for any isovalue",
+         .help = "bake every texel, for any isovalue",
          .scenes = kVolumes,
          .elsewhere = chosenWhenShown(),
          .rules = {{[](const Asked& asked) { return asked.has("isovalues"); }, kOneRange, kRanges}},
@@ -238,9 +239,9 @@ std::vector<Option> bakeOptions() {
     std::vector<Option> all = bakedLights();
     all.push_back({.key = "what",
                    .value = wordValue({"irradiance", "transfer", "openness"}),
-                   .help = "irradiance, transfer (light can be turned later), or openness",
+                   .help = "what to bake: irradiance, transfer (light can be turned later), or openness",
                    .advice = "use irradiance, transfer or openness",
-                   .fallback = "irradiance; of a terrain transfer",
+                   .fallback = "irradiance; terrains transfer",
                    .rules = {{[](const Asked& asked) {
                                   return asked.shows(kTerrains) && asked.is("what", "irradiance");
                               },
@@ -255,7 +256,7 @@ std::vector<Option> bakeOptions() {
 
 Command bakeCommand() {
     return {.name = "bake",
-            .help = "light worked out before, with bounces and soft shadows; Ctrl-C keeps what is done",
+            .help = "compute light beforehand, with bounces and soft shadows; Ctrl-C keeps what is done",
             .scenes = scene_type::kTerrains | scene_type::kVolumes,
             .command = command::kBake,
             .traits = command::kTelling,

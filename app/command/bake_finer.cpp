@@ -81,7 +81,7 @@ int finerLevels(const BakeOptions& options, const TerrainScene& terrain) {
 void checkFinerPlace(const std::filesystem::path& light) {
     const std::filesystem::path place = fineLightPlace(light);
     if (std::filesystem::exists(place) && !isFineLight(place))
-        throw Error(place.string(), "", "there is something else than light at finer samples in this place",
+        throw Error(place.string(), "", "the file holds something other than light at finer samples",
                     "choose another with --out");
 }
 

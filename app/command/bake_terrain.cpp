@@ -49,7 +49,7 @@ std::optional<TerrainLight> lightBefore(const std::filesystem::path& file, const
                                         const TerrainLightSettings& settings, bool quiet) {
     if (!std::filesystem::exists(file)) return std::nullopt;
     if (!isTerrainLight(file))
-        throw Error(file.string(), "", "there is something else than a terrain's light in this place",
+        throw Error(file.string(), "", "the file holds something other than a terrain's light",
                     "choose another with --out");
     try {
         TerrainLight light = loadTerrainLight(file, nullptr);
@@ -57,7 +57,7 @@ std::optional<TerrainLight> lightBefore(const std::filesystem::path& file, const
     } catch (const DiskError&) {
         throw;
     } catch (const Error& error) {
-        if (!quiet) printNote(error.what() + std::string(": made anew"));
+        if (!quiet) printNote(error.what() + std::string(": it is computed again"));
     }
     return std::nullopt;
 }

@@ -40,7 +40,7 @@ BakeSums begin(const std::filesystem::path& file, std::uint64_t key, VolumeBakeP
     if (auto kept = readBakeFile(file, key, problem)) return std::move(kept->sums);
     if (!problem.empty() && tell) {
         bar.clear();
-        printNote(fmt::format("{}: {}; it is baked anew", file.string(), problem));
+        printNote(fmt::format("{}: {}; it is baked again", file.string(), problem));
     }
     return BakeSums(plan.inputs.texels, std::move(plan.bricks), plan.inputs.shape, lighter.bytesToCome());
 }

@@ -186,11 +186,11 @@ std::vector<Option> cacheOptions() {
     return {
         {.key = "clear",
          .value = flagValue(),
-         .help = "removes all of it, or with --older or --of what they name",
+         .help = "remove all files, or those that --older and --of name",
          .take = into<&CacheOptions::clear>},
         {.key = "older",
          .value = textValue().checked(problemOfAge),
-         .help = "removes what was last used so long ago: 12h, 30d, 4w",
+         .help = "remove files that were not used for this time: 12h, 30d, 4w",
          .advice = "write 12h, 30d or 4w",
          .take =
              [](OptionTargets& to, const OptionValue& value) {
@@ -198,7 +198,7 @@ std::vector<Option> cacheOptions() {
              }},
         {.key = "of",
          .value = fileValue(),
-         .help = "removes what was made of a study, a file, or all in a folder; with --older both must hold",
+         .help = "remove what was made from a study, a file, or all in a folder; with --older both must hold",
          .take = into<&CacheOptions::of>}};
 }
 
@@ -210,7 +210,7 @@ void noteSceneAsSource(const fs::path& file, const std::string& scene) {
 
 Command cacheCommand() {
     return {.name = "cache",
-            .help = "what is kept between runs to save time: its files, and clearing it",
+            .help = "list or clear the files that are kept between runs to save time",
             .traits = command::kTelling,
             .chapter = Chapter::Kept,
             .options = cacheOptions,

@@ -77,7 +77,8 @@ std::vector<Option> centrelineOptions() {
     return {
         {.key = "out",
          .value = fileValue(),
-         .help = "the line's file, .vtp or .vtk (poly data) or .txt, or -; millimetres, LPS, from the rectum",
+         .help =
+             "file of the line, .vtp or .vtk (poly data) or .txt, or -; millimetres, LPS, from the rectum",
          .required = true,
          .take = into<&CentrelineOptions::out>},
     };
@@ -87,7 +88,7 @@ std::vector<Option> centrelineOptions() {
 
 Command centrelineCommand() {
     return {.name = "centreline",
-            .help = "the way through a colon, with its radii, as a file",
+            .help = "write the centreline of a colon, with its radii",
             .scenes = scene_type::kVolumes,
             .traits = command::kOfColon | command::kTelling,
             .chapter = Chapter::Shapes,

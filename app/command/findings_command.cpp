@@ -51,17 +51,17 @@ void checkFindingsOptions(const FindingsOptions& options) {
     checkPlace("--file", options.file, ".json", options);
     if (!options.file.empty()) checkOutputToReadAgain("--file", options.file);
     if (options.atTruth && options.scene.scene != "colon")
-        throw Error("--at-truth", "",
-                    "expected with the built-in colon, of other studies the truth is not known",
+        throw Error("--at-truth", "", "is for the built-in colon: the truth of other studies is not known",
                     "give places with --at x,y,z");
     if (!options.sr.empty() && options.candidates)
-        throw Error("--sr", "", "expected without --candidates, which nobody has looked at",
+        throw Error("--sr", "", "does not go with --candidates, which nobody has looked at",
                     "give those that are polyps with --at x,y,z");
     if (!options.candidates && !options.atTruth && options.at.empty() && options.between.empty() &&
         options.file.empty())
         throw Error("findings", "", "expected a place, found none", "add --at x,y,z, or --file");
     if (options.comment && options.at.size() != 1)
-        throw Error("--comment", "", "expected with one --at, whose it is", "give one place at a time");
+        throw Error("--comment", "", "needs exactly one --at, whose comment it is",
+                    "give one place at a time");
 }
 
 // Measures the kept findings again, each place once.
@@ -188,9 +188,8 @@ std::vector<Option> findingsOptions() {
     return {
         {.key = "at",
          .value = numbersValue(seedNumbers()),
-         .help =
-             "a polyp: a place on or in it, left, back, head (of RAS turn the first two signs); several are "
-             "taken",
+         .help = "a place on or in a polyp: left, back, head (from RAS change the first two signs); may be "
+                 "given several times",
          .repeated = true,
          .take =
              [](OptionTargets& to, const OptionValue& value) {
@@ -198,19 +197,20 @@ std::vector<Option> findingsOptions() {
              }},
         {.key = "comment",
          .value = textValue(),
-         .help = "on the finding of --at",
+         .help = "comment on the finding of --at",
          .take = into<&FindingsOptions::comment>},
         {.key = "at-truth",
          .value = flagValue(),
-         .help = "the polyps of the built-in colon where they are, each measured size beside the true one",
+         .help =
+             "measure the polyps of the built-in colon at their true places, and print the true sizes too",
          .take = into<&FindingsOptions::atTruth>},
         {.key = "candidates",
          .value = flagValue(),
-         .help = "places that look like polyps by their shape, the most likely first: to be looked at",
+         .help = "list places that are shaped like polyps, the most likely first, to be looked at",
          .take = into<&FindingsOptions::candidates>},
         {.key = "between",
          .value = numbersValue(betweenNumbers()),
-         .help = "two places: their distance; several are taken",
+         .help = "measure the distance between two places; may be given several times",
          .repeated = true,
          .take =
              [](OptionTargets& to, const OptionValue& value) {
@@ -218,7 +218,7 @@ std::vector<Option> findingsOptions() {
              }},
         {.key = "file",
          .value = fileValue(),
-         .help = "where findings are kept, .json: those in it are measured again, new ones are added",
+         .help = "file that keeps findings, .json: those in it are measured again, new ones are added",
          .take = into<&FindingsOptions::file>},
         {.key = "csv",
          .value = fileValue(),
@@ -230,8 +230,8 @@ std::vector<Option> findingsOptions() {
          .take = into<&FindingsOptions::page>},
         {.key = "sr",
          .value = fileValue(),
-         .help =
-             "the findings as a DICOM structured report, .dcm or -, with the names in the study's own heads",
+         .help = "the findings as a DICOM structured report, .dcm or -, with patient and study as in the "
+                 "study's headers",
          .take = into<&FindingsOptions::sr>},
     };
 }
@@ -240,7 +240,7 @@ std::vector<Option> findingsOptions() {
 
 Command findingsCommand() {
     return {.name = "findings",
-            .help = "polyps measured at places of a colon, as a list, a file and a page",
+            .help = "measure polyps at places in a colon; write a list, a file and a page",
             .scenes = scene_type::kVolumes,
             .traits = command::kOfColon | command::kTelling,
             .chapter = Chapter::Colon,

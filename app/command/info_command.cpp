@@ -51,9 +51,9 @@ std::vector<Option> infoOptions() {
     return {
         {.key = "series-pictures",
          .value = fileValue(),
-         .help = "of a DICOM folder: list its series alone, and write a picture of each into this folder",
+         .help = "only list the series of a DICOM folder, and write a picture of each into this folder",
          .scenes = scene_type::kStudies,
-         .elsewhere = {nullptr, "expected with a folder of DICOM slices", "name one, or leave it out"},
+         .elsewhere = {nullptr, "needs a folder of DICOM slices", "name one, or leave it out"},
          .take = into<&InfoOptions::series>},
     };
 }

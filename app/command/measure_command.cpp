@@ -30,7 +30,7 @@ void checkMeasureOptions(const GroundLineOptions& options) {
     if (options.line.places.empty() && options.area.empty() && options.line.track.empty())
         throw Error("--line", "", "is required, or --area, or --track", "say what is to be measured");
     if (options.plane_m && options.area.empty() && options.line.track.empty())
-        throw Error("--plane", "", "has an effect on areas alone", "leave it out, or give --area");
+        throw Error("--plane", "", "applies to areas only", "leave it out, or give --area");
     for (const NamedPlace& output :
          {NamedPlace{"--csv", options.csv}, NamedPlace{"--geojson", options.geojson}}) {
         if (output.place.empty()) continue;
@@ -141,7 +141,7 @@ int runMeasure(const GroundLineOptions& options) {
 
 Command measureCommand() {
     return {.name = "measure",
-            .help = "lengths, areas and volumes on the ground, each with its error",
+            .help = "measure lengths, areas and volumes on the ground, each with its error",
             .scenes = scene_type::kTerrains,
             .command = command::kMeasure,
             .traits = command::kOfGround | command::kTelling,

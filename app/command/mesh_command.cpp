@@ -90,7 +90,7 @@ std::vector<Option> meshOptions() {
     return {
         {.key = "out",
          .value = fileValue(),
-         .help = "the mesh's file, .glb or .gltf",
+         .help = "file of the mesh, .glb or .gltf",
          .required = true,
          .take = into<&MeshOptions::out>},
         {.key = "error",
@@ -106,7 +106,7 @@ std::vector<Option> meshOptions() {
 
 Command meshCommand() {
     return {.name = "mesh",
-            .help = "the ground with its colour as a glTF mesh",
+            .help = "write the ground with its colour as a glTF mesh",
             .scenes = scene_type::kTerrains,
             .command = command::kMesh,
             .traits = command::kOfGround | command::kTelling,

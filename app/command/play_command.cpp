@@ -61,7 +61,7 @@ void checkOptions(const PlayOptions& options) {
     if (options.out.empty() && options.video.empty() && !options.hash)
         throw Error("play", "", "expected a place for the frames", "give --out DIR, --video FILE or --hash");
     if (options.scene.quality.target_ms && !peersOfThisRun().alone())
-        throw Error("--target-ms", "", "does not go with several processes, which do not measure alike",
+        throw Error("--target-ms", "", "does not go with several processes, whose measurements differ",
                     "use --quality");
     // Other processes write nothing, and may run where the output places do not exist.
     const bool writes = peersOfThisRun().first();
@@ -101,9 +101,10 @@ std::pair<std::size_t, std::size_t> partOf(const PlayOptions& options, std::size
 std::string stereoNote(const PlayOptions& options) {
     if (options.video.empty() || saysStereo(videoKindOf(options.video), options.mode)) return "";
     const bool inMatroska = saysStereo(VideoKind::Mkv, options.mode);
-    return fmt::format("{} does not say how its pictures show two eyes ({}): {}", options.video,
-                       infoOf(options.mode).shortName,
-                       inMatroska ? "tell the player, or write .mkv, which can" : "tell the player");
+    return fmt::format(
+        "{} can not hold how its pictures show two eyes ({}): {}", options.video,
+        infoOf(options.mode).shortName,
+        inMatroska ? "set it in the player, or write .mkv, which can" : "set it in the player");
 }
 
 double medianOf(std::vector<double> values) {
@@ -184,9 +185,8 @@ std::vector<Option> playOptions() {
          .take = into<&PlayOptions::video>},
         {.key = "frames",
          .value = wholeOrPartValue(within(1, 1e6, "frames")),
-         .help =
-             "this many, evenly over the path; or some of the whole path's at --fps, 0..249 being the first "
-             "250, with the numbers that they have there",
+         .help = "number of frames, evenly over the path; or a part of the whole path's frames at --fps, "
+                 "such as 0..249 for the first 250, which keep their numbers",
          .advice = "leave it out for the whole path at --fps",
          .fallback = "the whole path at --fps",
          .take =
@@ -200,7 +200,7 @@ std::vector<Option> playOptions() {
              }},
         {.key = "fps",
          .value = numberValue(within(0.001, 1000, "frames a second")),
-         .help = "of a video, or of pictures",
+         .help = "frame rate of the video or pictures",
          .advice = "25 is common",
          .fallback = "25",
          .rules = {{[](const Asked& asked) {
@@ -266,7 +266,7 @@ int runPlay(const PlayOptions& options) {
 
 Command playCommand() {
     return {.name = "play",
-            .help = "a flight into pictures, a video, or a hash",
+            .help = "play a flight into pictures, a video, or a hash",
             .scenes = scene_type::kAll,
             .command = command::kPlay,
             .traits = command::kShowing | command::kTelling,

@@ -23,7 +23,7 @@ Plane<T> planeOf(ByteReader& from) {
     const int width = from.get<int>(), height = from.get<int>();
     if (width < 0 || height < 0 ||
         from.left() / sizeof(T) / std::max(width, 1) < static_cast<unsigned>(height))
-        throw Error("", "message between processes", "has no picture of its size",
+        throw Error("", "message between processes", "holds a picture of another size",
                     "start all processes from the same build");
     Plane<T> plane(width, height);
     for (int y = 0; y < height; ++y) from.getAll(std::span<T>(plane.row(y), static_cast<std::size_t>(width)));

@@ -90,7 +90,7 @@ int runProfile(const GroundLineOptions& options) {
 
 Command profileCommand() {
     return {.name = "profile",
-            .help = "the ground along a line, a track or a flight",
+            .help = "list the heights of the ground along a line, a track or a flight",
             .scenes = scene_type::kTerrains,
             .command = command::kProfile,
             .traits = command::kOfGround | command::kTelling,

@@ -41,7 +41,7 @@ void checkRegisterOptions(const RegisterOptions& options) {
     expectColonName(options.with);
     if (options.with != "colon" && (options.bend_mm != 0 || options.inflate != 1))
         throw Error(options.bend_mm != 0 ? "--bend" : "--inflate", "",
-                    "expected with --with colon, which is made so", "leave it out");
+                    "needs --with colon, which is changed by it", "leave it out");
     if (options.out.empty()) return;
     if (!isStandardOutput(options.out) && !options.out.ends_with(".csv"))
         throw Error("--out", "", "expected a file named .csv, got \"" + options.out + "\"",
@@ -172,14 +172,14 @@ std::vector<Option> registerOptions() {
          .take = into<&RegisterOptions::with>},
         {.key = "with",
          .value = fileValue(),
-         .help = "another study of the same colon, whose matching place is shown beside the eye",
+         .help = "another study of the same colon; its matching place is shown beside the picture",
          .fallback = "none",
          .commands = command::kView,
          .scenes = scene_type::kSurfaces,
          .take = [](OptionTargets&, const OptionValue&) {}},  // read from the texts of options by the window
         {.key = "at",
          .value = numbersValue(seedNumbers()),
-         .help = "a place of the first study that is looked for in the other; several are taken",
+         .help = "a place of the first study to find in the other; may be given several times",
          .repeated = true,
          .take =
              [](OptionTargets& to, const OptionValue& value) {
@@ -187,23 +187,23 @@ std::vector<Option> registerOptions() {
              }},
         {.key = "bend",
          .value = numberValue(within(0, 30, "mm")),
-         .help = "of --with colon: its loops lie elsewhere, by this much at most",
+         .help = "largest shift of the loops of --with colon",
          .advice = "10 is a patient who has turned round",
          .fallback = "0",
          .take = into<&RegisterOptions::bend_mm>},
         {.key = "inflate",
          .value = numberValue(within(0.7, 1.4)),
-         .help = "of --with colon: a factor on its radii",
+         .help = "factor on the radii of --with colon",
          .advice = "1.2 is more gas",
          .fallback = "1",
          .take = into<&RegisterOptions::inflate>},
         {.key = "force",
          .value = flagValue(),
-         .help = "places are told though the two studies do not match",
+         .help = "print places even where the two studies do not match",
          .take = into<&RegisterOptions::force>},
         {.key = "out",
          .value = fileValue(),
-         .help = "places of both every 5 mm as a table, .csv or -",
+         .help = "matching places of both, every 5 mm, as a table, .csv or -",
          .take = into<&RegisterOptions::out>},
     };
 }
@@ -212,7 +212,7 @@ std::vector<Option> registerOptions() {
 
 Command registerCommand() {
     return {.name = "register",
-            .help = "places of a colon in another study of it",
+            .help = "find places of a colon in another study of it",
             .scenes = scene_type::kVolumes,
             .traits = command::kOfColon | command::kTelling,
             .chapter = Chapter::Colon,

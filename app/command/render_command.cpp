@@ -136,7 +136,7 @@ bool isTraced(const Asked& asked) {
 }
 
 OptionRule unlessTraced() {
-    return {[](const Asked& asked) { return !isTraced(asked); }, "expected with --light traced", kLeaveItOut};
+    return {[](const Asked& asked) { return !isTraced(asked); }, "needs --light traced", kLeaveItOut};
 }
 
 // Returns the options of the light of traced pictures.
@@ -177,7 +177,7 @@ std::vector<Option> tracedOptions() {
                     const OptionValue& value) { to.scene->traced->lights.push_back(lampsOf(value)); }},
         {.key = "reach",
          .value = numberValue(kReachRange),
-         .help = "that rays look for light from outside",
+         .help = "distance at which rays stop looking for light from outside",
          .advice = kReachAdvice,
          .group = kTracedGroup,
          .rules = {unlessTraced()},
@@ -195,7 +195,7 @@ std::vector<Option> renderOptions() {
          .take = into<&RenderOptions::out>},
         {.key = "pose",
          .value = numbersValue(poseNumbers()),
-         .help = "where the head is",
+         .help = "position and direction of the head",
          .fallback = "the start pose",
          .behind = "size",
          .inFile = false,
@@ -203,8 +203,9 @@ std::vector<Option> renderOptions() {
                     const OptionValue& value) { to.of<RenderOptions>().pose = poseOf(value); }},
         {.key = "until-db",
          .value = numberValue(within(1, kMostPsnr_db, "dB")),
-         .help =
-             fmt::format("as many rays a pixel, {} at most, as this PSNR against very many takes", kMostRays),
+         .help = fmt::format(
+             "cast as many rays a pixel, {} at most, as it takes to reach this PSNR against very many",
+             kMostRays),
          .advice = "55 is under half a grey level",
          .group = kQualityGroup,
          .behind = "rays",
@@ -220,7 +221,7 @@ std::vector<Option> renderOptions() {
 
 Command renderCommand() {
     return {.name = "render",
-            .help = "one pose into a picture",
+            .help = "render one view into a picture",
             .scenes = scene_type::kAll,
             .command = command::kRender,
             .traits = command::kShowing | command::kTelling,

@@ -77,7 +77,7 @@ std::vector<Part> partsOf(const ReportOptions& options) {
 std::string untimedText() {
     const int processes = peersOfThisRun().count();
     return fmt::format(
-        "Untimed: of it, work that no time is taken of, by {}. Processor: of all threads together{}.",
+        "Untimed: work whose time counts for no figure, by {}. Processor: all threads together{}.",
         processes == 1 ? "one process" : fmt::format("{} processes, which rest otherwise", processes),
         processes == 1 ? "" : " of the first process");
 }
@@ -170,7 +170,7 @@ int runReport(const ReportOptions& options) {
     if (!options.compare.empty()) earlier = readEarlierReport(options.compare);
     const long studies = std::ranges::count_if(options.scenes, isStudy);
     if (options.up && studies == 0)
-        throw Error("--up", "", "expected with a CT study among the scenes", "name one with --scene");
+        throw Error("--up", "", "needs a CT study among the scenes", "name one with --scene");
     // Files that can not be read are reported before minutes are spent.
     if (!options.stability.empty()) stabilitySection(readTextFile(options.stability), options.stability);
     const std::vector<Part> parts = partsOf(options);
@@ -178,7 +178,7 @@ int runReport(const ReportOptions& options) {
         return std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.*what; });
     };
     if (options.curvature && !any(&Part::surfaces))
-        throw Error("--curvature", "", "none of these parts shows ground",
+        throw Error("--curvature", "", "has no effect: none of these parts shows ground",
                     "leave it out, or add one that does, such as right-eye, to --parts");
     const PaperData checked(options.data);
     for (const char* name : {"report.csv", "papers.csv", "report.json", "index.html"})
@@ -197,9 +197,8 @@ int runReport(const ReportOptions& options) {
     }
     Report& report = run.report();
     if (!run.hurriedParts().empty())
-        report.warnings.push_back(
-            fmt::format("There was less time than planned for: {} measured as in a quick run.",
-                        fmt::join(run.hurriedParts(), ", ")));
+        report.warnings.push_back(fmt::format("Time ran short: {} measured as in a quick run.",
+                                              fmt::join(run.hurriedParts(), ", ")));
     bool worse = false;
     if (earlier) {
         const ReportComparison comparison = compareReports(*earlier, report);
@@ -224,9 +223,9 @@ std::vector<Option> reportSubjects() {
     return {
         {.key = "scene",
          .value = fileValue(),
-         .help = "a scene beside the built-in ones; may be given several times",
+         .help = "another scene, beside the built-in ones; may be given several times",
          .rules = {{[](const Asked& asked) { return asked.has("papers"); },
-                    "expected without --papers, which has scenes of its own", "name --data"}},
+                    "does not go with --papers, which has scenes of its own", "name --data"}},
          .repeated = true,
          .take = into<&ReportOptions::scenes>},
         {.key = "up",
@@ -238,11 +237,12 @@ std::vector<Option> reportSubjects() {
                     const OptionValue& value) { to.of<ReportOptions>().up = upAxisOf(value); }},
         {.key = "compare",
          .value = fileValue(),
-         .help = "an earlier run's report.json: shows what moved, exit status 1 where something got worse",
+         .help = "report.json of an earlier run: the page shows what changed; exit status 1 where something "
+                 "got worse",
          .take = into<&ReportOptions::compare>},
         {.key = "stability",
          .value = fileValue(),
-         .help = "rows that the stability tests wrote, as JSON lines",
+         .help = "rows that the stability tests wrote, in JSON lines",
          .take = into<&ReportOptions::stability>},
     };
 }
@@ -257,19 +257,19 @@ std::vector<Option> reportRun() {
          .take = into<&ReportOptions::threads>},
         {.key = "seed",
          .value = wholeValue(within(0, 9e18)),
-         .help = "of everything random",
+         .help = "seed of all random numbers",
          .advice = "1 is the default",
          .fallback = "1",
          .take = into<&ReportOptions::seed>},
         {.key = "minutes",
          .value = numberValue(above(0, 1440, "minutes")),
-         .help = "for all of it",
+         .help = "time for the whole report",
          .advice = "a fraction is fine",
          .fallback = "about 9; 1 with --quick",
          .take = into<&ReportOptions::minutes>},
         {.key = "parts",
          .value = wordsValue(),
-         .help = "some of it, as in right-eye,light",
+         .help = "parts to make, such as right-eye,light",
          .fallback = "all",
          .repeated = true,
          .take =
@@ -279,12 +279,13 @@ std::vector<Option> reportRun() {
              }},
         {.key = "papers",
          .value = flagValue(),
-         .help = "the papers' own tables beside what this program does, in the place of the charts",
+         .help = "in place of the charts, tables of the papers beside the figures of this program",
          .take = into<&ReportOptions::papers>},
         {.key = "data",
          .value = fileValue(),
-         .help = "folder with real data for --papers, as docs/testing.md lists it; built-in scenes stand in",
-         .rules = {{[](const Asked& asked) { return !asked.has("papers"); }, "expected with --papers",
+         .help = "folder with real data for --papers, as docs/testing.md lists it; built-in scenes replace "
+                 "what is missing",
+         .rules = {{[](const Asked& asked) { return !asked.has("papers"); }, "needs --papers",
                     "add it, or name scenes with --scene"}},
          .take = into<&ReportOptions::data>},
     };
@@ -298,7 +299,7 @@ std::vector<Option> reportOptions() {
                              .take = into<&ReportOptions::out>},
                             {.key = "quick",
                              .value = flagValue(),
-                             .help = "within a minute: fewer frames and repeats",
+                             .help = "make the report within a minute, with fewer frames and repeats",
                              .take = into<&ReportOptions::quick>}};
     for (const auto& part : {reportSubjects(), reportRun()}) all.insert(all.end(), part.begin(), part.end());
     return all;
@@ -309,7 +310,7 @@ std::vector<Option> reportOptions() {
 // The exit status is 1 where a figure is worse than in the earlier run.
 Command reportCommand() {
     return {.name = "report",
-            .help = "a page of error against time for every shortcut the program takes; up to 10 minutes",
+            .help = "write a page of error against time for the program's shortcuts; up to 10 minutes",
             .command = command::kReport,
             .traits = command::kTelling,
             .chapter = Chapter::Measuring,

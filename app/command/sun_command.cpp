@@ -161,10 +161,10 @@ std::vector<Option> sunOptions() {
          .take = into<&SunOptions::at>},
         {.key = "step",
          .value = numberValue(within(1, 60, "minutes")),
-         .help = "between the places of the sun that hours are counted from",
+         .help = "time between the positions of the sun from which hours are counted",
          .fallback = "20",
          .rules = {{[](const Asked& asked) { return !asked.has("out") && !asked.has("picture"); },
-                    "has an effect on --out and --picture alone", kLeaveItOut}},
+                    "applies to --out and --picture only", kLeaveItOut}},
          .take = into<&SunOptions::step_min>},
         {.key = "out",
          .value = fileValue(),
@@ -172,7 +172,7 @@ std::vector<Option> sunOptions() {
          .take = into<&SunOptions::out>},
         {.key = "picture",
          .value = fileValue(),
-         .help = "the same as a picture, from black to white, north up",
+         .help = "the hours as a picture, from black to white, north up",
          .take = into<&SunOptions::picture>},
     };
 }
@@ -181,7 +181,7 @@ std::vector<Option> sunOptions() {
 
 Command sunCommand() {
     return {.name = "sun",
-            .help = "where the sun stands at a time, and how long it shines on the ground",
+            .help = "tell where the sun stands at a time, and how long it shines on the ground",
             .scenes = scene_type::kTerrains,
             .traits = command::kOfGround | command::kTelling,
             .chapter = Chapter::Ground,

@@ -50,8 +50,7 @@ void checkUnfoldOptions(const UnfoldOptions& options) {
         checkNoInput({option, file}, inputs);
     }
     if (options.truth && options.scene.scene != "colon")
-        throw Error("--truth", "",
-                    "expected with the built-in colon, of other studies the truth is not known",
+        throw Error("--truth", "", "is for the built-in colon: the truth of other studies is not known",
                     "mark findings with --findings FILE.json");
 }
 
@@ -219,22 +218,22 @@ std::vector<Option> unfoldOptions() {
          .take = into<&UnfoldOptions::out>},
         {.key = "distortion",
          .value = fileValue(),
-         .help = "a picture of how true its areas are: red is drawn too large, blue too small",
+         .help = "a picture of the distortion of areas: red is drawn too large, blue too small",
          .take = into<&UnfoldOptions::distortion>},
         {.key = "panorama",
          .value = fileValue(),
-         .help = "a picture of the wall as it is seen along the line, ahead from the rectum and back from "
-                 "the caecum",
+         .help = "a picture of the wall as seen from the centreline, ahead from the rectum and back from the "
+                 "caecum",
          .take = into<&UnfoldOptions::panorama>},
         {.key = "pixel",
          .value = numberValue(within(0.1, 10, "mm")),
-         .help = "of the wall, the side of a pixel",
+         .help = "side of a pixel on the wall",
          .advice = "0.5 is about a voxel",
          .fallback = "0.5",
          .take = into<&UnfoldOptions::pixel_mm>},
         {.key = "at",
          .value = numbersValue(seedNumbers()),
-         .help = "a place on the wall: which pixel shows it; several are taken",
+         .help = "print which pixel shows this place on the wall; may be given several times",
          .repeated = true,
          .take =
              [](OptionTargets& to, const OptionValue& value) {
@@ -242,7 +241,7 @@ std::vector<Option> unfoldOptions() {
              }},
         {.key = "pick",
          .value = numbersValue(pixelNumbers()),
-         .help = "a pixel: which place it shows; several are taken",
+         .help = "print which place this pixel shows; may be given several times",
          .repeated = true,
          .take =
              [](OptionTargets& to, const OptionValue& value) {
@@ -251,15 +250,15 @@ std::vector<Option> unfoldOptions() {
              }},
         {.key = "findings",
          .value = fileValue(),
-         .help = "a file of stereonav findings, .json: outlined in yellow",
+         .help = "file of findings, .json, which are outlined in yellow",
          .take = into<&UnfoldOptions::findings>},
         {.key = "candidates",
          .value = flagValue(),
-         .help = "places that look like polyps by their shape: outlined in blue",
+         .help = "outline places that are shaped like polyps in blue",
          .take = into<&UnfoldOptions::candidates>},
         {.key = "truth",
          .value = flagValue(),
-         .help = "the polyps of the built-in colon: outlined in green, and how each is shown",
+         .help = "outline the polyps of the built-in colon in green, and print how each is shown",
          .take = into<&UnfoldOptions::truth>},
     };
 }
@@ -268,7 +267,7 @@ std::vector<Option> unfoldOptions() {
 
 Command unfoldCommand() {
     return {.name = "unfold",
-            .help = "a colon's wall laid flat, as a picture",
+            .help = "draw a colon's wall laid flat",
             .scenes = scene_type::kVolumes,
             .traits = command::kOfColon | command::kTelling,
             .chapter = Chapter::Colon,

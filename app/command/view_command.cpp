@@ -22,22 +22,21 @@ std::vector<Option> shownOptions() {
     return {
         {.key = "path",
          .value = fileValue(),
-         .help = "a recorded path (.gltf, .glb, .path) for Z to play, and for --bench",
+         .help = "a recorded path (.gltf, .glb, .path), which Z plays and --bench flies",
          .behind = "path",
          .inFile = false,
          .take = into<&ViewOptions::path>},
         {.key = "method",
          .value = textValue(),
          .help = "how the right eye is made, or both eyes of a medium",
-         .fallback = "auto, what measures best here",
+         .fallback = "auto, the one that measures best on this machine",
          .behind = "method",
          .panel = OptionPanel::Quality,
          .take = into<&ViewOptions::method>},
         {.key = "mode",
          .value = textValue().checked(problemOfMode),
-         .help =
-             "how two eyes are shown: ml, mr, sbsl, sbsr, tbl, irl, arcd, ...; al, ar: by turns, for shutter "
-             "glasses that follow a monitor of 100 Hz or more; quad: by the driver",
+         .help = "how two eyes are shown: ml, mr, sbsl, sbsr, tbl, irl, arcd, ...; al, ar: alternating, for "
+                 "shutter glasses and a monitor of 100 Hz or more; quad: the graphics driver's stereo",
          .fallback = "sbsl",
          .panel = OptionPanel::View,
          .take =
@@ -49,19 +48,20 @@ std::vector<Option> shownOptions() {
              return text.empty() ? std::optional(ValueProblem{"expected a monitor, got \"\"", "try auto"})
                                  : std::nullopt;
          }),
-         .help = "over a whole monitor: auto, the one that the window is on; its number, or part of its name",
+         .help =
+             "fill a whole monitor: auto (the one that the window is on), its number, or part of its name",
          .advice = "try auto",
          .take = into<&ViewOptions::fullScreen>},
         {.key = "screen-width",
          .value = numberValue(above(0, 1e5, "mm")),
-         .help = "of the whole monitor or projection, for parallax in millimetres",
-         .advice = "leave it out for what the monitor tells",
-         .fallback = "what the monitor tells, or 500",
+         .help = "width of the whole monitor or projection, for parallax in millimetres",
+         .advice = "leave it out for what the monitor reports",
+         .fallback = "what the monitor reports, or 500",
          .panel = OptionPanel::View,
          .take = into<&ViewOptions::screenWidth_mm>},
         {.key = "viewing-distance",
          .value = numberValue(above(0, 1e6, "mm")),
-         .help = "from the eyes to the screen, for parallax in degrees",
+         .help = "distance from the eyes to the screen, for parallax in degrees",
          .advice = "600 is usual at a desk",
          .fallback = "600",
          .panel = OptionPanel::View,
@@ -74,58 +74,56 @@ std::vector<Option> runOptions() {
     return {
         {.key = "sweep",
          .value = wordValue({"auto", "cpu", "gpu"}),
-         .help = "where a medium is swept; gpu: OpenGL 4.5",
-         .advice = "auto takes what is faster here",
-         .fallback = "auto, what is faster here",
+         .help = "the processor that sweeps a medium; gpu needs OpenGL 4.5",
+         .advice = "auto takes the faster one",
+         .fallback = "auto, the faster one",
          .behind = "mode",
          .rules = {{[](const Asked& asked) {
                         return !asked.is("sweep", "auto") && !asked.shows(scene_type::kMedia);
                     },
-                    "expected with a medium", "leave it out, or show one with --medium"}},
+                    "needs a medium", "leave it out, or show one with --medium"}},
          .panel = OptionPanel::Quality,
          .take = into<&ViewOptions::sweep>},
         {.key = "shots",
          .value = fileValue(),
          .help = "folder for saved pictures and recorded flights",
-         .fallback = "the present one",
+         .fallback = "the current folder",
          .inFile = false,
          .take = into<&ViewOptions::shots>},
         {.key = "late-warp",
          .value = wordValue({"on", "off"}),
-         .help =
-             "while something moves: the newest picture, warped to where the eyes are now, at each refresh",
+         .help = "while something moves: warp the newest picture, at each refresh of the monitor, to where "
+                 "the eyes are now",
          .fallback = "on",
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.of<ViewOptions>().lateWarp = value.text == "on"; }},
         {.key = "refine",
          .value = wordValue({"on", "off"}),
-         .help = fmt::format(
-             "while nothing moves: both eyes cast in full again and again, {} rays a pixel at most",
-             kMostRaysAtRest),
+         .help = fmt::format("while nothing moves: cast both eyes in full again and again and average them, "
+                             "{} rays a pixel at most",
+                             kMostRaysAtRest),
          .fallback = "on",
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.of<ViewOptions>().refine = value.text == "on"; }},
         {.key = "target-ms",
          .value = numberValue(within(1e-3, 1e6, "ms")),
-         .help =
-             "that a frame may take while something moves: it is made smaller, and enlarged, to keep that",
+         .help = "time for a frame while something moves: to keep it, frames are made smaller, and enlarged",
          .advice = "33 is 30 frames a second",
-         .fallback = "twice the monitor's refresh, at most 40; four times that of a medium",
+         .fallback = "two refreshes of the monitor, at most 40; for a medium four times that",
          .rules = {{[](const Asked& asked) { return asked.is("late-warp", "off"); },
                     "has no effect beside --late-warp off, whose frames are whole", kLeaveItOut}},
          .panel = OptionPanel::Quality,
          .take = into<&ViewOptions::target_ms>},
         {.key = "bench",
          .value = flagValue(),
-         .help = "flies --path, or 20 s of the scene's own flight at most, rests for 10 s, tells how evenly "
-                 "pictures came, how old and how right they were, and closes",
+         .help = "fly --path, or up to 20 s of the scene's own flight, rest for 10 s, print how evenly "
+                 "pictures came, their age and their error, and close",
          .inFile = false,
          .take = into<&ViewOptions::bench>},
         {.key = "json",
          .value = fileValue(),
-         .help = "tells what was done as one JSON document when the window is closed, into a file; -, or "
-                 "nothing: "
-                 "on standard output",
+         .help = "write what was done as one JSON document when the window is closed, into a file; - or no "
+                 "name: to standard output",
          .behind = "json",
          .inFile = false,
          .take =

@@ -25,45 +25,42 @@ struct Entry {
 constexpr std::array kScenes{
     Entry{"terrain", "the built-in terrain; also where SCENE is left out"},
     Entry{"colon", "the built-in colon, a generated CT study"},
-    Entry{"cloud, wax", "built-in media, which light goes into"},
+    Entry{"cloud, wax", "built-in translucent media"},
     Entry{"an elevation model",
-          "terrain: GeoTIFF, SRTM .hgt, USGS DEM, ESRI ASCII grid, 16-bit PNG and what else GDAL reads"},
+          "terrain: GeoTIFF, SRTM .hgt, USGS DEM, ESRI ASCII grid, 16-bit PNG and others that GDAL reads"},
     Entry{"a CT study",
           "a folder of DICOM slices, a DICOM file of many frames, NIfTI (.nii, .nii.gz, .hdr with .img), "
-          "NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd). The colon is looked for; any other volume is shown "
-          "from outside"},
+          "NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd). The program looks for a colon in it; a volume "
+          "without one is shown from outside"},
     Entry{"a mesh", "glTF 2.0 (.glb, .gltf), from outside"},
     Entry{"a scene file",
-          ".toml: a terrain with its photo, sky, landmarks, start and flight, or a study or a medium, with "
-          "options"},
+          ".toml: describes a scene: a terrain with its photo, sky, landmarks, start and flight, or a study "
+          "or a medium, with options"},
 };
 
 constexpr std::array kStatuses{
-    Entry{
-        "0",
-        "The command did what was asked. Also: the window was closed; help, version or a page was printed."},
+    Entry{"0", "The command succeeded, the window was closed, or help, version or a page was printed."},
     Entry{"1",
-          "An error, told in one line on standard error with the file, the place, what was expected and what "
-          "to do; no result was written. Also a stop by SIGINT, SIGTERM or SIGHUP, at the latest after a "
-          "second (a "
-          "bake keeps what is done and goes on from there when it is started again; a report of several "
-          "processes has the parts that are done), and a report with --compare that finds something worse."},
+          "An error: one line on standard error has the file, the place, what was expected and what to do; "
+          "no result was written. Also a stop by SIGINT, SIGTERM or SIGHUP, within a second: a bake keeps "
+          "what is done and continues there in its next run, and a report of several processes has the parts "
+          "that are done. Also a report with --compare that finds something worse."},
     Entry{"128 + N, in a shell",
-          "The program was ended by signal N, which it does not catch: 131 by SIGQUIT, 137 by "
-          "SIGKILL (also of a system that is out of memory), 141 by SIGPIPE (who read standard output has "
-          "gone). A file that was being written may be left, hidden and with .part in its name."},
+          "The program was ended by signal N, which it does not catch: 131 by SIGQUIT, 137 by SIGKILL (also "
+          "sent by a system that is out of memory), 141 by SIGPIPE (the reader of standard output has "
+          "ended). A file that was being written may be left, hidden and with .part in its name."},
 };
 
 constexpr std::array kFiles{
     Entry{"~/.cache/stereonav",
-          "What was found in studies, tiles of large ground, and bakes without --out, readable for the user "
-          "alone; at most 4 GB but for bakes. stereonav cache lists and clears it."},
-    Entry{"out/", "What stereonav without a command writes where there is no display."},
+          "The cache: results of searches in studies, tiles of large ground, and bakes without --out, "
+          "readable only for the user; at most 4 GB without the bakes. stereonav cache lists and clears it."},
+    Entry{"out/", "What stereonav writes without a command and without a display."},
     Entry{"stereonav_0001_sbsl.png, flight_0001.gltf",
           "Pictures and flights that keys of the window save, in the folder that --shots names."},
     Entry{"../lib/stereonav",
-          "From the program's own folder: its modules, for GDAL, GDCM, DCMTK and OpenCV, loaded when first "
-          "used."},
+          "The program's modules for GDAL, GDCM, DCMTK and OpenCV, by their path from the program's folder; "
+          "each is loaded when it is first used."},
 };
 
 constexpr std::array kEnvironment{
@@ -73,16 +70,16 @@ constexpr std::array kEnvironment{
           "the "
           "user's number."},
     Entry{"DISPLAY, WAYLAND_DISPLAY",
-          "Where windows open. Without both, stereonav without a command writes to out/."},
-    Entry{
-        "STEREONAV_SIMD",
-        "plain, avx2 or avx512: hides wider instruction sets of the processor. As --simd, for all commands."},
+          "The display that windows open on. Without both, stereonav without a command writes to out/."},
+    Entry{"STEREONAV_SIMD",
+          "plain, avx2 or avx512: hides wider instruction sets of the processor, like --simd, for all "
+          "commands."},
     Entry{"STEREONAV_MEMORY",
-          "Bytes that the program may take, as in 2e9. What needs more is refused with what would fit."},
+          "Bytes of memory that the program may use, such as 2e9. What needs more is refused, with the size "
+          "that would fit."},
     Entry{"STEREONAV_MEMORY_ASKED",
-          "For tests: the number of a file that is open to be added to, as by 9>>FILE, which gets a line for "
-          "each "
-          "time that memory is asked for: bytes taken, bytes asked."},
+          "For tests: the number of a file that is open for appending, as by 9>>FILE. It gets a line for "
+          "each request of memory: bytes used, bytes asked for."},
     Entry{"STEREONAV_TEST_DATA", "The folder of data for report --papers, unless --data says it."},
 };
 
@@ -95,7 +92,7 @@ constexpr std::array kExamples{
           "A movie of the built-in flight for red and cyan glasses."},
     Entry{"stereonav render colon --size 640x480 --out - > colon.png", "A picture to standard output."},
     Entry{"stereonav bake mountains.tif --what transfer",
-          "Works out sky light and shadows once, into the cache."},
+          "Computes sky light and shadows once, into the cache."},
     Entry{"stereonav view mountains.tif --light auto", "Shows the terrain in that light."},
     Entry{"stereonav compare mountains.tif --json - --plot plot.png",
           "What each way of making the right eye costs, and its error."},
@@ -178,9 +175,8 @@ std::string synopsis() {
 std::string commandSection() {
     std::string page = section("COMMANDS");
     page += paragraph(
-        "Without a command the program flies the built-in terrain in a window, or, where there is no "
-        "display, "
-        "plays its flight to out/ and prints the table of compare.");
+        "Without a command the program flies over the built-in terrain in a window. Without a display it "
+        "plays that flight to out/ and prints the table of compare.");
     for (const Command& command : commands())
         page += entry(bold(command.name), std::string(command.help) + ".");
     for (const PageFacts& facts : pageFacts())
@@ -192,11 +188,9 @@ std::string commandSection() {
 std::string options() {
     std::string page = section("OPTIONS");
     page += paragraph(
-        "Options stand after the command, or in a scene file under [options]. What does not apply is "
-        "refused, "
-        "all in one line. A volume is a CT study or the built-in colon. \"Refused\" says why an option is "
-        "not "
-        "taken beside others.");
+        "Options stand after the command, or in a scene file under [options]. Options that do not apply are "
+        "an error, which names all of them in one line; \"Refused\" lists the reasons. A volume is a CT "
+        "study or the built-in colon.");
     page += entry(bold("-h") + ", " + bold("--help"), "Prints the options of a command, or the commands.");
     page += entry(bold("--version"), "Prints the version and what it was built without.");
     for (const std::string& group : optionGroups()) {

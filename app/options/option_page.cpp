@@ -22,10 +22,10 @@ std::string optionPage() {
         "# Options\n\n"
         "Written by `stereonav options`; a test holds it against the program. Options stand after the "
         "command,\n"
-        "or in a [scene file](formats.md#scenes) under `[options]`. What does not apply is refused, all in "
-        "one line.\n"
-        "A volume is a CT study or the built-in colon. `Refused` says why an option is not taken beside "
-        "others.\n";
+        "or in a [scene file](formats.md#scenes) under `[options]`. Options that do not apply are an error, "
+        "which\n"
+        "names all of them in one line; `Refused` lists the reasons. A volume is a CT study or the built-in "
+        "colon.\n";
     for (const std::string& group : optionGroups()) {
         page += fmt::format("\n## {}\n\n", group.empty() ? "Options" : group);
         for (const Option& option : optionTable())

@@ -19,15 +19,13 @@ std::vector<Command>& allCommands() {
 // Returns the option --set, which gives any other option by its key in scene files.
 std::vector<Option> setOption() {
     using namespace command;
-    return {
-        {.key = kSetKey,
-         .value = textValue(),
-         .help =
-             "KEY=VALUE: another option by the key that it has in a scene file; may be given several times",
-         .commands = kWithScene,
-         .repeated = true,
-         .inFile = false,
-         .take = [](OptionTargets&, const OptionValue&) {}}};
+    return {{.key = kSetKey,
+             .value = textValue(),
+             .help = "KEY=VALUE: another option, by its key in a scene file; may be given several times",
+             .commands = kWithScene,
+             .repeated = true,
+             .inFile = false,
+             .take = [](OptionTargets&, const OptionValue&) {}}};
 }
 
 constexpr std::array kSharedParts{sourceOptions,      studyOptions,      lookOptions,    paintOptions,

@@ -30,8 +30,10 @@ std::string scenesText(SceneSet scenes) {
                              {kMedia, "media"},
                              {kTerrains, "terrains"},
                              {kVolumes, "volumes"},
-                             {kSurfaces, "volumes that are no media"},
+                             {kSurfaces, "volumes that are not media"},
                              {kStudies, "CT studies"},
+                             {kTerrain, "terrains that are not media"},
+                             {kTerrain | kSurfaces, "terrains and volumes that are not media"},
                              {kTerrainMedium, "terrains as media"}};
     for (const Named& known : kNames)
         if (known.scenes == scenes) return known.name;

@@ -40,22 +40,22 @@ Reason reasonOfType(const Option& option, SceneSet type, const std::string& scen
     if (type == kMeshFile) return {"has no effect on a mesh", kLeaveItOut};
     if (!option.elsewhere.problem.empty()) return {option.elsewhere.problem, option.elsewhere.advice};
     if (!medium && !(option.scenes & ~kMedia))
-        return {"expected with a medium", "add --medium, or show cloud or wax"};
+        return {"needs a medium", "add --medium, or show cloud or wax"};
     if (type == kTerrainMedium && option.scenes & kTerrain)
         return {"does not go with a terrain shown as a medium", kLeaveItOut};
     if (!(option.scenes & ~(kTerrains | kMeshFile)))
-        return {medium && !(option.scenes & ~kMedia) ? "expected with a terrain"
-                : type == kBuiltInMedium ? fmt::format("expected with a terrain, {} is a medium", scene)
-                                         : "expected with a terrain, the scene is a CT study",
+        return {medium && !(option.scenes & ~kMedia) ? "is for terrains"
+                : type == kBuiltInMedium             ? fmt::format("is for terrains, {} is a medium", scene)
+                                                     : "is for terrains, the scene is a CT study",
                 kLeaveItOut};
     if (type & kTerrains)
-        return {"expected with a CT study or the built-in colon, the scene is a terrain", kLeaveItOut};
+        return {"is for CT studies and the built-in colon, the scene is a terrain", kLeaveItOut};
     if (type & (kColon | kColonMedium) && option.scenes & kStudies)
-        return {"expected with a study's files, the built-in colon has none", kLeaveItOut};
+        return {"is for studies in files, the built-in colon has none", kLeaveItOut};
     if (medium && option.scenes & kSurfaces && !(option.scenes & kMedia))
         return {"does not go with a medium, which has its own",
                 type == kBuiltInMedium ? kLeaveItOut : "leave it out, or leave out --medium"};
-    return {fmt::format("expected with a CT study, {} is built in", scene), kLeaveItOut};
+    return {fmt::format("is for CT studies, {} is built in", scene), kLeaveItOut};
 }
 
 std::optional<Reason> reasonAgainst(const Option& option, const Asked& asked, const std::string& scene) {

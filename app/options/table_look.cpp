@@ -61,13 +61,13 @@ std::vector<OptionRule> skyRules() {
         {[](const Asked& asked) {
              return !isTraced(asked) && !numbersFromText(asked.given.text("sky")).empty();
          },
-         "a colour is expected with --light traced", "name a picture"},
+         "a colour needs --light traced", "name a picture"},
         {[](const Asked& asked) { return isPhysicalSky(asked) && !asked.shows(kTerrains); },
          "physical expects a terrain, whose air it is", "name a picture"},
         {[](const Asked& asked) { return isPhysicalSky(asked) && asked.shows(kTerrainMedium); },
          "physical does not go with a terrain shown as a medium, which has no air", kLeaveOneOut},
         {[](const Asked& asked) { return asked.shows(kVolumes) && !asked.has("light"); },
-         "expected with light that was baked for a CT study", "name it with --light, or leave it out"},
+         "needs light that was baked for a CT study", "name it with --light, or leave it out"},
     };
 }
 
@@ -78,9 +78,9 @@ std::vector<OptionRule> lightRules() {
         {[](const Asked& asked) { return asked.shows(kTerrainMedium); },
          "does not go with a terrain shown as a medium", kLeaveOneOut},
         {[](const Asked& asked) { return asked.shows(kBuiltInMedium) && !isTraced(asked); },
-         "expected with a terrain or a CT study, {SCENE} is built in", kLeaveItOut},
-        {[](const Asked& asked) { return isTraced(asked) && !asked.runs(kRender); },
-         "traced is expected with render", "bake the light, and name its file"},
+         "is for terrains and CT studies, {SCENE} is built in", kLeaveItOut},
+        {[](const Asked& asked) { return isTraced(asked) && !asked.runs(kRender); }, "traced is for render",
+         "bake the light, and name its file"},
         {[](const Asked& asked) { return isTraced(asked) && !asked.shows(kSurfaces); },
          "traced expects the surface of a CT study or of the built-in colon", kLeaveItOut},
         {[](const Asked& asked) {
@@ -91,15 +91,16 @@ std::vector<OptionRule> lightRules() {
         {[](const Asked& asked) { return isLazy(asked) && asked.shows(kTerrains); },
          "{light} expects the surface of a CT study or of the built-in colon", kLeaveItOut},
         {[](const Asked& asked) { return asked.is("light", "plain") && !asked.runs(kView); },
-         "plain is expected with view: other commands work out no light by themselves", kLeaveItOut},
+         "plain is for view: other commands compute no light unasked", kLeaveItOut},
         {[](const Asked& asked) { return asked.is("light", "plain") && !asked.shows(kTerrains); },
-         "plain expects an elevation model, whose light is worked out behind the window", kLeaveItOut},
+         "plain expects an elevation model: only its light is computed while the window is open",
+         kLeaveItOut},
         {[](const Asked& asked) { return asked.is("light", "auto") && !asked.shows(kTerrains); },
-         "auto is the bake of a terrain, which lies in the cache", "name the bake's file"},
+         "auto expects a terrain, whose bake lies in the cache", "name the bake's file"},
         {[](const Asked& asked) { return isLazy(asked) && asked.shows(kMedia); },
          "{light} expects an opaque surface, this is a medium", "bake the light and name its file"},
         {[](const Asked& asked) { return isLazy(asked) && !asked.runs(kView | kRender); },
-         "{light} is expected with view or render", "bake the light, and name its file"},
+         "{light} is for view and render", "bake the light, and name its file"},
         {[](const Asked& asked) { return isLazy(asked) && isTranslucent(asked); },
          "{light} expects an opaque surface", "leave out --transfer and --opacity"},
     };
@@ -107,7 +108,7 @@ std::vector<OptionRule> lightRules() {
 
 std::vector<OptionRule> sunRules() {
     constexpr const char* kOtherMedium =
-        "has no effect on a terrain shown as another medium than ground, under --light-from or --lamp";
+        "with --light-from or --lamp has no effect on a terrain shown as another medium than ground";
     return {
         {[](const Asked& asked) {
              return asked.shows(kTerrainMedium) && !isGround(asked) &&
@@ -127,7 +128,7 @@ std::vector<Option> lookOptions() {
     return {
         {.key = "image",
          .value = fileValue(),
-         .help = "colour of the ground",
+         .help = "picture that colours the ground, such as an aerial photo",
          .commands = kShowing | kMesh,
          .scenes = kTerrains,
          .rules = {{[](const Asked& asked) { return asked.shows(kTerrainMedium) && !isGround(asked); },
@@ -136,17 +137,19 @@ std::vector<Option> lookOptions() {
          .take = into<&SceneOptions::image>},
         {.key = "shade-image",
          .value = flagValue(),
-         .help = "light that picture by the sun, though it holds the light of its own day",
+         .help = "shade the picture of --image by the sun, on top of the light that it was taken in",
          .commands = kShowing | kMesh,
          .scenes = kTerrains,
-         .rules = {{[](const Asked& asked) { return asked.shows(kTerrainMedium); },
-                    "a medium's own light falls on the picture's colours as they are", kLeaveItOut}},
+         .rules =
+             {{[](const Asked& asked) { return asked.shows(kTerrainMedium); },
+               "does not go with a terrain shown as a medium, whose light falls on the picture's own colours",
+               kLeaveItOut}},
          .panel = OptionPanel::Material,
          .take = into<&SceneOptions::shadeImage>},
         {.key = "sky",
          .value = fileOrWordValue({kPhysicalSky}).checked(problemOfSky),
-         .help = "a panorama or a light probe (.hdr); physical: a terrain's sky and its air by scattering of "
-                 "sunlight, in the place of fog; with --light traced also a colour",
+         .help = "the sky: a panorama or a light probe (.hdr); physical: a terrain's sky and haze, computed "
+                 "from sunlight scattered in the air; with --light traced also a colour",
          .commands = kShowing,
          .scenes = kTerrains | kVolumes,
          .rules = skyRules(),
@@ -154,21 +157,21 @@ std::vector<Option> lookOptions() {
          .take = [](OptionTargets& to, const OptionValue& value) { takeSky(to, value); }},
         {.key = "visibility",
          .value = numberValue(kVisibilityRange),
-         .help = "how far one sees at the sea through the air of --sky physical (meteorological range)",
+         .help = "visibility at sea level in the air of --sky physical (meteorological range)",
          .advice = "5 is haze, 60 a clear day, 250 the cleanest air",
          .fallback = "60",
          .commands = kShowing,
          .scenes = kTerrains,
-         .rules = {{[](const Asked& asked) { return !isPhysicalSky(asked); }, "expected with --sky physical",
+         .rules = {{[](const Asked& asked) { return !isPhysicalSky(asked); }, "needs --sky physical",
                     "add --sky physical, or leave it out"}},
          .panel = OptionPanel::Light,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->visibility_m = 1e3 * value.number(); }},
         {.key = "light",
          .value = fileOrWordValue({"auto", "plain", "lazy", "lazy-transfer", "traced"}),
-         .help =
-             "baked light: its file; auto: a terrain's in the cache; plain: none is worked out behind the "
-             "window; lazy, lazy-transfer: a volume's, where one looks; traced: paths from every pixel",
+         .help = "the light: a file that bake wrote; auto: the bake of a terrain in the cache; plain: none "
+                 "is computed while the window is open; lazy, lazy-transfer: light of a volume, computed "
+                 "where it is seen; traced: path tracing (render)",
          .commands = kShowing,
          .scenes = kNoMesh,
          .rules = lightRules(),
@@ -176,7 +179,7 @@ std::vector<Option> lookOptions() {
          .take = [](OptionTargets& to, const OptionValue& value) { to.scene->light = lightChoiceOf(value); }},
         {.key = "sun",
          .value = numbersValue(sunNumbers()),
-         .help = "where a terrain's or mesh's sun stands, clockwise from north",
+         .help = "direction of the sun over a terrain or mesh, clockwise from north",
          .commands = kShowing | kMesh,
          .scenes = kTerrains | kMeshFile,
          .rules = sunRules(),
@@ -184,7 +187,7 @@ std::vector<Option> lookOptions() {
          .take = [](OptionTargets& to, const OptionValue& value) { to.scene->sun = lightPlaceOf(value); }},
         {.key = "separation",
          .value = numberValue(kSeparationRange),
-         .help = "of the eyes; 0.001, a millimetre, is usual in a colon",
+         .help = "distance between the eyes; 0.001 (a millimetre) is usual in a colon",
          .advice = "1/30 of the zero-parallax distance is comfortable",
          .commands = kShowing,
          .excludes = {{"relative-separation"}},
@@ -192,8 +195,8 @@ std::vector<Option> lookOptions() {
          .take = into<&SceneOptions::separation_m>},
         {.key = "zero-parallax",
          .value = numberValue(kZeroParallaxRange),
-         .help = "distance seen in the screen",
-         .advice = "use the distance to what should lie in the screen",
+         .help = "distance of what appears at the depth of the screen",
+         .advice = "use the distance of what should appear at the depth of the screen",
          .commands = kShowing,
          .panel = OptionPanel::View,
          .take = into<&SceneOptions::zeroParallax_m>},

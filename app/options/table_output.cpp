@@ -32,7 +32,7 @@ std::vector<Option> pictureOptions() {
     return {
         {.key = "size",
          .value = sizeValue(),
-         .help = "of one eye",
+         .help = "size of the picture of one eye",
          .advice = "try 1280x720",
          .fallback = "1280x720",
          .commands = kInfo | kRender | kPlay | kView,
@@ -66,7 +66,7 @@ std::vector<Option> pictureOptions() {
          .rules = {{[](const Asked& asked) {
                         return asked.has("hash") && !asked.has("out") && !asked.has("video");
                     },
-                    "has no effect on --hash, which is of both eyes", kLeaveItOut},
+                    "has no effect on --hash, which covers both eyes", kLeaveItOut},
                    {rendersJpsOtherwise,
                     "{mode} does not go with --out {out}: a .jps has the right eye on the left",
                     "leave it out, say sbsr, or write a .jpg"},
@@ -85,13 +85,13 @@ std::vector<Option> tellingOptions() {
     return {
         {.key = "json",
          .value = flagValue(),
-         .help = "tells what was done, or found, as one JSON document on standard output",
+         .help = "print what was done, or found, as one JSON document on standard output",
          .commands = kTelling,
          .inFile = false,
          .take = [](OptionTargets& to, const OptionValue&) { to.telling->json = true; }},
         {.key = "quiet",
          .value = flagValue(),
-         .help = "neither progress nor notes: only what was asked for, and errors",
+         .help = "print results and errors only, no progress and no notes",
          .commands = command::kAll,
          .inFile = false,
          .take = [](OptionTargets& to, const OptionValue&) { to.telling->quiet = true; }},

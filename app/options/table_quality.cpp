@@ -59,7 +59,7 @@ std::vector<Option> qualityOptions() {
     return {
         {.key = "quality",
          .value = numberValue(within(0, 1)),
-         .help = "share of the warp's expected squared error that is taken away; 1 casts every pixel",
+         .help = "share of the warp's expected squared error to remove by casting; 1 casts every pixel",
          .advice = "0 casts the holes alone, 1 every pixel",
          .group = kQualityGroup,
          .commands = kDialled,
@@ -70,7 +70,7 @@ std::vector<Option> qualityOptions() {
          .take = into<&SceneOptions::quality, &QualityOptions::quality>},
         {.key = "target-psnr",
          .value = numberValue(within(1, kMostPsnr_db, "dB")),
-         .help = "that 95 of 100 frames shall reach against a full cast",
+         .help = "PSNR against a full cast that 95 of 100 frames are to reach",
          .advice = "40 is good, 50 hard to see",
          .group = kQualityGroup,
          .commands = kDialled,
@@ -92,10 +92,10 @@ std::vector<Option> qualityOptions() {
          .take = into<&SceneOptions::quality, &QualityOptions::target_ms>},
         {.key = "edges",
          .value = wholeValue(within(0, kMostEdgeRays, "rays")),
-         .help = "rays added to pixels at edges, of both eyes; 0: jagged edges, in less time",
+         .help = "rays added to each pixel at an edge, in both eyes; 0: jagged edges, in less time",
          .advice = "4 smooths them, 16 is fine",
          .group = kQualityGroup,
-         .fallback = "4; of compare 0",
+         .fallback = "4; with compare 0",
          .commands = kDialled | kCompare,
          .scenes = kCast,
          .elsewhere = notOfMedia(),
@@ -104,11 +104,10 @@ std::vector<Option> qualityOptions() {
          .take = into<&SceneOptions::quality, &QualityOptions::edges>},
         {.key = "ground-detail",
          .value = wordValue({"on", "off"}),
-         .help = "shading below a terrain's sample spacing, where a pixel is finer: a fractal relief that "
-                 "changes "
-                 "neither silhouette nor depth",
+         .help = "shading of relief finer than a terrain's samples, made by a fractal; silhouettes and "
+                 "depths stay",
          .group = kQualityGroup,
-         .fallback = "on; of compare and --bench off",
+         .fallback = "on; with compare and --bench off",
          .commands = kDialled | kCompare,
          .scenes = kTerrains,
          .rules = {{[](const Asked& asked) { return asked.shows(kTerrainMedium); },
@@ -118,9 +117,8 @@ std::vector<Option> qualityOptions() {
                     const OptionValue& value) { to.scene->groundDetail = value.text == "on"; }},
         {.key = "level-of-detail",
          .value = numberValue(within(0, 16, "of a pixel")),
-         .help = "ground far away is cast from coarser samples where its height is off by no more than that "
-                 "share "
-                 "of what a pixel covers there; 0: from its own samples alone",
+         .help = "cast distant ground from coarser samples where their error in height is at most this share "
+                 "of a pixel; 0: never",
          .advice = "0.5 is not seen",
          .group = kQualityGroup,
          .fallback = "0",
@@ -130,7 +128,7 @@ std::vector<Option> qualityOptions() {
          .take = into<&SceneOptions::levelOfDetail>},
         {.key = "rays",
          .value = wholeValue(within(1, kMostRays, "rays")),
-         .help = "rays a pixel of the whole picture, at places that cover the pixel evenly",
+         .help = "rays in every pixel, spread evenly over it",
          .advice = "16 is fine, 64 is hard to tell from the truth",
          .group = kQualityGroup,
          .fallback = "1",

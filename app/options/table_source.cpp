@@ -14,15 +14,15 @@ std::vector<Option> sourceOptions() {
     return {
         {.key = "SCENE",
          .value = textValue(),
-         .help = "a scene (.toml), an elevation model, a CT study (a folder of DICOM slices, .nrrd, .nhdr, "
-                 ".nii, .nii.gz, .mha, .mhd), a mesh (.glb, .gltf), colon, cloud or wax",
+         .help = "a scene file (.toml), an elevation model, a CT study (a folder of DICOM slices, .nrrd, "
+                 ".nhdr, .nii, .nii.gz, .mha, .mhd), a mesh (.glb, .gltf), colon, cloud or wax",
          .fallback = "the built-in terrain",
          .commands = kShowing | kBake,
          .inFile = false,
          .take = into<&SceneOptions::scene>},
         {.key = "SCENE",
          .value = textValue(),
-         .help = "a scene (.toml) or an elevation model",
+         .help = "a scene file (.toml) or an elevation model",
          .fallback = "the built-in terrain",
          .commands = kOfGround,
          .inFile = false,
@@ -51,16 +51,17 @@ std::vector<Option> sourceOptions() {
          .take = into<&SceneOptions::openHoles>},
         {.key = "tiles",
          .value = wordValue({"auto", "on", "off"}),
-         .help = "an elevation model goes into tiles on disk, kept in the cache: auto where it takes more "
-                 "memory than can be had",
+         .help = "whether an elevation model is read from tiles on disk, which stay in the cache; auto: "
+                 "where it does not fit into memory",
          .fallback = "auto",
          .commands = kShowing | kOfGround | kBake,
          .scenes = kTerrains,
          .take = into<&SceneOptions::tiles>},
         {.key = "memory",
          .value = textValue().checked(problemOfMemory),
-         .help = "that the program may take, as 2G or 500M; what needs more is refused with what would fit",
-         .fallback = "what the system can give",
+         .help = "memory that the program may use, such as 2G or 500M; what needs more is refused, with the "
+                 "size that would fit",
+         .fallback = "what the system has available",
          .commands = kWithScene,
          .inFile = false,
          .take = [](OptionTargets& to,

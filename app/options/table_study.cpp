@@ -55,7 +55,7 @@ std::vector<Option> studyOptions() {
     return {
         {.key = "series",
          .value = textValue(),
-         .help = "of a DICOM folder with several: its number in the list, or its UID",
+         .help = "which series of a DICOM folder: its number in the list of info, or its UID",
          .group = kStudyGroup,
          .commands = kReading,
          .scenes = kStudies,
@@ -63,7 +63,7 @@ std::vector<Option> studyOptions() {
          .take = into<&SceneOptions::volume, &VolumeOptions::series>},
         {.key = "label",
          .value = textValue(),
-         .help = "the label of a mask with several: its number, or its name where the header names it",
+         .help = "which label of a mask: its number, or its name where the header names it",
          .advice = "stereonav info lists them",
          .group = kStudyGroup,
          .commands = kReading,
@@ -72,8 +72,8 @@ std::vector<Option> studyOptions() {
          .take = into<&SceneOptions::volume, &VolumeOptions::label>},
         {.key = "seed",
          .value = numbersValue(seedNumbers()),
-         .help = "a place inside the colon: left, back, head (of RAS turn the first two signs); several are "
-                 "taken",
+         .help = "a place inside the colon: left, back, head (from RAS change the first two signs); may be "
+                 "given several times",
          .group = kStudyGroup,
          .commands = kReading,
          .scenes = kVolumes,
@@ -83,13 +83,13 @@ std::vector<Option> studyOptions() {
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.seeds.push_back(placeOf(value) / 1000.0); }},
         pieceChoice<&PieceChoices::include>(
-            "include", "a place in gas or tagged fluid that is the colon's although it was left out"),
+            "include", "a place in gas or tagged fluid that was left out of the colon, to add it"),
         pieceChoice<&PieceChoices::exclude>(
-            "exclude", "a place in gas or tagged fluid that is not the colon's although it was taken"),
+            "exclude", "a place in gas or tagged fluid that was taken for the colon, to leave it out"),
         {.key = "fluid",
          .value = wordValue(fluidNames()),
-         .help = "tagged fluid in a colon: taken out, left with its surface as wall, or the wall that was "
-                 "under it tinted green",
+         .help = "tagged fluid in a colon: out: removed; left: kept, with its surface as wall; tinted: "
+                 "removed, and the wall under it is green",
          .group = kStudyGroup,
          .fallback = "out",
          .commands = kReading,
@@ -117,7 +117,7 @@ std::vector<Option> studyOptions() {
          .take = into<&SceneOptions::volume, &VolumeOptions::backwards>},
         {.key = "no-cache",
          .value = flagValue(),
-         .help = "neither read nor keep what was computed",
+         .help = "read nothing from the cache and keep nothing in it",
          .group = kStudyGroup,
          .commands = kReading,
          .scenes = kVolumes,
@@ -135,7 +135,7 @@ std::vector<Option> studyOptions() {
          .take = into<&SceneOptions::volume, &VolumeOptions::isosurface>},
         {.key = "isovalue",
          .value = numberValue(kValueRange),
-         .help = "the value of that surface",
+         .help = "value of the isosurface",
          .advice = "300 shows bone in CT",
          .group = kStudyGroup,
          .commands = kShowing | kBake,

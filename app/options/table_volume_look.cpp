@@ -37,16 +37,16 @@ bool isSeenThrough(const Asked& asked) {
 }
 
 OptionRule unlessAmbient() {
-    return {[](const Asked& asked) { return !asked.has("ambient"); }, "expected with --ambient",
+    return {[](const Asked& asked) { return !asked.has("ambient"); }, "needs --ambient",
             "add --ambient, or leave it out"};
 }
 OptionRule unlessModulated() {
-    return {[](const Asked& asked) { return !isModulated(asked); }, "expected with --modulate",
+    return {[](const Asked& asked) { return !isModulated(asked); }, "needs --modulate",
             "add --modulate variance or gradient, or leave it out"};
 }
 OptionRule unlessBaked() {
     return {[](const Asked& asked) { return !asked.has("light"); },
-            "expected with light that was baked for a CT study", "name it with --light, or leave it out"};
+            "needs light that was baked for a CT study", "name it with --light, or leave it out"};
 }
 OptionRule unlessItStands() {
     return {[](const Asked& asked) {
@@ -79,14 +79,13 @@ std::vector<Option> ambientOptions() {
     return {
         {.key = "ambient",
          .value = numberValue(kLookRange),
-         .help =
-             "ambient light by openness (Ruiz et al. 2010) in place of the lamp's: how far it looks around",
+         .help = "ambient occlusion (Ruiz et al. 2010) in place of the lamp: its radius",
          .advice = "try ten voxels' worth",
          .group = kStudyGroup,
          .commands = kShowing,
          .scenes = kSurfaces,
-         .rules = {{[](const Asked& asked) { return asked.has("light"); },
-                    "expected without baked light, --light was given too", kLeaveOneOut}},
+         .rules = {{[](const Asked& asked) { return asked.has("light"); }, "does not go with --light",
+                    kLeaveOneOut}},
          .panel = OptionPanel::Light,
          .take = into<&SceneOptions::volume, &VolumeOptions::ambient_mm>},
         {.key = "ambient-method",
@@ -100,7 +99,7 @@ std::vector<Option> ambientOptions() {
          .rules = {{[](const Asked& asked) {
                         return !asked.has("ambient") && !asked.is("modulate", "gradient");
                     },
-                    "expected with --ambient or --modulate gradient", kLeaveItOut}},
+                    "needs --ambient or --modulate gradient", kLeaveItOut}},
          .panel = OptionPanel::Light,
          .take =
              [](OptionTargets& to, const OptionValue& value) {
@@ -109,7 +108,7 @@ std::vector<Option> ambientOptions() {
              }},
         {.key = "ambient-strength",
          .value = numberValue(above(0, 100)),
-         .help = "k of ambient light: factor on openness times colour",
+         .help = "strength of ambient light: factor k on openness times colour",
          .advice = "1 is usual, 2 shows a flat wall in its own colour",
          .group = kStudyGroup,
          .fallback = "1",
@@ -120,7 +119,7 @@ std::vector<Option> ambientOptions() {
          .take = into<&SceneOptions::volume, &VolumeOptions::ambientStrength>},
         {.key = "ambient-lamp",
          .value = numberValue(kShareRange),
-         .help = "share of the lamp's direct light beside it",
+         .help = "share of the lamp's direct light added to ambient light",
          .advice = "0 is ambient light alone, 1 adds all of the lamp's direct light",
          .group = kStudyGroup,
          .fallback = "0",
@@ -144,15 +143,15 @@ std::vector<Option> modulationOptions() {
          .commands = kShowing,
          .scenes = kSurfaces,
          .rules = {{[](const Asked& asked) { return isModulated(asked) && !isSeenThrough(asked); },
-                    "expected with a translucent volume", "add --transfer or --opacity, or leave it out"}},
+                    "needs a translucent volume", "add --transfer or --opacity, or leave it out"}},
          .panel = OptionPanel::Material,
          .take = into<&SceneOptions::volume, &VolumeOptions::modulate>},
         {.key = "modulate-radius",
          .value = numberValue(kLookRange),
-         .help = "how far that looks around",
+         .help = "radius of the variance or openness for --modulate",
          .advice = "try ten voxels' worth",
          .group = kStudyGroup,
-         .fallback = "as --ambient, or 10 voxels",
+         .fallback = "that of --ambient, or 10 voxels",
          .commands = kShowing,
          .scenes = kSurfaces,
          .rules = {unlessModulated()},
@@ -160,11 +159,11 @@ std::vector<Option> modulationOptions() {
          .take = into<&SceneOptions::volume, &VolumeOptions::modulateRadius_mm>},
         {.key = "modulate-sigma",
          .value = numberValue(above(0, 1e6)),
-         .help = "from where on opacity stays whole: a deviation of values, or for gradient a change of "
-                 "openness a voxel",
+         .help = "threshold from which opacity stays whole: a standard deviation of values, or with gradient "
+                 "a change of openness per voxel",
          .advice = "for gradient 0.05 is usual on surfaces",
          .group = kStudyGroup,
-         .fallback = "a tenth of what differs stays whole",
+         .fallback = "chosen so that a tenth of what varies stays whole",
          .commands = kShowing,
          .scenes = kSurfaces,
          .rules = {unlessModulated(),
@@ -186,7 +185,7 @@ std::vector<Option> bakedLookOptions() {
          .help = "factor on baked light",
          .advice = "1 shows a white sky of 1 as white",
          .group = kStudyGroup,
-         .fallback = "by its mean",
+         .fallback = "chosen by the light's mean",
          .commands = kShowing,
          .scenes = kVolumes,
          .rules = {unlessBaked()},
@@ -194,7 +193,7 @@ std::vector<Option> bakedLookOptions() {
          .take = into<&SceneOptions::volume, &VolumeOptions::exposure>},
         {.key = "turn",
          .value = numberValue(kTurnRange),
-         .help = "by which the sky over baked transfer is turned about the vertical",
+         .help = "angle by which the sky over baked transfer is turned about the vertical",
          .advice = "90 turns a quarter",
          .group = kStudyGroup,
          .fallback = "0",
@@ -205,7 +204,7 @@ std::vector<Option> bakedLookOptions() {
          .take = into<&SceneOptions::volume, &VolumeOptions::turn_deg>},
         {.key = "tilt",
          .value = numberValue(kUprightRange),
-         .help = "by which that sky is tilted before it is turned: what lies north rises",
+         .help = "angle by which that sky is tilted before it is turned: its north rises",
          .advice = "turn the sky as well for more: --turn",
          .group = kStudyGroup,
          .fallback = "0",
@@ -223,8 +222,8 @@ std::vector<Option> volumeLookOptions() {
     std::vector<Option> all{
         {.key = "transfer",
          .value = fileOrWordValue({}).checked(problemOfTransfer),
-         .help = "colours and opacities by value: translucent; a file, " + transferPresetNames() +
-                 ", or a function in one word",
+         .help = "show the volume translucent, with colours and opacities by value: a file, " +
+                 transferPresetNames() + ", or curve:... in one word",
          .advice =
              "such a word is curve:-600:1:0.8:0.7:0,-350:1:0.8:0.7:0.95: value, colour and opacity of points",
          .group = kStudyGroup,
@@ -234,7 +233,7 @@ std::vector<Option> volumeLookOptions() {
          .take = into<&SceneOptions::volume, &VolumeOptions::transfer>},
         {.key = "opacity",
          .value = numberValue(above(0, 1)),
-         .help = "a translucent wall that takes this share of light a mm",
+         .help = "show the wall translucent: share of light that one millimetre takes away",
          .advice = "0.95 is a wall that is nearly opaque within a millimetre",
          .group = kStudyGroup,
          .commands = kShowing,
@@ -244,7 +243,7 @@ std::vector<Option> volumeLookOptions() {
          .take = into<&SceneOptions::volume, &VolumeOptions::opacity>},
         {.key = "shading",
          .value = wordValue(shadingNames()),
-         .help = "how a surface is lit, to compare",
+         .help = "how a surface is lit, for comparisons",
          .advice = "lamp is the default",
          .group = kStudyGroup,
          .fallback = "lamp",

@@ -5,19 +5,18 @@
 
 namespace stereonav {
 
-constexpr const char* kUpHelp =
-    "the axis of a study's file that is to point up; not where a colon is looked for";
+constexpr const char* kUpHelp = "axis of the volume that points up; not for a colon";
 constexpr const char* kUpAdvice = "-z stands a volume on its head";
 
 // Values of traced light and of bakes.
 constexpr NumberRange kSamplesRange = within(1, 1 << 24);
 constexpr const char* kSamplesAdvice = "100 is a first look";
 constexpr NumberRange kBouncesRange = within(0, 8);
-constexpr const char* kBouncesHelp = "of light between surfaces";
-constexpr const char* kBouncesAdvice = "2 shows most of it";
+constexpr const char* kBouncesHelp = "number of reflections between surfaces";
+constexpr const char* kBouncesAdvice = "2 shows most of the light";
 constexpr NumberRange kReachRange = above(0, 1e12, "mm");
 constexpr const char* kReachAdvice = "leave it out for no limit";
-constexpr const char* kAlbedoHelp = "of the surface: one number, or red,green,blue";
+constexpr const char* kAlbedoHelp = "albedo of the surface: one number, or red,green,blue";
 constexpr const char* kPointLightHelp =
     "a lamp, or lamps along a colon's centreline; may be given several times";
 

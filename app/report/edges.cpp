@@ -94,7 +94,7 @@ WayChart edgeChart(ReportRun& run, const ReportScene& scene) {
         "Both eyes by the default way, against {} rays in each pixel of each eye; {} repeats. Rays are added "
         "where a colour differs from its neighbours and the depth is bent.",
         factor * factor, repeats);
-    chart.why = "In a view without edges rays there cost a look for them and nothing is gained.";
+    chart.why = "In a view without edges the search for them costs time and gains nothing.";
     chart.timeLabel = "both eyes, ms a frame";
     for (std::size_t n = 0; n < ways.size(); ++n)
         chart.points.push_back(eyes[n].point(ways[n].name, ways[n].detail, ways[n].isDefault));

@@ -147,7 +147,7 @@ void chart(ReportRun& run, ReportSection& section, const ReportScene& scene, dou
     frame.setting = fmt::format("{}, {} frames", run.settingOf(scene.loaded()), felt.frames());
     frame.text = fmt::format(
         "Against {} rays a pixel. Eyes 1/30 of the zero-parallax distance apart; times are the mean frame's "
-        "of the scene's flight. A number after a way's name is a setting other than its own.",
+        "of the scene's flight. A number after a method's name is a setting other than its default.",
         felt.rays());
     frame.why =
         "One ray a pixel flickers and differs between the eyes by itself, full casts too: ways nearer to "

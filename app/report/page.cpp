@@ -176,11 +176,11 @@ std::string pageOf(const Report& report) {
         "<title>stereonav report</title>\n<style>" +
         std::string(kStyle) + "</style></head><body>\n<h1>stereonav report</h1>\n";
     html += paragraph(
-        "What the program's shortcuts cost and save. In each chart down is less error and left is less time; "
-        "the green line joins what nothing else beats in both (the Pareto front), a ring marks what the "
-        "program does when nothing is said. A dot lies at the least time of its repeats, since what else a "
-        "machine does only ever adds, and a thin bar reaches to their median. Tables have the median and, in "
-        "brackets, the least and the most.");
+        "What the program's shortcuts cost and save. In each chart lower is less error and further left is "
+        "less time. The green line is the Pareto front: nothing else is better in both. A ring marks the "
+        "default. A dot lies at the least time of its repeats, because other work on the machine only adds "
+        "time; a thin bar reaches to their median. Tables have the median and, in brackets, the least and "
+        "the most.");
     for (const std::string& warning : report.warnings) html += paragraph(warning, "warn");
     html += "<nav>";
     for (const ReportSection& s : report.sections)

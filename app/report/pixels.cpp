@@ -340,7 +340,7 @@ void addPixelCharts(ReportRun& run, ReportSection& section) {
         " Irradiance with {} samples a texel. The trilinear lookup is vector code in the casters, the others "
         "are there to be compared, in plain code: their times say little.",
         kDefaultSamples);
-    lookups.why = "Whatever is nearer to the truth here costs more texels, or a lookup of 64 of them.";
+    lookups.why = "What comes nearer to the truth costs more texels, or a lookup of 64 of them.";
     const std::pair<const char*, Lookup> ways[] = {{"nearest", Lookup::Nearest},
                                                    {"nearest isovalue", Lookup::NearestIsovalue},
                                                    {"trilinear", Lookup::Trilinear},

@@ -60,11 +60,11 @@ WayChart dialChart(ReportRun& run, const ReportScene& scene, double seconds) {
     chart.title = "The quality dial, " + scene.title;
     chart.setting = fmt::format("{}, {} frames", run.settingOf(scene.loaded()), trial.frames());
     chart.text = fmt::format(
-        "Ways of warping as they are, and what is picked and refined for --quality and --target-psnr by "
-        "frames of the same flight measured before; {} repeats, error against the full right cast. The bound "
-        "is what 95 of 100 frames are promised to be better than.",
+        "Methods as they are, and those that are chosen and refined for --quality and --target-psnr by other "
+        "frames of the same flight; {} repeats, error against the full right cast. The bound is the error "
+        "that 95 of 100 frames are promised to stay below.",
         trial.repeats());
-    chart.why = "The default casts the holes alone; whoever wants more turns the dial.";
+    chart.why = "The default casts only the holes; --quality casts more.";
     chart.timeLabel = "right eye, ms a frame";
     chart.points = trial.points();
     return chart;
@@ -127,8 +127,8 @@ WayChart sizeChart(ReportRun& run, const ReportScene& scene) {
 
 void reportQuality(ReportRun& run, double seconds) {
     ReportSection section{"quality",
-                          "Quality by wish",
-                          "What the quality dial makes of a wish, what a smaller picture saves, and what "
+                          "Quality targets",
+                          "What --quality and --target-psnr achieve, what a smaller picture saves, and what "
                           "more rays at edges give.",
                           {}};
     const Stopwatch watch;

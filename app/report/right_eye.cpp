@@ -21,7 +21,7 @@ WayChart chartOf(ReportRun& run, const ReportScene& scene, const RightEyeTrial& 
     chart.text = fmt::format(
         "Eyes 1/30 of the zero-parallax distance apart; the mean frame of the scene's flight, {} repeats. "
         "Error against the full right cast of one ray a pixel, which is exact by definition. A number after "
-        "a way's name is a setting other than its own.",
+        "a method's name is a setting other than its default.",
         trial.repeats());
     chart.why =
         "The default's thresholds are one choice for all scenes. A lower one casts more pixels again (holes "

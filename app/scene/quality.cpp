@@ -39,7 +39,7 @@ std::optional<QualityPlan> qualityOf(const SceneOptions& options, const Scene& s
                                      const std::string& method, Progress& progress) {
     const QualityOptions& q = options.quality;
     if (!wantsQuality(q)) return std::nullopt;
-    constexpr const char* kMeasuring = "measuring what error is to be expected";
+    constexpr const char* kMeasuring = "measuring the expected error";
     progress.report(0, kMeasuring);
     auto plan = scene.frames().meet({q.quality, q.targetPsnr_db, q.target_ms, false},
                                     method == "auto" ? "" : method, calibrationViews(scene));

@@ -63,7 +63,7 @@ void checkSize(const SizeOption& size, const SceneOptions& options, const PixelB
     const double share = std::sqrt(std::clamp((there - beside) / picture, 0.0, 1.0));
     if (bytes > there)
         throw Error("--size", "",
-                    fmt::format("{} needs {} of memory, and {} can be had", got, memoryText(bytes),
+                    fmt::format("{} needs {} of memory, and {} is available", got, memoryText(bytes),
                                 memoryText(there)),
                     share > 0
                         ? fmt::format("{}x{} would fit", std::max(1, static_cast<int>(share * size.width)),

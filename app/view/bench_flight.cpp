@@ -37,7 +37,7 @@ bool BenchFlight::step(ViewSession& session, ViewWorker& worker, const ViewFrame
     const bool ready =
         frame && rests && !worker.scenes().loading().busy && (animated || asked.isNewest(*frame));
     if (ready && path.samples().size() < 2)
-        throw Error("--bench", "", "this scene has no flight of its own", "give --path FILE");
+        throw Error("--bench", "", "this scene has no flight of its own", "give one with --path FILE");
     const double duration = path.samples().size() < 2 ? 0 : path.duration();
     switch (mBench->step(Window::now(), ready, session.paths().playing(), duration)) {
         case ViewBench::Wish::Fly:

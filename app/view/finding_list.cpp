@@ -124,7 +124,7 @@ void FindingList::writeReport(const std::filesystem::path& file) {
     if (file.extension() != ".dcm")
         throw Error("report", "", fmt::format("expected a file named .dcm, got \"{}\"", file.string()),
                     "name it findings.dcm");
-    const std::string why = maker() ? maker()->whyNoReport() : "findings are measured in colons";
+    const std::string why = maker() ? maker()->whyNoReport() : "findings are for colons";
     if (!why.empty()) throw Error("report", "", why, "write the page");
     if (!std::all_of(mRows.begin(), mRows.end(), [](const Row& row) { return row.finding.measured; }))
         throw Error("report", "", "expected findings that are measured", "let them be measured first");

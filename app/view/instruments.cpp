@@ -89,7 +89,7 @@ void Instruments::measureAt(const std::optional<glm::dvec3>& world) {
 
 void Instruments::findAt(const std::optional<glm::dvec3>& world) {
     if (!mSession) return;
-    if (!findings()) return mSession->notify("findings are measured in colons");
+    if (!findings()) return mSession->notify("findings are for colons");
     if (!world) return mSession->notify(kNothingThere);
     addFinding(*world);
 }
@@ -105,17 +105,17 @@ void Instruments::addFinding(const glm::dvec3& place) {
 // Switches coverage; the present picture counts.
 void Instruments::toggleCoverage(const ViewFrame* frame, const AskedFrames& asked) {
     if (!mSession) return;
-    if (!mCoverage.can()) return mSession->notify("coverage is of an opaque colon's wall");
+    if (!mCoverage.can()) return mSession->notify("coverage is for the wall of an opaque colon");
     mCoverage.switchOn(!mCoverage.on());
-    mSession->notify(mCoverage.on() ? "coverage is on: F3 has it" : "coverage is off");
+    mSession->notify(mCoverage.on() ? "coverage is on: see F3" : "coverage is off");
     if (frame) see(*frame, asked);
 }
 
 void Instruments::flyToUnseen(int step) {
     if (!mSession || !mCoverage.can()) return;
-    if (!mCoverage.on()) return mSession->notify("coverage is off: F9 begins it");
+    if (!mCoverage.on()) return mSession->notify("coverage is off: F9 turns it on");
     const UnseenPart* const part = mCoverage.step(step);
-    if (!part) return mSession->notify("nothing of that size was left unseen");
+    if (!part) return mSession->notify("no unseen part of that size is left");
     mSession->flyTo(*part->view);
 }
 

@@ -24,7 +24,7 @@ OpenScene opened(std::shared_ptr<Scene> shown, const ViewOptions& options, bool 
     if (const auto plan = qualityOf(options.scene, scene, options.method, progress)) {
         open.way = {nameOf(plan->setting.method), plan->setting};
     } else if (measure && options.method == "auto" && !scene.offered<SurfaceChoices>()) {
-        progress.report(0, "measuring how to make the right eye");
+        progress.report(0, "measuring the methods of making the right eye");
         if (const auto measured = planScene(scene)) open.way.method = nameOf(measured->method);
     }
     open.way.edges = edgesOf(options.scene, scene);

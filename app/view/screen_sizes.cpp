@@ -19,7 +19,7 @@ const char* wordsFor(ScreenSize::From from) {
         case ScreenSize::From::Person:
             return "as it was set";
         case ScreenSize::From::Monitor:
-            return "as it tells";
+            return "as it reports";
         case ScreenSize::From::Guess:
             break;
     }

@@ -25,7 +25,7 @@ void SecondSide::open(const std::string& study) {
     mNotices.tryTo([&] {
         const Scene& flown = *mSession->open().scene;
         if (!flown.offered<const MatchingLine>() || !flown.offered<RayCast>())
-            throw Error(study, "", "what is open has no line to match it with", "open a colon first");
+            throw Error(study, "", "the scene that is open has no centreline to match", "open a colon first");
         SettingTexts settings = mSettings.now();
         const std::string name = mSettings.options().scene.scene;
         for (const char* key : {"series", "label", "seed", "include", "exclude", "path", "pose", "paint"})

@@ -120,7 +120,7 @@ bool ViewSession::actOnStereo(const ViewAction& action) {
             return true;
         case ViewCommand::SwapEyes:
             mSwapped = !mSwapped;
-            notify(mSwapped ? "eyes swapped" : "eyes as they are");
+            notify(mSwapped ? "eyes swapped" : "eyes not swapped");
             return true;
         case ViewCommand::NextMode:
             stepMode(1);
@@ -172,7 +172,7 @@ bool ViewSession::actOnEyes(ViewCommand command) {
             return true;
         case ViewCommand::KeepComfortable:
             mStereo.setClamp(!mStereo.clamp());
-            notify(mStereo.clamp() ? "the eyes come together where the picture is too much for them"
+            notify(mStereo.clamp() ? "the eyes come together where parallax is too large"
                                    : "the eyes stay as far apart as they are set");
             return true;
         default:

@@ -75,7 +75,7 @@ void SessionFlight::turnRound() {
         mNotice.say(mFlight->goesBack() ? "flying back: forward goes to the start of the line"
                                         : "forward goes to the end of the line");
     else
-        mNotice.say("turning round is of a guided flight: F");
+        mNotice.say("turning round needs a guided flight: F");
 }
 
 void SessionFlight::reset() {
@@ -120,7 +120,7 @@ void SessionFlight::stepGoal(double dt) {
     if (state == FlightTo::State::Flying) return;
     mGoal.reset();
     mLooked = true;
-    if (state == FlightTo::State::Blocked) mNotice.say("as near as there is room");
+    if (state == FlightTo::State::Blocked) mNotice.say("as near as room allows");
 }
 
 // Changes the pace smoothly in both directions, also where it is switched on or off.

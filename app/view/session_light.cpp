@@ -58,7 +58,7 @@ void SessionLight::turn(double azimuth, double elevation) {
         const std::string why = mScene->scene->whyLightStays();
         return mNotice.say(
             why.empty()
-                ? "light turns over meshes, over terrain and volumes where it is baked so, and around media"
+                ? "light turns over meshes, around media, and over terrain and volumes with baked transfer"
                 : why);
     }
     constexpr double kTurn = 2 * std::numbers::pi, kLowestSun = -0.15;
@@ -75,7 +75,7 @@ void SessionLight::turn(double azimuth, double elevation) {
 
 void SessionLight::nextModel() {
     const auto* const models = mScene->scene->offered<LightModels>();
-    if (!models || models->names().empty()) return mNotice.say("lighting models are of media");
+    if (!models || models->names().empty()) return mNotice.say("lighting models are for media");
     mModel = (mModel + 1) % static_cast<int>(models->names().size());
     mNotice.say("light: " + models->names()[static_cast<std::size_t>(mModel)]);
 }

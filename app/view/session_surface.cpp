@@ -51,7 +51,7 @@ bool SessionSurface::actOnAmbient(ViewCommand command) {
         if (mAmbient)
             what();
         else
-            mNotice.say("openness lights volumes that are seen from outside, and takes their opacity");
+            mNotice.say("ambient light needs a volume seen from outside");
         return true;
     };
     switch (command) {
@@ -139,13 +139,13 @@ void SessionSurface::stepAmbient(int by) {
 void SessionSurface::scaleRadius(double factor) {
     const bool modulated = mTranslucent && !mAmbient->modulate.empty();
     if (!mAmbient->lit && !modulated)
-        return mNotice.say("a radius is of ambient light (O), or of modulated opacity (B)");
+        return mNotice.say("the radius is for ambient light (O) and modulated opacity (B)");
     double& radius = mAmbient->lit ? mAmbient->radius : mAmbient->modulateRadius;
     const bool together = mAmbient->lit && mAmbient->modulateRadius == mAmbient->radius;
     const double wanted = std::clamp(radius * factor, choices()->smallestRadius, choices()->largestRadius);
     if (wanted == radius)
         return mNotice.say(
-            fmt::format("{} is as {} as it can be", lengthText(radius), factor < 1 ? "near" : "far"));
+            fmt::format("{} is as {} as it can be", lengthText(radius), factor < 1 ? "small" : "large"));
     radius = wanted;
     if (together) mAmbient->modulateRadius = wanted;
     askForChange();
@@ -153,17 +153,17 @@ void SessionSurface::scaleRadius(double factor) {
 }
 
 void SessionSurface::nextModulation() {
-    if (!mTranslucent) return mNotice.say("opacity is modulated where there is some: T makes it translucent");
+    if (!mTranslucent) return mNotice.say("modulated opacity needs a translucent volume: T");
     std::string& by = mAmbient->modulate;
     by = by.empty() ? "variance" : by == "variance" ? "gradient" : "";
     mAmbient->sigma = 0;
     askForChange();
-    mNotice.say(by.empty() ? "opacity as the transfer function has it" : "opacity by " + by);
+    mNotice.say(by.empty() ? "opacity as in the transfer function" : "opacity by " + by);
 }
 
 void SessionSurface::scaleSigma(double factor) {
     if (!mTranslucent || mAmbient->modulate.empty() || !(sigmaNow() > 0))
-        return mNotice.say("a sigma is of modulated opacity: B");
+        return mNotice.say("the threshold is for modulated opacity: B");
     const double most = mAmbient->modulate == "gradient" ? 1.0 : choices()->largestSigma;
     mAmbient->sigma = std::clamp(sigmaNow() * factor, most * 1e-6, most);
     askForChange();

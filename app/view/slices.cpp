@@ -67,7 +67,7 @@ std::string SliceView::click(double x, double y, int width, int height, const Op
     if (!world) return "";
     const GreyVolume& grey = mStudy->grey;
     if (mStudy->pieces.list.empty())
-        return "no colon is looked for in this volume: there are no pieces to take";
+        return "this volume is shown without a colon: there are no pieces to choose";
     const double value = grey.at(voxelAt(*world)) * grey.scale + grey.offset;
     const int piece = pieceAt(*world);
     const std::optional<double>& fluidAbove = mStudy->pieces.fluidAbove;

@@ -23,7 +23,7 @@ void check(const LumenField& lumen, const DistanceVolume& distance, const Centre
     if (lumen.segments.empty() || lumen.lumen.empty())
         throw Error("", "", "the lumen is empty, so it has no centreline", "segment the study again");
     if (distance.frame.size != lumen.lumen.frame.size || !(distance.unit > 0))
-        throw Error("", "", "the distances do not belong to the lumen", "compute them from its mask");
+        throw Error("", "", "the distances are not those of the lumen", "compute them from its mask");
 }
 
 // Whether the line runs from the rectum upwards: its start is lower, or, where the ends are about level

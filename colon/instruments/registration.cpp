@@ -132,7 +132,7 @@ LineRegistration::LineRegistration(const Centreline& first, const Centreline& se
         }
     mCost = best[index(rows - 1, columns - 1)] / std::max(rows, columns);
     if (!(mCost < kNone))
-        throw Error("registration", "", "the two lines have no way of being matched", "choose another study");
+        throw Error("registration", "", "the two centrelines can not be matched", "choose another study");
     for (int i = rows - 1, j = columns - 1;;) {
         mPairs.push_back({a[i].along, b[j].along});
         const std::uint16_t way = from[index(i, j)];

@@ -213,7 +213,7 @@ ColonScene surfaceOf(Study study, const ColonOptions& options, const std::string
 
 void refuseTurned(const ColonOptions& options) {
     if (options.up)
-        throw Error("--up", "", "expected with a volume seen from outside, in this one a colon is looked for",
+        throw Error("--up", "", "needs a volume seen from outside, in this one a colon is looked for",
                     "leave it out: a colon follows the patient's axes; or add --isosurface");
 }
 
@@ -223,8 +223,7 @@ void refuseOfColons(const ColonOptions& options) {
         if (given)
             throw Error(
                 option, "",
-                "expected with a colon, this volume has no values near those of air and is shown from "
-                "outside",
+                "needs a colon, this volume has no values near those of air and is shown from outside",
                 "leave it out");
     };
     refuse(!options.segmentation.seeds.empty(), kSeedOption);

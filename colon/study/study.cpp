@@ -128,10 +128,9 @@ bool isDicom(const fs::path& path) {
 bool isDicom(const fs::path& path, const StudyOptions& options) {
     const bool dicom = isDicom(path);
     if (!dicom && !options.series.empty())
-        throw Error(
-            "--series", "",
-            "expected with a folder of DICOM slices, \"" + path.filename().string() + "\" holds one volume",
-            "leave it out");
+        throw Error("--series", "",
+                    "needs a folder of DICOM slices, \"" + path.filename().string() + "\" holds one volume",
+                    "leave it out");
     return dicom;
 }
 
@@ -174,7 +173,7 @@ Study readStudy(const fs::path& path, const StudyOptions& options, Progress& pro
     Study study;
     Progress reading(progress, 0, 0.8);
     VolumeFile file = dicom ? readDicom(path, options, reading) : readVolumeFile(path, options, reading);
-    progress.report(0.8, "looking at the values");
+    progress.report(0.8, "checking the values");
     study.format = file.format;
     study.description = file.description;
     study.notes = std::move(file.notes);

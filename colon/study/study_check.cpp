@@ -95,7 +95,7 @@ void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, 
     for (const std::uint64_t n : size)
         fits.push_back(static_cast<std::uint64_t>(std::max(1.0, share * static_cast<double>(n))));
     throw Error(file, "",
-                fmt::format("{} voxels need {} of memory, and {} can be had", sizeText(size),
+                fmt::format("{} voxels need {} of memory, and {} is available", sizeText(size),
                             bytesText(bytes), bytesText(there)),
                 fmt::format("crop the volume or make it coarser: {} would fit", sizeText(fits)));
 }

@@ -141,7 +141,7 @@ std::string takeTable(const DicomFile& file, DicomSlice& slice) {
         return "has both a table of values (modality LUT) and a rescale slope: which counts is not known";
     const DicomValue *head = sequence->items[0].find(kTableHead), *data = sequence->items[0].find(kTableData);
     if (!head || !data || head->bytes.size() < 6)
-        return "is damaged: its table of values has no head or no data";
+        return "is damaged: its table of values has no header or no data";
     const auto word = [&](const std::string& bytes, std::size_t n) {
         const int a = static_cast<unsigned char>(bytes[2 * n]),
                   b = static_cast<unsigned char>(bytes[2 * n + 1]);

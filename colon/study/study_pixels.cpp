@@ -161,7 +161,7 @@ void checkPicture(const PackedPicture& picture) {
     const bool second = picture.syntax.ends_with(".90") || picture.syntax.ends_with(".91");
     const Codestream code{picture.parts[0]};
     const auto size = second ? jpeg2000Size(code) : jpegSize(code);
-    if (!size) refusePixels(path, "cut off or damaged: its compressed pixels have no head");
+    if (!size) refusePixels(path, "cut off or damaged: its compressed pixels have no header");
     if (size->columns != static_cast<std::uint64_t>(picture.columns) ||
         size->rows != static_cast<std::uint64_t>(picture.rows))
         refusePixels(

@@ -128,7 +128,7 @@ void checkTilt(const Stack& stack, double tilt, bool resample) {
         fmt::format("gantry tilt: slices {} to {} are shifted sideways by {:.2f} degrees",
                     stack.slices.front().name, stack.slices.back().name, glm::degrees(tilt));
     if (!resample) stack.refuse(what, "give --resample to shear them upright");
-    if (tilt > glm::radians(60.0)) stack.refuse(what, "this is too much to mend; choose another series");
+    if (tilt > glm::radians(60.0)) stack.refuse(what, "this is too much to correct; choose another series");
 }
 
 VolumeFrame frameOf(const Stack& stack, double step_mm) {

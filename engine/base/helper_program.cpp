@@ -176,7 +176,7 @@ HelperAnswer HelperProgram::ask(std::string_view request, const HelperLimits& li
             break;
         case Fate::Wrong:
             end();
-            answer.text = "by the program, since what it answered is no answer";
+            answer.text = "by the program, because its answer is malformed";
             break;
     }
     answer.kind = HelperAnswer::Kind::Ended;

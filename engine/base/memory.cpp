@@ -143,7 +143,7 @@ void checkMemory(const std::string& what, double bytes, const std::string& advic
     const double there = availableMemoryFor(bytes);
     if (bytes <= there) return;
     throw Error(what, "",
-                fmt::format("needs {} of memory, and {} can be had", memoryText(bytes), memoryText(there)),
+                fmt::format("needs {} of memory, and {} is available", memoryText(bytes), memoryText(there)),
                 advice);
 }
 

@@ -74,9 +74,9 @@ void Peers::greet(const std::string& greeting) {
 
 void Peers::check() const {
     if (!mSame)
-        throw Error("", "", "the processes of this run were started with different words",
-                    "give all the same; for parts of a flight that know nothing of each other take play "
-                    "--frames in a job array");
+        throw Error(
+            "", "", "the processes of this run were started with different arguments",
+            "start all with the same; for independent parts of a flight use play --frames in a job array");
 }
 
 PeerMessage Peers::waitFor(PeerKind kind, PeerKind orKind) {

@@ -132,7 +132,7 @@ double scaleFor(double both_ms, double target_ms) {
 void require(const char* what, const std::optional<double>& value, double low, double high) {
     if (value && !(*value >= low && *value <= high))
         throw Error("", what, fmt::format("expected {:g} to {:g}, got {:g}", low, high, *value),
-                    "wish for something in that range");
+                    "give a value in that range");
 }
 
 void check(const QualityWish& wish) {

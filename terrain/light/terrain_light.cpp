@@ -72,7 +72,7 @@ void checkMemoryOf(const Heightfield& ground, const LightGrid& grid, const Terra
     if (needed <= there) return;
     const std::optional<int> stride = strideFrom(grid.stride, ground, s, there);
     throw Error("", "",
-                fmt::format("light for {}x{} samples needs {} of memory, and {} can be had", grid.width,
+                fmt::format("light for {}x{} samples needs {} of memory, and {} is available", grid.width,
                             grid.height, memoryText(needed), memoryText(there)),
                 stride ? fmt::format("--resolution {:.3f} would fit", std::floor(1000.0 / *stride) / 1000)
                        : "no resolution would fit: give --tiles on, or bake a part of this ground");

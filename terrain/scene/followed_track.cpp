@@ -23,7 +23,7 @@ public:
         for (std::size_t n = 1; n < places.size(); ++n)
             mAlong.push_back(mAlong.back() + glm::length(places[n] - places[n - 1]));
         if (!(length() > 0) || !std::isfinite(length()))
-            throw Error(source, "", "expected a track that goes somewhere", "give one of two places or more");
+            throw Error(source, "", "expected a track with a length", "give one of two places or more");
     }
     double length() const { return mAlong.back(); }
     glm::dvec2 at(double along) const {

@@ -33,7 +33,7 @@ double elevationOf(const LandmarkFile& file, const TriangleMesh& mesh, const Hei
     if (!std::isfinite(height))
         throw Error(file.mesh.string(), "position",
                     fmt::format("expected a place on the ground, got {:g}, {:g} metres", at.x, at.y),
-                    "move the landmark or give it a z");
+                    "move the landmark, or give position_m a height");
     double base = std::numeric_limits<double>::infinity();
     for (const auto& vertex : mesh.vertices) base = std::min(base, file.scale * vertex.position.z);
     return height - base;

@@ -62,7 +62,7 @@ TEST_F(BadInput, AnImageOrSkyThatIsNoPicture) {
                   {"text.png"});
     expectRefused({"render", hills(), "--sky", "nothing.hdr", "--out", "out.png"}, {"nothing.hdr"});
     expectRefused({"render", hills(), "--visibility", "20", "--out", "out.png"},
-                  {"--visibility", "expected with --sky physical"});
+                  {"--visibility", "needs --sky physical"});
     expectRefused({"render", hills(), "--sky", "physical", "--medium", "snow", "--out", "out.png"},
                   {"--sky", "has no air"});
     expectRefused({"render", "colon", "--sky", "physical", "--out", "out.png"}, {"--sky", "a terrain"});

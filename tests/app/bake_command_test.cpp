@@ -94,7 +94,7 @@ TEST_F(BakeCommand, InterruptedItKeepsWhatIsDoneAndGoesOn) {
     ASSERT_TRUE(fs::exists(outFile()));
     const Outcome next = bake(scene, {"--samples", "8", "--resolution", "2", "--out", outFile()});
     EXPECT_EQ(next.status, 0) << next.err;
-    EXPECT_FALSE(has(next.err, "anew")) << next.err;
+    EXPECT_FALSE(has(next.err, "baked again")) << next.err;
 }
 
 TEST_F(BakeCommand, DamagedAndForeignBakesAreNamedAndMadeAnew) {
@@ -109,7 +109,7 @@ TEST_F(BakeCommand, DamagedAndForeignBakesAreNamedAndMadeAnew) {
         EXPECT_EQ(outcome.status, 0);
         EXPECT_EQ(linesIn(outcome.err), 1) << outcome.err;
         EXPECT_TRUE(has(outcome.err, "out.bake: is ")) << outcome.err;
-        EXPECT_TRUE(has(outcome.err, "baked anew"));
+        EXPECT_TRUE(has(outcome.err, "baked again"));
         EXPECT_EQ(contentOf(outFile()), whole);
     }
     const Outcome other = bake(scene, {"--samples", "16", "--bounces", "1", "--out", outFile()});

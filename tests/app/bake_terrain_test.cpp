@@ -94,7 +94,7 @@ TEST_F(BakeTerrain, KnowsItsGroundAndForeignFiles) {
     expectRefused({"render", scene, "--light", light, "--out", "p.png"}, {light, "cut off"});
     const Outcome anew = run({"bake", scene, "--out", light});
     EXPECT_EQ(anew.status, 0);
-    EXPECT_TRUE(has(anew.err, "made anew")) << anew.err;
+    EXPECT_TRUE(has(anew.err, "computed again")) << anew.err;
     EXPECT_EQ(contentOf(light), whole);
 }
 

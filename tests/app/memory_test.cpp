@@ -145,9 +145,9 @@ TEST_F(Memory, OfPicturesIsCheckedBesideTheScene) {
 // --memory is the limit that is told, before anything of the scene is read.
 TEST_F(Memory, ThatWasGivenAsAnOptionIsWhatIsTold) {
     for (const char* size : {"3000x3000", "32768x32768"})
-        expectRefused(
-            {"render", "--memory", "300M", "--size", size, "--out", "a.png"},
-            {std::string("--size: ") + size + " needs ", " of memory, and ", " MB can be had", " would fit"});
+        expectRefused({"render", "--memory", "300M", "--size", size, "--out", "a.png"},
+                      {std::string("--size: ") + size + " needs ", " of memory, and ", " MB is available",
+                       " would fit"});
     expectRefused({"render", "--memory", "300M", "--size", "3000x3000", "--out", "a.png"},
                   {"needs 540 MB of memory"});
     expectRefused({"render", "--memory", "300M", "--size", "3000x3000", "--out", "a.webp"},

@@ -40,15 +40,14 @@ TEST_F(Messages, OfMethodsNameTheOption) {
 TEST_F(Messages, NameTheOptionThatWasGivenAndNoOther) {
     const std::string scene = ball();
     const std::string out = "a.png";
-    expectRefused({"render", scene, "--exposure", "2", "--out", out},
-                  {"stereonav: --exposure: expected with light"});
-    expectRefused({"render", scene, "--turn", "9", "--out", out}, {"stereonav: --turn: expected with light"});
+    expectRefused({"render", scene, "--exposure", "2", "--out", out}, {"stereonav: --exposure: needs light"});
+    expectRefused({"render", scene, "--turn", "9", "--out", out}, {"stereonav: --turn: needs light"});
     expectRefused({"render", scene, "--bounces", "2", "--out", out},
-                  {"stereonav: --bounces: expected with --light traced"});
+                  {"stereonav: --bounces: needs --light traced"});
     expectRefused({"render", scene, "--ambient-lamp", "0.5", "--out", out},
-                  {"stereonav: --ambient-lamp: expected with"});
+                  {"stereonav: --ambient-lamp: needs"});
     expectRefused({"render", scene, "--modulate-sigma", "2", "--out", out},
-                  {"stereonav: --modulate-sigma: expected with"});
+                  {"stereonav: --modulate-sigma: needs"});
     expectRefused({"render", "cloud", "--target-ms", "9", "--out", out},
                   {"stereonav: --target-ms: does not go with"});
     expectRefused({"render", hills(), "--target-psnr", "40", "--method", "paper", "--out", out},

@@ -172,13 +172,13 @@ TEST_F(OptionTable, TellsAllThatDoesNotApplyTogether) {
     EXPECT_EQ(
         lineAgainst({"render", "terrain", "--isovalue", "3", "--slices", "9", "--opacity", "0.5", "--samples",
                      "2", "--out", "a.png"}),
-        "--isovalue, --opacity: expected with a CT study or the built-in colon, the scene is a terrain; "
-        "leave it out. --slices: expected with a medium; add --medium, or show cloud or wax. --samples: "
-        "expected with --light traced; leave it out");
-    expectRefused({"render", "colon", "--sun", "90,30", "--mist", "900,2", "--opacity", "0.5", "--transfer",
-                   "wall_95", "--out", "a.png"},
-                  {"--sun: expected with a terrain", ". --opacity: does not go with --transfer",
-                   ". --mist: expected with a medium"});
+        "--isovalue, --opacity: is for CT studies and the built-in colon, the scene is a terrain; leave it "
+        "out. --slices: needs a medium; add --medium, or show cloud or wax. --samples: needs --light "
+        "traced; leave it out");
+    expectRefused(
+        {"render", "colon", "--sun", "90,30", "--mist", "900,2", "--opacity", "0.5", "--transfer", "wall_95",
+         "--out", "a.png"},
+        {"--sun: is for terrains", ". --opacity: does not go with --transfer", ". --mist: needs a medium"});
 }
 
 // Words stand in the order of what they name.
@@ -216,7 +216,7 @@ TEST_F(OptionTable, TurnsWordsIntoWhatTheyName) {
     for (const char* text : {"", "GPU", "fast"})
         EXPECT_EQ(lineAgainst({"view", "cloud", "--sweep", text}),
                   "--sweep: expected auto, cpu or gpu, got \"" + std::string(text) +
-                      "\"; auto takes what is faster here");
+                      "\"; auto takes the faster one");
 }
 
 // Words of --light that are of some scenes or commands alone.
@@ -225,9 +225,9 @@ TEST_F(OptionTable, RefusesLightOfOtherScenes) {
         expectRefused({"render", "terrain", "--light", light, "--out", "a.png"},
                       {std::string("--light: ") + light + " expects the surface of a CT study"});
     expectRefused({"render", "colon", "--light", "auto", "--out", "a.png"},
-                  {"--light: auto is the bake of a terrain", "name the bake's file"});
-    expectRefused({"play", "colon", "--light", "lazy", "--hash"}, {"--light: lazy is expected with view or"});
-    expectRefused({"view", "colon", "--light", "traced"}, {"--light: traced is expected with render"});
+                  {"--light: auto expects a terrain", "name the bake's file"});
+    expectRefused({"play", "colon", "--light", "lazy", "--hash"}, {"--light: lazy is for view and render"});
+    expectRefused({"view", "colon", "--light", "traced"}, {"--light: traced is for render"});
     for (const char* light : {"auto", "lazy", "traced", "some.bake"})
         expectRefused({"render", "cloud", "--light", light, "--out", "a.png"}, {"stereonav: --light: "});
 }

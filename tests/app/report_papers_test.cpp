@@ -167,7 +167,7 @@ TEST_F(Papers, SaysWhichInstructionSetItsFiguresAreFrom) {
 TEST_F(Papers, SaysInOneLineWhatIsWrong) {
     const std::pair<std::vector<std::string>, std::string> cases[] = {
         {{"report", "--papers", "--data", "/nowhere"}, "--data"},
-        {{"report", "--data", "."}, "expected with --papers"},
+        {{"report", "--data", "."}, "needs --papers"},
         {{"report", "--papers", "--scene", "terrain"}, "--scene"},
         {{"report", "--papers", "--parts", "right-eye"}, "papers-stereo"},
         {{"report", "--parts", "papers-stereo"}, "there is no part"},

@@ -131,8 +131,8 @@ TEST_F(SceneFileOptionsTest, ThatAreWrongAreOneLineWithTheirPlace) {
     refused(ground + "sun = [\"1,2\", \"3,4\"]\n", {"scene.toml:4: sun: expected one value, got several"});
     refused(ground + "open-holes = 3\n", {"scene.toml:4: open-holes: expected true or false"});
     refused(ground + "mode = \"magic\"\n", {"scene.toml:4: mode: there is no output mode \"magic\""});
-    refused(ground + "isovalue = 3\nslices = 8\n", {"scene.toml:4: isovalue: expected with a CT study",
-                                                    "scene.toml:5: slices: expected with a medium"});
+    refused(ground + "isovalue = 3\nslices = 8\n",
+            {"scene.toml:4: isovalue: is for CT studies", "scene.toml:5: slices: needs a medium"});
     refused("fov = 3\n[terrain]\nbuiltin = true\n", {"scene.toml:1: unknown key \"fov\""});
     refused("scene = \"colon\"\n[terrain]\nbuiltin = true\n", {"scene.toml:2: unknown key \"terrain\""});
     refused("scene = \"nowhere.nrrd\"\n", {"nowhere.nrrd: no such file"});
@@ -147,7 +147,7 @@ TEST_F(SceneFileOptionsTest, OfOtherCommandsAreLeftAside) {
     EXPECT_NO_THROW(checkWholeCommandLine({"info", file}));
     EXPECT_NO_THROW(checkWholeCommandLine({"mesh", file, "--out", "a.glb"}));
     EXPECT_NO_THROW(checkWholeCommandLine({"bake", file}));
-    EXPECT_NE(lineOf({file}).find("samples: expected with --light traced"), std::string::npos);
+    EXPECT_NE(lineOf({file}).find("samples: needs --light traced"), std::string::npos);
 }
 
 TEST_F(SceneFileOptionsTest, SetGivesAnyOption) {

@@ -65,7 +65,7 @@ TEST(VolumeSide, LightFromOutsideNeverGetsIntoAColon) {
 TEST(VolumeSide, WhatIsSaidOfOutsideIsRefusedInside) {
     const ColonScene colon = block(true), surface = block(false);
     EXPECT_THAT(saidBy([&] { sideOf(colon)->expectOutside("--ambient"); }),
-                testing::StartsWith("--ambient: expected with a volume seen from outside"));
+                testing::StartsWith("--ambient: needs a volume seen from outside"));
     EXPECT_EQ(saidBy([&] { sideOf(surface)->expectOutside("--ambient"); }), "");
     LightSetup setup;
     EXPECT_THAT(saidBy([&] { sideOf(surface)->addLine(std::nullopt, "--light", setup); }),

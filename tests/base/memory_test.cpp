@@ -86,7 +86,7 @@ TEST(Memory, ThatIsNotThereIsRefusedWithBothFigures) {
         FAIL();
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("--size: needs 100000000.0 GB of memory, and "));
-        EXPECT_THAT(error.what(), HasSubstr("GB can be had; choose less"));
+        EXPECT_THAT(error.what(), HasSubstr("GB is available; choose less"));
     }
 }
 

@@ -392,7 +392,7 @@ TEST(Centreline, RefusesWhatHasNone) {
     EXPECT_THAT(lineErrorOf(hollow, distanceToOutside(hollow.lumen), 0.001),
                 HasSubstr("segment 1 of the lumen has no voxels"));
     const LumenField good = lumenOfVoxels({{1, 1, 1}, {1, 1, 2}}, glm::ivec3(4));
-    EXPECT_THAT(lineErrorOf(good, DistanceVolume{}, 0.001), HasSubstr("distances do not belong"));
+    EXPECT_THAT(lineErrorOf(good, DistanceVolume{}, 0.001), HasSubstr("distances are not those"));
     for (const double spacing : {0.0, -1.0, double(NAN), double(INFINITY)})
         EXPECT_THAT(lineErrorOf(good, distanceToOutside(good.lumen), spacing),
                     HasSubstr("expected metres, more than 0"));

@@ -169,7 +169,7 @@ TEST(StudyDicomTables, ThatDoNotFitAreRefused) {
     s.tableHead = {4, 0, 40};
     expectRefused(s, "4 values of 40 bits");
     s.tableHead = {4, 0};
-    expectRefused(s, "no head or no data");
+    expectRefused(s, "no header or no data");
 }
 
 TEST(StudyDicomTables, OfADoseAreItsScaling) {

@@ -168,7 +168,7 @@ TEST(DemValues, CustomaryMissingValues) {
     spec.value = [](int c, int r, int) { return c == 7 && r < 5 ? -9999.0 : 300.0 + c; };
     DemGrid dem = readGround(writeRaster(folder / "land.tif", spec));
     EXPECT_EQ(dem.sourceMissing, 5);
-    EXPECT_THAT(dem.missingValue, HasSubstr("-9999, as is customary: the file names none"));
+    EXPECT_THAT(dem.missingValue, HasSubstr("-9999, by convention: the file names none"));
     // The sea floor may lie there.
     spec.value = [](int c, int r, int) { return c == 7 && r < 5 ? -9999.0 : -9990.0 + c; };
     dem = readGround(writeRaster(folder / "trench.tif", spec));
@@ -286,7 +286,7 @@ TEST(DemValues, HeightsThatFloatsCanNotHold) {
     spec.value = [](int c, int r, int) { return 9e6 + 0.3 * c - 0.1 * r; };
     const auto steps = writeRaster(folder / "steps.tif", spec);
     EXPECT_THAT(errorOf([&] { readGround(steps); }),
-                AllOf(HasSubstr(steps.string() + ":heights: expected relief that single precision holds"),
+                AllOf(HasSubstr(steps.string() + ":heights: expected heights that single precision can hold"),
                       HasSubstr("subtract a constant"), Not(HasSubstr("\n"))));
     spec.value = [](int c, int r, int) { return 3e6 + 300.3 * c - 100.1 * r; };  // a planet's radius
     EXPECT_EQ(readGround(writeRaster(folder / "radius.tif", spec)).sourceMissing, 0);
@@ -348,7 +348,7 @@ TEST(DemValues, VirtualRastersOfOtherThingsAreRefused) {
     refused("none.tif", "names \"none.tif\", and there is no such file");
     refused("notes.txt", "names \"notes.txt\", and that is no raster of a format read here");
     refused("map.xml", "names \"map.xml\", and that is no raster of a format read here");
-    refused("both.vrt", "found virtual rasters that name each other");
+    refused("both.vrt", "found virtual rasters that refer to each other");
     const auto damaged = folder.text("cut.vrt", virtualRaster("left.tif", "left.tif").substr(0, 300));
     EXPECT_THAT(errorOf([&] { readGround(damaged); }), HasSubstr("found damaged XML"));
 }

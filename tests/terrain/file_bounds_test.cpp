@@ -93,7 +93,7 @@ TEST_F(LargeBlocks, AreAskedForBeforeTheyAreTaken) {
     readGround(beside);  // what the library itself takes is there from now on
     limitMemory(bytesHeld() + 50e6);
     const auto refusal = AllOf(HasSubstr("one.tif:blocks: 4096 x 4096 samples at once need 67 MB of memory"),
-                               HasSubstr("can be had"), Not(HasSubstr("\n")));
+                               HasSubstr("is available"), Not(HasSubstr("\n")));
     EXPECT_THAT(errorOf([&] { glanceAtDem(file); }), refusal);
     EXPECT_THAT(errorOf([&] { readGround(file); }), refusal);
     EXPECT_THAT(errorOf([&] { DemRows rows(file); }), refusal);

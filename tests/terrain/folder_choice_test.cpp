@@ -257,14 +257,14 @@ TEST_F(FolderChoice, WhatIsNotClearIsSaid) {
                        GDT_Int16, [](int c, int r) { return hill(r, c) + c; }, -9999));
     DemGrid dem = readGround(parts());
     ASSERT_EQ(dem.notes.size(), 1u);
-    EXPECT_THAT(dem.notes[0], AllOf(HasSubstr("a.tif and b.tif cover the same ground with other heights"),
+    EXPECT_THAT(dem.notes[0], AllOf(HasSubstr("a.tif and b.tif cover the same ground with different heights"),
                                     HasSubstr("that of b.tif counts")));
     EXPECT_EQ(dem.heights[static_cast<std::size_t>(kSide - 1) * kSide + 40], hill(0, 40) + 40);
     emptyFolder();
     write("N35E138_num.tif", layer(GDT_Int16, countOf));
     dem = readGround(parts());
     ASSERT_EQ(dem.notes.size(), 1u);
-    EXPECT_THAT(dem.notes[0], HasSubstr("N35E138_num.tif is read as heights, though its name"));
+    EXPECT_THAT(dem.notes[0], HasSubstr("N35E138_num.tif is read as heights, although its name"));
 }
 
 TEST_F(FolderChoice, PicturesAloneAreNoGround) {

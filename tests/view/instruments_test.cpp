@@ -60,9 +60,9 @@ TEST_F(PictureInstruments, WhatCanNotBeMeasuredIsTold) {
     mInstruments.measureAt(std::nullopt);
     EXPECT_EQ(mSession->notice(), "nothing is under the pointer");
     mInstruments.findAt(glm::dvec3(1));
-    EXPECT_EQ(mSession->notice(), "findings are measured in colons");
+    EXPECT_EQ(mSession->notice(), "findings are for colons");
     mInstruments.toggleCoverage(nullptr, mAsked);
-    EXPECT_EQ(mSession->notice(), "coverage is of an opaque colon's wall");
+    EXPECT_EQ(mSession->notice(), "coverage is for the wall of an opaque colon");
 }
 
 TEST_F(PictureInstruments, AStudyIsNotReadBeforeTheFirstPicture) {

@@ -92,7 +92,7 @@ TEST(ScreenSizes, NoNumberChangesNothingAndFarOnesAreBroughtNear) {
 
 TEST(ScreenSizes, SayWhoSaysSo) {
     EXPECT_EQ(screenText({598, 600, From::Monitor, From::Guess}),
-              "The screen is 598 mm wide, as it tells, and 600 mm away.");
+              "The screen is 598 mm wide, as it reports, and 600 mm away.");
     EXPECT_THAT(screenText({500, 600, From::Guess, From::Guess}), testing::HasSubstr("500 mm wide, a guess"));
 }
 

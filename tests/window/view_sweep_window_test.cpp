@@ -51,7 +51,7 @@ TEST_F(SweepWindow, WhatMakesNoSenseIsRefusedBeforeAWindowOpens) {
     const std::string log = (mFolder / "log.txt").string();
     for (const auto& [arguments, line] :
          {std::pair{"wax --sweep fast", "--sweep: expected auto, cpu or gpu, got \"fast\""},
-          std::pair{"--sweep gpu", "--sweep: expected with a medium"}}) {
+          std::pair{"--sweep gpu", "--sweep: needs a medium"}}) {
         const std::string command =
             std::string("env -u DISPLAY -u WAYLAND_DISPLAY '" STEREONAV_PROGRAM "' view ") + arguments +
             " >'" + log + "' 2>&1";

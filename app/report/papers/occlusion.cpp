@@ -246,8 +246,8 @@ void addMaps(const OcclusionSubject& subject, const std::string& measured, int r
 void addLit(TracedVolume& volume, const OcclusionSubject& subject, const std::string& measured,
             const std::array<OpennessVolume, kPaperMethods.size()>& maps, Found& found) {
     ReportPictures pictures{fmt::format("Figs. {} and {}, {}", 5, subject.size.z > 200 ? 7 : 8, subject.name),
-                            "Ambient light alone, C = k O C_TF (eq. 5), of the isosurface that is shown "
-                            "where nothing is said: the map itself, in the surface's colour. Radius 10.",
+                            "Ambient light alone, C = k O C_TF (eq. 5), on the default isosurface: the map "
+                            "itself, in the surface's colour. Radius 10.",
                             {}};
     pictures.pictures.push_back(volume.picture("without ambient occlusion", nullptr, nullptr));
     const double plain = volume.brightness();

@@ -165,9 +165,9 @@ private:
              [&](int n) { return mTrial.times(n, kOwn).right; });
         const int most = paperThreads(mAll).back();
         const auto speedup = [&](const char* name, const std::array<double, 5>& theirs, const auto& timeOf) {
-            PaperRow& row =
-                add("Table 2", name, fmt::format("1 to 16 processors there, 1 to {} here", most),
-                    ratioOf(timeOf(1), timeOf(most)), "times as fast", "Of as many processors as each has.");
+            PaperRow& row = add("Table 2", name, fmt::format("1 to 16 processors there, 1 to {} here", most),
+                                ratioOf(timeOf(1), timeOf(most)), "times as fast",
+                                "On as many processors as each machine has.");
             row.theirs = theirs.front() / theirs.back();
         };
         speedup("speed-up of the left image", mTheirs.left,
@@ -195,7 +195,7 @@ private:
               "error.");
         PaperRow& fill = add(kTable, "hole filling of the right image's time", "1 processor",
                              exactly(100 * there.fill.low / std::max(there.right.low, 1e-9)), "%",
-                             "Of the sky they have none to cast, which is most of the holes here.");
+                             "Their scene has no sky to cast; here it is most of the holes.");
         PaperRow& slow = add(kTable, "hole filling without ray coherence", "1 processor",
                              ratioOf(alone.fill, there.fill), "times the time",
                              "Here a ray without coherence still leaps by the pyramid of heights, which "
@@ -334,7 +334,7 @@ std::vector<PaperRow> colonRows(ReportRun& run, const PaperData& data, double se
     };
     const std::string threads = fmt::format("16 processors there, {} here", all);
     constexpr const char* kWhy =
-        "As Table 2: other processors; the wall is reached in leaps and sampled in vectors.";
+        "As in Table 2, other processors; the wall is reached in leaps and sampled in vectors.";
     constexpr const char* kWhyW12 =
         "Splatting depths saves the way to the wall alone. Here beams and leaps have made that cheap: nearly "
         "all of a ray is compositing within the wall, which selective warps where it may.";

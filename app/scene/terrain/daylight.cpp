@@ -88,7 +88,7 @@ void LitGround::lightAgain(const TerrainLook& look) {
 
 std::string LitGround::source() const {
     const LightGrid& grid = light->light().grid;
-    return fmt::format("worked out behind the window, {}x{}", grid.width, grid.height);
+    return fmt::format("computed while the window is open, {}x{}", grid.width, grid.height);
 }
 
 TerrainDaylight::TerrainDaylight(const TerrainScene& terrain, SimdTarget target)

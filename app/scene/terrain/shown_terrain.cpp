@@ -252,8 +252,7 @@ Facts ShownTerrain::describe() const {
 }
 
 std::string ShownTerrain::whyLightStays() const {
-    return mSun || mDaylight ? ""
-                             : "the sun stands still in this ground's colours: --light gives one that moves";
+    return mSun || mDaylight ? "" : "the sun is part of this ground's colours: --light gives one that moves";
 }
 
 }  // namespace stereonav

@@ -72,8 +72,8 @@ SurveyGround read(const SceneFile& file, Progress& progress) {
     survey.reference = referencePlaces(dem.source, dem.grid, dem.spacing);
     if (!survey.reference)
         throw Error(file.dem.string(), "reference system",
-                    "expected one that places can be given in, found none",
-                    "bring it to another one, for example with gdalwarp");
+                    "expected a reference system for coordinates, found none",
+                    "reproject the file, for example with gdalwarp");
     return survey;
 }
 

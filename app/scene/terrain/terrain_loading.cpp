@@ -34,11 +34,11 @@ void refuseWithoutEffect(const SceneOptions& options, const SceneFile& scene) {
         throw Error("--light plain", "", "no other light is worked out for this ground",
                     "leave it out, or name an elevation model without a picture");
     if (scene.paint != GroundPaint::None && !scene.image.empty())
-        throw Error("--paint", "", "the scene's file gives the ground a picture: both say what colour it has",
+        throw Error("--paint", "", "the scene file gives the ground a picture: both say what colour it has",
                     "leave one of them out");
     if (options.curvature && !scene.landmarks.empty())
-        throw Error("--curvature", "", "does not go with landmarks, which would stand on level ground",
-                    "leave it out, or the landmarks of the scene's file");
+        throw Error("--curvature", "", "does not go with landmarks, which would stand on flat ground",
+                    "leave it out, or the landmarks of the scene file");
     if (options.shadeImage && scene.image.empty())
         throw Error("--shade-image", "", "there is no picture to light",
                     "name one with --image, or leave it out");
@@ -72,7 +72,7 @@ SceneFile describeTerrain(const SceneOptions& options) {
 void refuseSunWithoutEffect(const SceneOptions& options, const TerrainScene& terrain) {
     if (!options.sun || asMedium(options) || terrain.illumination || terrain.landmarks) return;
     if (terrain.report.colorHoldsSun || terrain.look.specular > 0 || terrain.look.physicalSky) return;
-    throw Error("--sun", "", "turns nothing: the ground's picture holds the light of its own day",
+    throw Error("--sun", "", "has no effect: the ground's picture holds the light that it was taken in",
                 "add --shade-image or --sky physical, or leave it out; in pictures also --light auto, once "
                 "bake has baked this "
                 "ground's light");

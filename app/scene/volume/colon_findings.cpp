@@ -141,7 +141,7 @@ std::string ColonFindings::pageOf(const FindingRefs& list, const std::shared_ptr
 }
 
 std::string ColonFindings::whyNoReport() const {
-    if (mColon.format != "DICOM") return "the study is not DICOM: a report would name no patient";
+    if (mColon.format != "DICOM") return "the study is not DICOM: a report could not name the patient";
     if (!hasModule("dcmtk")) return "the module stereonav_dcmtk is not installed";
     return "";
 }

@@ -16,7 +16,7 @@
 namespace stereonav {
 namespace {
 
-constexpr const char* kHashing = "looking at the values";
+constexpr const char* kHashing = "checking the values";
 
 void require(bool holds, const char* option, const std::string& problem, const std::string& advice) {
     if (!holds) throw Error(option, "", problem, advice);
@@ -27,8 +27,7 @@ TexelChoice choiceOf(const ColonScene& scene, const VolumeSide& side, const Bake
     const GreyVolume& field = scene.volume.field;
     choice.lowest = choice.highest = scene.volume.cells.isovalue;
     choice.region = side.region();
-    constexpr const char* kOneWall =
-        "expected with a volume seen from outside, this one is a colon with one wall";
+    constexpr const char* kOneWall = "needs a volume seen from outside, this one is a colon with one wall";
     if (options.isovalues) side.expectOutside("--isovalues", kOneWall);
     if (options.full) side.expectOutside("--full", kOneWall);
     if (options.isovalues) {

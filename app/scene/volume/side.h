@@ -28,7 +28,7 @@ public:
     // Throws Error for an option for volumes seen from outside, where this is a colon.
     virtual void expectOutside(
         const char* option,
-        const std::string& problem = "expected with a volume seen from outside, this one is a colon",
+        const std::string& problem = "needs a volume seen from outside, this one is a colon",
         const std::string& advice = "add --isosurface, or leave it out") const = 0;
     // Returns the surface's isovalue, in the study's values, where it can be moved; empty for a colon, whose
     // wall is fixed.

@@ -93,7 +93,7 @@ std::unique_ptr<Flight> VolumeWorld::makeFlight() const {
     } catch (const Error&) {
         if (mLimits.largest <= 2 * mColon.stereo.separation) throw;
         throw Error("--separation", "",
-                    fmt::format("eyes {:g} m apart find no room around the start", mLimits.largest),
+                    fmt::format("there is no room around the start for eyes {:g} m apart", mLimits.largest),
                     "give less, or leave it out");
     }
 }

@@ -35,9 +35,10 @@ bool dragged(const char* label, double& value, double unit, double least, double
 void CoveragePanel::drawSettings(LiveCoverage& coverage) {
     if (!mEditing) mEdited = coverage.looking();
     bool done = dragged("distance", mEdited.within, 0.001, 1, 1000, "%.0f mm",
-                        "How far from the eye wall counts as seen.", mEditing);
+                        "Largest distance from the eye at which wall counts as seen.", mEditing);
     done |= dragged("angle", mEdited.angle, kDegree, 1, 90, "%.0f\u00b0",
-                    "How far off its normal wall counts as seen: 90 leaves nothing out that is on screen.",
+                    "Largest angle between a ray and the wall's normal at which wall counts as seen: 90 "
+                    "counts all that is on screen.",
                     mEditing);
     done |=
         dragged("smallest patch", mEdited.smallestPatch, 1e-6, 0, 10000, "%.0f mm\u00b2",
@@ -66,7 +67,7 @@ void CoveragePanel::drawUnseen(LiveCoverage& coverage, ViewSession& session, Ask
                 session.flyTo(*part.view);
             }
             ImGui::EndDisabled();
-            if (!part.view) tooltip("There is no room for an eye before it.");
+            if (!part.view) tooltip("No view of it has room for an eye.");
             const float font = ImGui::GetFontSize();
             for (const auto& [end, text] : {std::pair(6.5f, fmt::format("{:.0f} mm\u00b2", 1e6 * part.area)),
                                             std::pair(11.5f, fmt::format("{:.0f} mm", 1e3 * part.along))}) {
@@ -91,8 +92,8 @@ void CoveragePanel::draw(LiveCoverage* coverage, ViewSession& session, AskedActi
     if (!ImGui::CollapsingHeader("Coverage")) return;
     if (ImGui::Checkbox("Follow what is seen", &on)) actions.ask({ViewCommand::ToggleCoverage});
     tooltip(
-        "Tints the wall that the left eye has not shown yet, from now on and in flights of before in this "
-        "file. Key: F9");
+        "Tints the wall that the left eye has not shown yet, now or in earlier flights of this study. Key: "
+        "F9");
     if (!coverage->on()) return;
     const CoverageSoFar& now = coverage->soFar();
     if (now.any)
@@ -109,7 +110,7 @@ void CoveragePanel::draw(LiveCoverage* coverage, ViewSession& session, AskedActi
     ImGui::SameLine();
     if (button("+ Both ways", "Counts the scene's own flight there and back as flown."))
         coverage->addOwnFlight(true);
-    if (button("Start again", "Nothing was flown.")) coverage->startAgain();
+    if (button("Start again", "Forgets what was flown.")) coverage->startAgain();
     if (now.any) drawUnseen(*coverage, session, actions);
 }
 

@@ -169,7 +169,7 @@ std::optional<std::filesystem::path> FileBrowser::draw(FileLooks& looks) {
     if (ImGui::Button("Home")) goTo(homeFolder());
     ImGui::SameLine();
     ImGui::Checkbox("all files", &mAll);
-    tooltip("Also those whose names say nothing of what the program reads.");
+    tooltip("Lists files of every name, not only those of a kind that the program reads.");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##filter", "part of a name", &mFilter);

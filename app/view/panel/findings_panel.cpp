@@ -109,8 +109,7 @@ void FindingsPanel::drawCandidates(ViewSession& session, StudyReading& study, Fi
         list.findCandidates();
     }
     tooltip(
-        "Looks for places that are shaped like polyps. They are to be looked at, and are no findings until "
-        "they are kept.");
+        "Looks for places that are shaped like polyps. Look at each: it is a finding only once it is kept.");
     if (list.candidates().empty()) return;
     ImGui::SameLine();
     if (ImGui::Button("Hide")) return list.dropCandidates();
@@ -128,7 +127,7 @@ void FindingsPanel::drawCandidates(ViewSession& session, StudyReading& study, Fi
         ImGui::BeginDisabled(!row.note.empty());
         if (ImGui::SmallButton("Keep")) list.keep(row.id);
         ImGui::EndDisabled();
-        tooltip(row.note.empty() ? "Makes it a finding." : row.note);
+        tooltip(row.note.empty() ? "Keeps the candidate as a finding." : row.note);
         ImGui::PopID();
     }
 }
@@ -142,7 +141,9 @@ void FindingsPanel::drawFiles(const ViewSession& session, Notices& notices, cons
         notices.tryTo([&] { list.writePage(mPage); });
     ImGui::SameLine();
     if (button("Copy command",
-               fmt::format("Goes on with the list without a window. It is kept in {}", list.file().string())))
+               fmt::format(
+                   "Copies the command that goes on with the list without a window. The list is kept in {}",
+                   list.file().string())))
         clipboard.copy(fmt::format("stereonav findings '{}' --file '{}' --page findings.html",
                                    session.open().scene->name, list.file().string()));
     ImGui::SetNextItemWidth(-FLT_MIN);
@@ -150,7 +151,7 @@ void FindingsPanel::drawFiles(const ViewSession& session, Notices& notices, cons
     const std::string why = list.maker()->whyNoReport();
     if (button("Write DICOM report",
                why.empty() ? "A DICOM structured report of the list, for archives."
-                           : "Can not be had: " + why + ".",
+                           : "Not available: " + why + ".",
                !list.busy() && why.empty()))
         notices.tryTo([&] { list.writeReport(mReport); });
     quietText("kept in " + list.file().string());

@@ -43,7 +43,7 @@ void drawInterval(SceneChanges& changes, const LivePaint& paint) {
     if (ImGui::SliderFloat("##interval", &share, 0, 1, shown.c_str(),
                            ImGuiSliderFlags_NoRoundToFormat | ImGuiSliderFlags_NoInput))
         changes.set("contours", fmt::format("{:.0f}", intervalAt(share)));
-    tooltip("Metres between contour lines, changed as it is dragged; at the left end there are none.");
+    tooltip("Metres of height between contour lines; drag to change them, to the left end for none.");
 }
 
 void drawSeenFrom(SceneChanges& changes, Instruments& instruments, const ViewSession& session,
@@ -51,22 +51,21 @@ void drawSeenFrom(SceneChanges& changes, Instruments& instruments, const ViewSes
     static double height = 2;
     bool on = instruments.seesFrom().has_value();
     bool changed = ImGui::Checkbox("Clicks paint what is seen", &on);
-    tooltip(
-        "From each place that is clicked on the ground, while nothing moves. What is hidden from there is "
-        "darker.");
+    tooltip("A click on the ground, while nothing moves, darkens what is hidden from that place.");
     ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
     if (ImGui::DragScalar("above the ground##seen", ImGuiDataType_Double, &height, 0.1f, nullptr, nullptr,
                           "%.4g m")) {
         height = std::isfinite(height) ? std::clamp(height, 0.0, 1e6) : 2;
         changed = true;
     }
-    tooltip("How high the eye is that looks from there.");
+    tooltip("Height of the eye at that place.");
     if (changed) instruments.seeFrom(on ? std::optional(height) : std::nullopt);
-    if (button("What is seen from here", "From the ground under the eyes, so high above it."))
+    if (button("What is seen from here",
+               "Darkens what is hidden from this place, at that height above the ground."))
         paint.askSeenFrom(glm::dvec2(session.pose().position), height);
     if (paint.now("paint").empty()) return;
     ImGui::SameLine();
-    if (button("None##paint", "Takes what is painted away.")) changes.set("paint", std::nullopt);
+    if (button("None##paint", "Removes the paint.")) changes.set("paint", std::nullopt);
 }
 
 }  // namespace
@@ -84,8 +83,7 @@ void drawHoursButton(SceneChanges& changes, const std::string& date) {
     if (!paint || !scene.offered<OnEarth>()) return;
     const std::string text = "hours:" + date;
     if (button("Paint hours of sun",
-               "How long the sun reaches each place of the ground on this day; it is worked out beside the "
-               "flight.",
+               "How long the sun reaches each place of the ground on this day. You can fly meanwhile.",
                paint->now("paint") != text))
         changes.set("paint", text);
 }

@@ -68,7 +68,7 @@ void drawEyeHeight(const ViewSession& session, MeasuredLine& line) {
                           "%.4g m") &&
         std::isfinite(height))
         line.setEyeHeight(std::clamp(height, 0.0, 1e6));
-    tooltip("How high both ends of the line of sight are, which joins the last two places.");
+    tooltip("Height of both ends of the line of sight, which joins the last two places.");
 }
 
 // Draws buttons that save the line in the formats of the commands `profile` and `measure`.
@@ -79,8 +79,7 @@ void drawSaving(WindowJobs& jobs, const MeasuredLine& line) {
     ImGui::InputTextWithHint("##measured file", "profile.svg", &file);
     tooltip("A .svg or .csv of the profile, or a .geojson of the line with its figures.");
     ImGui::SameLine();
-    if (button("Save##measured",
-               "Written beside the flight; where a file is there already, the new one gets a number.",
+    if (button("Save##measured", "Writes the file. Files that exist stay: the new one gets a number.",
                !busy && !file.empty()))
         jobs.saveMeasured(line, file);
 }
@@ -108,10 +107,9 @@ void drawMeasurePanel(Instruments& instruments, WindowJobs& jobs, ViewSession& s
     drawTakenLines(session, *line);
     if (!line->problem().empty()) wrappedText(line->problem());
     if (line->places().size() < 2)
-        return quietText(empty ? "Two places and more are measured."
-                               : "One place: another one makes a line.");
+        return quietText(empty ? "Two or more places are measured." : "One place: another one makes a line.");
     if (line->busy())
-        quietText(fmt::format("measuring, {:.0f} %: any change ends it", 100 * line->fraction()));
+        quietText(fmt::format("measuring, {:.0f} %: any change stops it", 100 * line->fraction()));
     const MeasuredSurface* const measured = line->measured();
     if (!measured) return;
     factTable("measured", measured->facts);
@@ -121,7 +119,8 @@ void drawMeasurePanel(Instruments& instruments, WindowJobs& jobs, ViewSession& s
     if (ImGui::Button("Copy figures")) clipboard.copy(linesOf(measured->facts));
     if (where.empty()) return;
     ImGui::SameLine();
-    if (button("Copy command", "Measures the same without a window, and writes it as CSV and GeoJSON."))
+    if (button("Copy command",
+               "Copies the command that measures the same without a window, as CSV and GeoJSON."))
         clipboard.copy(fmt::format("stereonav measure {} {} --csv measured.csv --geojson measured.geojson",
                                    shellWord(session.open().scene->name), where));
     drawSaving(jobs, *line);

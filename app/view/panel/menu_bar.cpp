@@ -34,7 +34,7 @@ void fileMenu(const PanelParts& parts, ShownPanels& panels, MenuWishes& wishes) 
     if (ImGui::MenuItem("Save picture as...", nullptr, false, shown)) wishes.picture = true;
     if (ImGui::MenuItem("Copy command line", nullptr, false, shown))
         parts.clipboard.copy(commandLineOf(parts.second.settingsToOpen()));
-    tooltip("The command that opens the window as it is set now.");
+    tooltip("Copies the command that opens the window as it is set now.");
     ImGui::Separator();
     if (ImGui::MenuItem("Quit", "Ctrl+Q")) parts.actions.ask({ViewCommand::QuitAtOnce});
     ImGui::EndMenu();
@@ -74,7 +74,7 @@ void viewMenu(const PanelParts& parts, ShownPanels& panels) {
     if (ImGui::MenuItem("Picture alone", "Tab")) panels.hidden = true;
     item(parts, "Panels in their own window", "F7", ViewCommand::Controls, parts.ownWindow);
     ImGui::MenuItem("Names of places", nullptr, &panels.placeNames);
-    tooltip("Of kept places that are in view, over the picture.");
+    tooltip("Shows the names of kept places that are in view, over the picture.");
     item(parts, "Whole screen", "F11", ViewCommand::FullScreen, parts.display.fullScreen());
     ImGui::Separator();
     InterfaceLook look = parts.interface.look();
@@ -111,7 +111,7 @@ void stereoMenu(const PanelParts& parts) {
         {OutputLayout::Checkerboard, "Checkerboard"},
         {OutputLayout::Anaglyph, "Coloured glasses"},
         {OutputLayout::FramePacked, "Frame-packed"},
-        {OutputLayout::FrameSequential, "Shutter glasses, by turns"},
+        {OutputLayout::FrameSequential, "Shutter glasses, alternating"},
         {OutputLayout::QuadBuffer, "Shutter glasses, by the driver"}};
     for (const auto& [layout, name] : kLayouts)
         if (ImGui::BeginMenu(name)) {

@@ -28,8 +28,8 @@ void drawEdits(ViewSession& session, KeyframeEdit& edit) {
         from = std::min(ends[0], ends[1]);
         to = std::max(ends[0], ends[1]);
     }
-    tooltip("The part that Trim keeps, from and to, of the duration.");
-    if (button("Trim", "Keeps that part.")) {
+    tooltip("Start and end of the part that Trim keeps, as shares of the duration.");
+    if (button("Trim", "Keeps the part between start and end.")) {
         const double start = path.startTime(), duration = path.duration();
         session.paths().edit([=](const RecordedPath& all) {
             return trimmed(all, start + from * duration, start + to * duration);
@@ -38,12 +38,12 @@ void drawEdits(ViewSession& session, KeyframeEdit& edit) {
         to = 1;
     }
     ImGui::SameLine();
-    if (button("Smooth", "Takes out what shakes within half a second; the ends stay."))
+    if (button("Smooth", "Removes shaking shorter than half a second; the ends stay."))
         session.paths().edit([](const RecordedPath& all) { return smoothed(all, kSmoothSeconds); });
     ImGui::SameLine();
-    if (button("Even pace", "The same way in the same time, at one speed."))
+    if (button("Even pace", "Flies the same path in the same time, at one speed."))
         session.paths().edit([](const RecordedPath& all) { return evenlyPaced(all, std::nullopt); });
-    if (button("Undo##path", "The path before the last change.")) {
+    if (button("Undo##path", "Takes back the last change of the path.")) {
         if (edit.canUndo())
             edit.undo();
         else
@@ -66,7 +66,7 @@ void drawKeyframeHeight(KeyframeEdit& edit, const Flight& flight) {
     if (ImGui::IsItemActivated()) edit.beginDrag(*edit.chosen());
     if (moved && edit.dragging()) edit.dragTo(pose.position + glm::dvec3(0, 0, std::max(height, 0.0) - *now));
     if (ImGui::IsItemDeactivated()) edit.endDrag();
-    tooltip("How high the chosen keyframe is over where the flight may come to the ground.");
+    tooltip("Height of the chosen keyframe over the lowest place that the flight allows.");
 }
 
 void drawKeyframes(ViewSession& session, KeyframeEdit& edit, const Bookmarks* places) {
@@ -80,20 +80,19 @@ void drawKeyframes(ViewSession& session, KeyframeEdit& edit, const Bookmarks* pl
     const double speed = session.flight().speed();
     if (!edit.any()) {
         const bool path = session.paths().path().samples().size() > 1;
-        if (button("Keyframes of the path", "A few that the path is kept with, to be moved on the map (F3).",
-                   path))
+        if (button("Keyframes of the path",
+                   "Turns the path into a few keyframes, which can be moved on the map (F3).", path))
             tried([&] { edit.start(keyframesToEdit(session.paths().path())); });
         if (places && places->list().size() > 1) {
-            if (button(
-                    "Fly through the places",
-                    "A path through the kept places, in their order, smooth and eased. Its keyframes can be "
-                    "moved on the map (F3).")) {
+            if (button("Fly through the places",
+                       "Makes a smooth path through the kept places, in their order. Its keyframes can be "
+                       "moved on the map (F3).")) {
                 std::vector<Pose> poses;
                 for (const Bookmark& place : places->list()) poses.push_back(place.pose);
                 tried([&] { edit.start(timedKeyframes(poses, speed)); });
             }
         }
-        if (button("Begin with this eye", "The first keyframe of a new path."))
+        if (button("Begin with this view", "Makes this view the first keyframe of a new path."))
             tried([&] { edit.add(session.pose(), speed); });
         return;
     }
@@ -101,12 +100,13 @@ void drawKeyframes(ViewSession& session, KeyframeEdit& edit, const Bookmarks* pl
     quietText(edit.chosen() ? fmt::format("keyframe {} of {}", *edit.chosen() + 1, count)
               : count == 1  ? "one keyframe: a path needs two"
                             : fmt::format("{} keyframes: drag them on the map (F3)", count));
-    if (button("Add this eye", "As a keyframe, after the chosen one or at the end."))
+    if (button("Add this view", "Adds a keyframe, after the chosen one or at the end."))
         tried([&] { edit.add(session.pose(), speed); });
     ImGui::SameLine();
-    if (button("Remove", "The chosen keyframe. Key: Del", edit.chosen().has_value())) edit.removeChosen();
+    if (button("Remove", "Removes the chosen keyframe. Key: Del", edit.chosen().has_value()))
+        edit.removeChosen();
     ImGui::SameLine();
-    if (button("Done", "The path stays as it is.")) edit.start({});
+    if (button("Done", "Ends the editing of keyframes; the path stays as it is.")) edit.start({});
     if (edit.chosen()) drawKeyframeHeight(edit, session.flight());
 }
 
@@ -115,8 +115,8 @@ void drawMovie(const ViewSession& session, WindowJobs& jobs) {
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##movie", "flight.mp4", &movie.file);
     tooltip(
-        "An .mp4 (H.264), an .mkv (lossless), an .avi; or the name of a folder, for pictures. What is there "
-        "already stays: the new one gets a number.");
+        "An .mp4 (H.264), an .mkv (lossless) or an .avi; or a folder, for pictures. Files that exist stay: "
+        "the new one gets a number.");
     int size[2] = {movie.width, movie.height};
     ImGui::SetNextItemWidth(8 * ImGui::GetFontSize());
     if (ImGui::InputInt2("##size", size)) {
@@ -131,7 +131,7 @@ void drawMovie(const ViewSession& session, WindowJobs& jobs) {
     tooltip("Frames a second.");
     ImGui::SameLine();
     const bool busy = jobs.busy();
-    if (button("Make movie", "Of this path, in the mode that is shown. It goes on beside the flight.",
+    if (button("Make movie", "Makes a movie of this path, in the mode that is shown. You can fly meanwhile.",
                !busy && !movie.file.empty() && session.paths().path().samples().size() > 1))
         jobs.makeMovie(movie);
 }
@@ -147,7 +147,8 @@ void drawPathPanel(ViewSession& session, KeyframeEdit& edit, const Bookmarks* pl
     ImGui::SameLine();
     if (button("Home", "Key: Space")) actions.ask({ViewCommand::Home});
     ImGui::SameLine();
-    if (button("Open...", "A flight from a file, in the path's place.")) actions.ask({ViewCommand::OpenPath});
+    if (button("Open...", "Opens a flight from a file, which replaces the path."))
+        actions.ask({ViewCommand::OpenPath});
     const RecordedPath& path = session.paths().path();
     const bool any = path.samples().size() > 1;
     quietText(any ? fmt::format("A flight of {:.1f} s, {} places.", path.duration(), path.samples().size())
@@ -159,9 +160,8 @@ void drawPathPanel(ViewSession& session, KeyframeEdit& edit, const Bookmarks* pl
     if (ImGui::Checkbox("speed by the distance ahead", &byDistance))
         actions.ask({ViewCommand::SpeedByDistance});
     tooltip(
-        "What is ahead is reached in about four seconds, near or far; over the sky the speed is as ever. "
-        "Key: "
-        "Shift+F");
+        "The speed is set so that what is ahead, near or far, is reached in about four seconds; towards the "
+        "sky it does not change. Key: Shift+F");
     quietText(fmt::format("speed {}/s: the wheel changes it, Shift is four times",
                           lengthText(session.moves().speed())));
 }

@@ -12,7 +12,7 @@ namespace stereonav {
 void PlacesPanel::draw(KeptPlaces& kept, AskedActions& actions) {
     Bookmarks* const places = kept.places();
     if (!places) return;
-    if (button("Home", "Back to the start. Key: Space")) actions.ask({ViewCommand::Home});
+    if (button("Home", "Flies back to the start. Key: Space")) actions.ask({ViewCommand::Home});
     ImGui::SameLine();
     if (button("+ Add", "Keeps this place, for this file. Key: Ctrl+B")) actions.ask({ViewCommand::AddPlace});
     if (places->list().empty()) quietText("No places yet: + keeps the one that is shown.");

@@ -84,7 +84,7 @@ void SearchBox::draw(SceneChanges& changes, AskedActions& actions) {
         ImGui::PopID();
     }
     mChosen = std::min(mChosen, std::max(row - 1, 0));
-    if (row == 0) quietText("Nothing has these words.");
+    if (row == 0) quietText("Nothing matches these words.");
     ImGui::EndChild();
     ImGui::End();
 }

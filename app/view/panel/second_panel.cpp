@@ -63,11 +63,10 @@ void SecondPanel::drawPicture(SecondSide& side, const ViewSession& session, bool
                           1e3 * place->along, 1e3 * place->length, place->back ? "back" : "ahead"));
     if (!second.matches()) quietText("Not of the same colon: its places do not match.");
     tooltip(
-        fmt::format("Matched along both lines; how unlike they are: {:.2f}, 0 of a line with itself. Whose "
-                    "studies they are is not known.",
+        fmt::format("Matched along both centrelines; they differ by {:.2f}, where 0 is equal. Whether both "
+                    "are of one patient is not checked.",
                     second.cost()));
-    if (button("Swap", "Flies in the other study from here on; nothing is read again.", !loading))
-        side.swap();
+    if (button("Swap", "Goes on in the other study; nothing is read again.", !loading)) side.swap();
     ImGui::SameLine();
     if (ImGui::Button("Close")) second.close();
 }

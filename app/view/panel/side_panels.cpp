@@ -46,18 +46,20 @@ void command(AskedActions& actions, const char* label, ViewCommand which, const 
 void drawView(const PanelParts& parts, ViewSession& session) {
     drawOptions(parts.changes, OptionPanel::View);
     quietText(parts.display.screen().words);
-    tooltip("Parallax in millimetres and degrees is by this. It is kept for this monitor.");
+    tooltip("Parallax in millimetres and degrees follows from this size. It is kept for this monitor.");
     bool stereo = session.stereoOn(), swapped = session.swapped();
     if (ImGui::Checkbox("stereo", &stereo)) parts.actions.ask({ViewCommand::ToggleStereo});
-    tooltip("Two eyes, or one. Key: 3");
+    tooltip("Shows two eyes, or one. Key: 3");
     ImGui::SameLine();
     if (ImGui::Checkbox("swap eyes", &swapped)) parts.actions.ask({ViewCommand::SwapEyes});
-    tooltip("Where depth is inverted. Key: X");
+    tooltip("Swaps the eyes, for when depth looks inverted. Key: X");
     if (session.open().scene->offered<RoomAround>()) {
         bool follows = session.followsClearance();
         if (ImGui::Checkbox("eyes follow the room", &follows) && follows)
             parts.actions.ask({ViewCommand::FollowClearance});
-        tooltip("As far apart as the room around them suits; setting them by hand ends it. Key: C");
+        tooltip(
+            "The distance between the eyes follows the room around them; setting it by hand ends this. Key: "
+            "C");
     }
     bool clamps = session.eyes().clamp();
     if (ImGui::Checkbox("keep comfortable", &clamps)) session.eyes().setClamp(clamps);
@@ -94,15 +96,13 @@ void drawBake(WindowJobs& jobs) {
         ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
         ImGui::DragScalar("##minutes", ImGuiDataType_Double, &minutes, 0.05f, nullptr, nullptr, "%.1f min");
         minutes = std::clamp(minutes, 0.1, 600.0);
-        tooltip("It takes this long, or less where all is done before.");
+        tooltip("The bake takes this long, or less if it is complete before.");
         ImGui::SameLine();
     }
     const bool busy = jobs.busy();
-    if (button(
-            "Bake",
-            "Computes light with its shadows and reflections beforehand, and shows it. It goes on beside the "
-            "flight.",
-            !busy))
+    if (button("Bake",
+               "Computes light with shadows and reflections, and then shows it. You can fly meanwhile.",
+               !busy))
         jobs.bakeLight(words[static_cast<std::size_t>(chosen)], minutes);
 }
 
@@ -112,7 +112,7 @@ void drawLight(SceneChanges& changes, WindowJobs& jobs, ViewSession& session, Su
     drawBake(jobs);
     const std::string why = session.open().scene->whyLightStays();
     if (session.open().scene->offered<TurningLight>())
-        quietText("U H J K, or the cross of a gamepad, move the light.");
+        quietText("U H J K, or a gamepad's cross, move the light.");
     else if (!why.empty())
         quietText("The light stands still: " + why + ".");
 }
@@ -127,7 +127,7 @@ void drawMaterial(const PanelParts& parts, ViewSession& session, TransferPanel& 
     if (!surface) return;
     bool translucent = *session.surface().now().translucent;
     if (ImGui::Checkbox("translucent", &translucent)) parts.actions.ask({ViewCommand::ToggleTranslucent});
-    tooltip("Seen through, by the transfer function, or an opaque surface. Key: T");
+    tooltip("Shows the volume translucent, by the transfer function, or as an opaque surface. Key: T");
     ImGui::SameLine();
     command(parts.actions, "Next function", ViewCommand::NextTransfer, "Key: Shift+T");
     if (!session.surface().now().ambient) return;
@@ -135,7 +135,7 @@ void drawMaterial(const PanelParts& parts, ViewSession& session, TransferPanel& 
             "The next method of ambient light, or none. Key: O");
     ImGui::SameLine();
     command(parts.actions, "Modulate", ViewCommand::NextModulation,
-            "Opacity by variance, by gradient, as it is. Key: B");
+            "Opacity by variance, by gradient, or unchanged. Key: B");
 }
 
 // Plots one quantity over the last frames, with its newest value.
@@ -161,8 +161,10 @@ void drawTruth(ViewSession& session, const ViewFrame* frame) {
     constexpr std::tuple<TruthView, const char*, const char*> kViews[] = {
         {TruthView::None, "as made", "The right eye as it is made."},
         {TruthView::FullCast, "full", "The right eye cast in full. Key: F4"},
-        {TruthView::Difference, "x5", "Five times its difference from a full cast; black: none. Key: F5"},
-        {TruthView::Holes, "holes", "What was cast, since the left eye did not see it, in red. Key: F6"}};
+        {TruthView::Difference, "x5",
+         "Five times its difference from a full cast; black: no difference. Key: F5"},
+        {TruthView::Holes, "holes",
+         "Red: pixels that were cast because the left eye does not see them. Key: F6"}};
     quietLine("right eye");
     for (const auto& [view, label, tip] : kViews) {
         if (view != TruthView::None) ImGui::SameLine();
@@ -197,22 +199,21 @@ void drawPicture(WindowJobs& jobs, const SizeOption& shown) {
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##picture", "view.png", &picture.file);
     tooltip(
-        "A .png of the mode that is shown, or of both eyes for 3D viewers: a .jps or an .mpo. What is there "
-        "already stays: the new one gets a number.");
+        "A .png in the mode that is shown, or a .jps or .mpo of both eyes for 3D viewers. Files that exist "
+        "stay: the new one gets a number.");
     static double times = 1;
     ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
     ImGui::DragScalar("##times", ImGuiDataType_Double, &times, 0.02f, nullptr, nullptr, "%.2f times");
     times = std::clamp(times, 0.1, 16.0);
-    tooltip("As large as the picture that is shown.");
+    tooltip("Size, as a factor on the picture that is shown.");
     picture.width = static_cast<int>(std::lround(times * shown.width));
     picture.height = static_cast<int>(std::lround(times * shown.height));
     ImGui::SameLine();
     const bool busy = jobs.busy();
-    if (button(
-            "Save picture",
-            "Of what is seen now; both eyes are made in full, unless a method is set. It goes on beside the "
-            "flight.",
-            !busy && !picture.file.empty()))
+    if (button("Save picture",
+               "Saves what is seen now; both eyes are cast in full, unless a method is set. You can fly "
+               "meanwhile.",
+               !busy && !picture.file.empty()))
         jobs.savePicture(picture);
     quietText(fmt::format("{} x {} pixels an eye", picture.width, picture.height));
 }
@@ -247,11 +248,11 @@ void drawSidePanels(const PanelParts& parts, SideTools& tools) {
     if (heading("Scene", false)) drawFacts(parts.facts.of(changes.worker()));
     if (heading("Command line", false)) {
         quietText(commandLineOf(parts.second.settingsToOpen()));
-        if (button("Copy##view", "Opens the window as it is set now."))
+        if (button("Copy##view", "Copies the command that opens the window as it is set now."))
             parts.clipboard.copy(commandLineOf(parts.second.settingsToOpen()));
         ImGui::SameLine();
         const std::string at = poseText(session->pose());
-        if (button("Copy for a picture", "Writes what is seen now into view.png, as it is set now."))
+        if (button("Copy for a picture", "Copies the command that writes what is seen now into view.png."))
             parts.clipboard.copy(
                 renderLineOf(withEyes(changes.settings().now(), session->stereo()), at, parts.eyeSize));
     }

@@ -61,9 +61,10 @@ void SlicesPanel::windowControls(const SliceStudy& study) {
         ImGui::EndCombo();
     }
     tooltip(
-        "Values from black to white, and their middle; dragging a slice with the right button changes them.");
+        "Width of the values from black to white, and their middle; drag a slice with the right button to "
+        "change them.");
     ImGui::Checkbox("follow the eye", &mFollows);
-    tooltip("The slices go through the eye; else through the place that was clicked.");
+    tooltip("The slices go through the eye; otherwise through the place that was clicked.");
 }
 
 void SlicesPanel::draw(ViewSession& session, StudyReading& reading, Instruments& instruments) {

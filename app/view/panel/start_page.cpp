@@ -22,8 +22,8 @@ struct Card {
 };
 constexpr Card kCards[] = {{"terrain", "Terrain", "mountains over a plain"},
                            {"colon", "Colon", "the inside of a colon"},
-                           {"cloud", "Cloud", "light that goes through"},
-                           {"wax", "Wax", "light that goes in"}};
+                           {"cloud", "Cloud", "light shines through"},
+                           {"wax", "Wax", "light shines into it"}};
 
 // Draws one scene to open: its picture, which moves under the pointer, and its name. width: units.
 bool drawCard(const Card& card, float width) {

@@ -84,16 +84,17 @@ bool asksForScreen(const PanelParts& parts) {
 
 void askForScreen(const PanelParts& parts, float wrap) {
     static double width_mm = 0;  // the number that is being typed
-    wrappedText("How wide is this screen? It does not tell, so parallax in mm is a guess.", wrap);
+    wrappedText("How wide is this screen? It does not report it, so parallax in mm is a guess.", wrap);
     if (!(width_mm > 0)) width_mm = std::round(parts.display.screen().width_mm);
     ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
     ImGui::InputDouble("mm##screen", &width_mm, 0, 0, "%.0f");
     ImGui::SameLine();
-    if (button("Set", "Of the whole monitor. It is kept, and can be changed in the panel View and stereo.",
+    if (button("Set",
+               "The width of the whole monitor. It is kept, and can be changed in the panel View and stereo.",
                width_mm > 0 && std::isfinite(width_mm)))
         parts.changes.set("screen-width", fmt::format("{:.6g}", width_mm));
     ImGui::SameLine();
-    if (button("Not now", "It is not asked again.")) parts.display.leaveUnknown();
+    if (button("Not now", "The program does not ask again.")) parts.display.leaveUnknown();
 }
 
 void askBeforeClosing(const PanelParts& parts, const std::string& question, float wrap) {
@@ -145,10 +146,10 @@ float drawStatusBar(const PanelParts& parts, float left, float right) {
                  "frames a second, while something moves");
         if (const std::string age = parts.pictures.ageText(); !age.empty())
             row.text(age,
-                     "since the picture was asked for that is shown, warped to where the eyes are now; and "
-                     "how much of the width and height it was cast in");
+                     "age of the picture that is shown, which is warped to where the eyes are now; and the "
+                     "share of the width and height in which it was cast");
         if (frame->lacksDetail)
-            row.text("coarse ground", "Finer tiles are on their way: the picture is drawn again with them.");
+            row.text("coarse ground", "Finer tiles are being read: the picture is then drawn again.");
         placePieces(parts.pointedFacts, row);
         row.text(costText(*frame), frameText(*frame, rate));
         if (frame->request.twoEyes && row.room(comfortMeterWidth())) drawComfortMeter(parts.display, *frame);
@@ -166,7 +167,8 @@ float drawStatusBar(const PanelParts& parts, float left, float right) {
         row.text(placeText(*session));
         row.text(std::string(infoOf(session->compose().mode).longName) +
                  (session->swapped() ? ", swapped" : ""));
-        row.text(std::string(frame->request.way.method), "how the right eye was made: N");
+        row.text(std::string(frame->request.way.method),
+                 "how the right eye was made; N tries the next method");
         row.text(fmt::format("speed {}/s", lengthText(session->moves().speed())), "the wheel changes it");
     }
     ImGui::End();

@@ -110,7 +110,7 @@ bool SunPanel::drawClock() {
                           "UTC%+.2f"))
         clock.offset = std::round(4 * tidy(clock).offset) / 4;
     changed |= clock.offset != before;
-    tooltip("Hours that the local clock is ahead of UTC, in quarters; 0 shows UTC.");
+    tooltip("Hours that the local clock is ahead of UTC, in steps of a quarter; 0 shows UTC.");
     ImGui::SetNextItemWidth(-FLT_MIN);
     changed |= ImGui::SliderInt("##day", &clock.day, 1, daysIn(clock.year), "day %d of the year");
     tooltip("The day of the year.");
@@ -165,7 +165,7 @@ void SunPanel::draw(SceneChanges& changes, ViewSession& session) {
         const auto given = changes.settings().now().find(option->key);
         const bool isSet = given != changes.settings().now().end() && given->second.back() == text;
         if (!isSet && ImGui::Button("Set the sun")) changes.set(option->key, text);
-        if (!isSet) tooltip("The light is set otherwise now: this sets it to the date and time.");
+        if (!isSet) tooltip("The light does not follow the date and time now: this sets it to them.");
     }
     ImGui::TreePop();
 }

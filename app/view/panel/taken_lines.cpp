@@ -63,8 +63,7 @@ void drawTakenLines(ViewSession& session, MeasuredLine& line) {
         }
     }
     ImGui::EndDisabled();
-    tooltip(
-        "A line of the file that is drawn (tracks, under Material) is measured in the place of this one.");
+    tooltip("Measures a line of the file of tracks (under Material) in place of this one.");
     ImGui::SameLine();
     const std::vector<PathSample>& flight = session.paths().path().samples();
     ImGui::BeginDisabled(flight.size() < 2);
@@ -74,7 +73,7 @@ void drawTakenLines(ViewSession& session, MeasuredLine& line) {
         take(session, line, *terrain, under, false, "the flight");
     }
     ImGui::EndDisabled();
-    tooltip("The ground under the flight that Z plays.");
+    tooltip("Measures the ground under the flight that Z plays.");
 }
 
 }  // namespace stereonav

@@ -122,7 +122,7 @@ void TransferPanel::draw(SceneChanges& changes, const ViewSession& session, bool
     drawPoint(changes);
     drawButtons(changes, shown->begun);
     if (!*session.surface().now().translucent)
-        quietText("Opaque: a preset, or T, makes it translucent.");
+        quietText("The volume is opaque: a preset, or T, makes it translucent.");
     else if (mCurve.empty() && !shown->function.empty())
         quietText(fmt::format("This function has more points than can be edited, {}.",
                               shown->function.points().size()));
@@ -379,7 +379,7 @@ void TransferPanel::drawButtons(SceneChanges& changes, const BegunSurface& begun
                     changes.set("transfer", name);
             ImGui::EndCombo();
         }
-        tooltip("Functions to begin with: a ramp over these values, and those by name.");
+        tooltip("Functions to begin with: a ramp over these values, and named ones.");
         ImGui::SameLine();
     }
     if (ImGui::Button("Reset")) {
@@ -395,10 +395,10 @@ void TransferPanel::drawButtons(SceneChanges& changes, const BegunSurface& begun
             changes.set("isovalue", fmt::format("{:.6g}", *begun.isovalue));
         mZoomed = false;
     }
-    tooltip("As it was opened.");
+    tooltip("Restores the function as it was opened.");
     if (!mZoomed) return;
     ImGui::SameLine();
-    if (button("All values", "The histogram as a whole.")) mZoomed = false;
+    if (button("All values", "Shows the whole histogram.")) mZoomed = false;
 }
 
 }  // namespace stereonav

@@ -209,20 +209,20 @@ void UnfoldedPanel::drawControls(ViewSession& session) {
     bool ends = fromBothEnds();
     if (ImGui::Checkbox("from both ends", &ends)) show(ends ? kBothEnds : kLaidFlat);
     tooltip(
-        "The wall as it is seen along the line: above ahead from the rectum's end, below back from the "
-        "caecum's. What a fold hides in the one strip lies open in the other.");
+        "The wall as seen along the centreline: above ahead from the rectum, below back from the caecum. "
+        "What a fold hides in one strip is open in the other.");
     if (!made().flat) return;
     ImGui::SameLine();
     ImGui::Checkbox("follow the eye", &mFollows);
-    tooltip("The wall scrolls with the flight; the wheel and dragging end it.");
+    tooltip("The wall scrolls with the flight, until you scroll or drag it.");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
     ImGui::InputTextWithHint("##file", "unfolded.png", &mFiles[mView]);
     ImGui::SameLine();
     if (button("Save picture",
-               fromBothEnds()
-                   ? "Both strips, with a mark for each centimetre of the line."
-                   : "All of the wall, with a mark for each centimetre of the line, and a square centimetre.",
+               fromBothEnds() ? "Saves both strips, with a mark for each centimetre of the line."
+                              : "Saves the whole wall, with a mark for each centimetre of the line, and a "
+                                "square centimetre.",
                !mFiles[mView].empty() && !mSaving.busy()))
         save(session);
 }

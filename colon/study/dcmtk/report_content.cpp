@@ -104,7 +104,7 @@ void addCoordinates(DSRDocumentTree& tree, DSRTypes::E_RelationshipType relation
                                            static_cast<Float32>(p[2]));
     check(value.setFrameOfReferenceUID(frame.c_str()), "the frame of reference");
     if (tree.addContentItem(relation, DSRTypes::VT_SCoord3D, DSRTypes::AM_belowCurrent) == 0)
-        throw Error("", "structured report", "has no room for a place", "leave --sr out");
+        throw Error("", "structured report", "the module can not store a place in it", "leave --sr out");
     check(tree.getCurrentContentItem().setConceptName(name), "a place's name");
     check(tree.getCurrentContentItem().setSpatialCoordinates3D(value), "a place's coordinates");
     tree.goUp();
@@ -114,7 +114,9 @@ void addCoordinates(DSRDocumentTree& tree, DSRTypes::E_RelationshipType relation
 void addPlaces(const StructuredReport& report, DSRDocumentTree& tree) {
     std::size_t node = tree.gotoNamedNode(CODE_DCM_MeasurementGroup);
     for (const ReportedFinding& finding : report.findings) {
-        if (node == 0) throw Error("", "structured report", "has no place for a finding", "leave --sr out");
+        if (node == 0)
+            throw Error("", "structured report", "the module can not store a finding in it",
+                        "leave --sr out");
         const std::size_t group = tree.getNodeID();
         addCoordinates(tree, DSRTypes::RT_contains, CODE_DCM_Center, DSRTypes::GT3_Point,
                        std::span(&finding.place_mm, 1), report.source->frame);
@@ -131,7 +133,7 @@ void addPlaces(const StructuredReport& report, DSRDocumentTree& tree) {
 
 void check(const OFCondition& done, const char* what) {
     if (done.good()) return;
-    throw Error("", "structured report", fmt::format("{} can not be said in it: {}", what, done.text()),
+    throw Error("", "structured report", fmt::format("{} can not be stored in it: {}", what, done.text()),
                 "leave --sr out, or mend what it names");
 }
 

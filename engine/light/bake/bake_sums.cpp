@@ -30,7 +30,7 @@ void checkTexelMemory(std::size_t texels, const BakeShape& shape, double besides
     if (bytes <= there) return;
     throw Error(
         "", "bake",
-        fmt::format("{} texels need {} of memory, and {} can be had", texels, memoryText(bytes),
+        fmt::format("{} texels need {} of memory, and {} is available", texels, memoryText(bytes),
                     memoryText(there)),
         fmt::format("{:.0f} % of this --resolution would fit, or fewer isovalues",
                     std::floor(100 * std::sqrt(std::max(0.0, there - beside) / std::max(held, 1.0)))));

@@ -35,7 +35,7 @@ void checkSetup(const LightSetup& setup) {
     require(setup.bounces >= 0 && setup.bounces <= kMostBounces, "bounces",
             fmt::format("expected 0 to {}, got {}", kMostBounces, setup.bounces), "choose fewer");
     require(withinChannels(setup.albedo, 0, 1), "albedo", "expected numbers from 0 to 1",
-            "a surface that sends out more light than it gets never comes to rest");
+            "a surface can not reflect more light than it gets");
     require(withinChannels(setup.sky, 0, kMost), "sky", "expected numbers from 0 to 1e15", "give linear RGB");
     require(setup.reach >= 0 && std::isfinite(setup.reach), "reach", "expected 0 or more metres",
             "0 is without a limit");

@@ -60,7 +60,7 @@ void checkBlocks(GDALDataset& dataset, const std::string& format, const std::str
     const double there = availableMemoryFor(bytes);
     if (bytes <= there) return;
     throw Error(name, "blocks",
-                fmt::format("{} x {} samples at once need {} of memory, and {} can be had", block.width,
+                fmt::format("{} x {} samples at once need {} of memory, and {} is available", block.width,
                             block.height, memoryText(bytes), memoryText(there)),
                 "write it in smaller blocks, for example with gdal_translate -co TILED=YES");
 }

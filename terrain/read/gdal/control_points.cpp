@@ -63,7 +63,8 @@ double spread(const std::vector<ControlPoint>& points, glm::dvec2 ControlPoint::
 }
 
 void checkPoints(const std::vector<ControlPoint>& points, const std::filesystem::path& file) {
-    constexpr const char* kFitAgain = "place the file anew, for example with gdal_translate -gcp or a GIS";
+    constexpr const char* kFitAgain =
+        "georeference the file again, for example with gdal_translate -gcp or a GIS";
     if (points.size() < kFewestPoints)
         throw Error(file.string(), kPointsPlace,
                     fmt::format("expected at least {}, found {}", kFewestPoints, points.size()), kFitAgain);
@@ -116,7 +117,7 @@ void placeByControlPoints(GDALDataset& dataset, const std::filesystem::path& fil
         throw Error(file.string(), kPointsPlace,
                     fmt::format("found {} without a reference system: their unit is not known",
                                 dataset.GetGCPCount()),
-                    "name it, for example with gdal_translate -a_srs EPSG:32633");
+                    "set it, for example with gdal_translate -a_srs EPSG:32633");
     place.wkt = planWkt(*system);
     const bool degrees = system->IsGeographic();
     const double turn = degrees ? 2 * std::numbers::pi / system->GetAngularUnits() : 0.0;
@@ -125,7 +126,7 @@ void placeByControlPoints(GDALDataset& dataset, const std::filesystem::path& fil
     const std::vector<GDAL_GCP> list = gdalPoints(points);
     if (!GDALGCPsToGeoTransform(static_cast<int>(list.size()), list.data(), place.transform.data(), TRUE))
         throw Error(file.string(), kPointsPlace, "no transform can be found from them",
-                    "place the file anew, for example with gdal_translate -gcp or a GIS");
+                    "georeference the file again, for example with gdal_translate -gcp or a GIS");
     if (misfitOf(place, points).most > kStraight && points.size() >= kFewestOfSecondOrder) {
         if (PixelPlacement::Transformer(polynomial(points))) place.points = points;
         if (!leadsBack(place)) place.points.clear();
@@ -141,7 +142,7 @@ PixelPlacement::PixelPlacement(const Georeference& raster) : mRaster(raster) {
     if (raster.points.empty()) return;
     mTransformer.reset(polynomial(raster.points));
     if (!mTransformer)
-        throw Error("", kPointsPlace, "no polynomial can be found from them", "place the file anew");
+        throw Error("", kPointsPlace, "no polynomial can be found from them", "georeference the file again");
 }
 
 void PixelPlacement::Destroy::operator()(void* transformer) const {

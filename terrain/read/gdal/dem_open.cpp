@@ -32,9 +32,9 @@ constexpr const char* kAdvice = "give a GeoTIFF, .hgt, USGS DEM, ESRI ASCII or 1
 
 void checkStandsNorthUp(const FolderFile& file) {
     if (file.northUp) return;
-    throwMisfit(
-        file.file, "georeference", file.placed ? "is turned or mirrored" : "does not say where it lies",
-        "files of a folder stand north up: bring it there with gdalwarp, or take it out of the folder");
+    throwMisfit(file.file, "georeference",
+                file.placed ? "is turned or mirrored" : "does not say where it lies",
+                "files of a folder have to be north up: turn it with gdalwarp, or take it out of the folder");
 }
 
 void checkFits(const FolderFile& file, const FolderFile& common) {
@@ -43,19 +43,19 @@ void checkFits(const FolderFile& file, const FolderFile& common) {
     const std::string first = common.file.filename().string();
     if (!same)
         throwMisfit(file.file, "reference system", "is not that of " + first,
-                    "bring all files of the folder to one, for example with gdalwarp -t_srs");
+                    "reproject all files of the folder to one, for example with gdalwarp -t_srs");
     const HeightBand &band = file.band, &other = common.band;
     if (band.number != other.number || band.scale != other.scale || band.offset != other.offset ||
         band.unit != other.unit || band.masked != other.masked || band.signedBytes != other.signedBytes)
         throwMisfit(file.file, "heights",
-                    "are not meant as those of " + first + ": band, unit, scale or mask differ",
+                    "have another meaning than those of " + first + ": band, unit, scale or mask differ",
                     "make them alike, for example with gdal_translate -unscale");
 }
 
 void checkCanBeMixed(const FolderFile& file) {
     if (!file.band.masked && !file.band.signedBytes) return;
-    throwMisfit(file.file, "heights", "have a mask or bytes below 0, which a folder of files can not",
-                "make them metres, for example with gdal_translate -unscale");
+    throwMisfit(file.file, "heights", "have a mask or signed bytes, which files of a folder may not have",
+                "convert them to metres, for example with gdal_translate -unscale");
 }
 
 // Doubles where floats do not hold what some file has stored.
@@ -77,8 +77,8 @@ std::string wrapped(const FolderFile& file, GDALDataset& dataset, const char* ty
         GDALTranslate(name.c_str(), GDALDataset::ToHandle(&dataset), options, nullptr)));
     GDALTranslateOptionsFree(options);
     if (!made)
-        throwMisfit(file.file, "", "can not be laid beside others",
-                    "bring it to GeoTIFF, for example with gdal_translate");
+        throwMisfit(file.file, "", "can not be joined with other files",
+                    "convert it to GeoTIFF, for example with gdal_translate");
     double t[6];
     if (file.plan.turned != 0 && made->GetGeoTransform(t) == CE_None) {
         t[0] += file.plan.turned;

@@ -166,9 +166,8 @@ Georeference turnedOver(const Georeference& source) {
 // Placed by what is not read here; without, it would be taken for one that has no place.
 void checkPlacement(GDALDataset& dataset, const std::filesystem::path& file, bool georeferenced) {
     if (georeferenced) return;
-    for (const auto& [domain, advice] :
-         {std::pair{"RPC", "bring it to a plane, for example with gdalwarp -rpc"},
-          {"GEOLOCATION", "bring it to a plane, for example with gdalwarp -geoloc"}})
+    for (const auto& [domain, advice] : {std::pair{"RPC", "rectify it, for example with gdalwarp -rpc"},
+                                         {"GEOLOCATION", "rectify it, for example with gdalwarp -geoloc"}})
         if (dataset.GetMetadata(domain))
             throw Error(file.string(), "georeference",
                         fmt::format("expected a transform or control points, found {} alone",

@@ -46,7 +46,7 @@ void checkMemoryFor(const std::filesystem::path& file, const Georeference& sourc
     const int width = static_cast<int>(low * source.width), height = static_cast<int>(low * source.height);
     throw Error(
         file.string(), "size",
-        fmt::format("{} x {} samples need {} of memory, and {} can be had", source.width, source.height,
+        fmt::format("{} x {} samples need {} of memory, and {} is available", source.width, source.height,
                     memoryText(needed(1)), memoryText(there)),
         width >= 2 && height >= 2
             ? fmt::format("{0} x {1} would fit: thin it out with gdal_translate -outsize {0} {1}, or cut "

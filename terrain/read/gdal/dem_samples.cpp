@@ -97,7 +97,7 @@ bool HeightSamples::findCustomary() {
         !(mTally.lowestOther > kCustomaryMissing + kFarBelowAll_m))
         return false;
     mCustomaryIsMissing = true;
-    mMissing = "-9999, as is customary: the file names none, and no other height is near it";
+    mMissing = "-9999, by convention: the file names none, and no other height is near it";
     return true;
 }
 
@@ -112,7 +112,7 @@ void HeightSamples::checkPrecision() const {
     throw Error(
         mFile.string(), "heights",
         fmt::format(
-            "expected relief that single precision holds, got {:.12g} to {:.12g} m, rounded by {:.2g} m",
+            "expected heights that single precision can hold, got {:.12g} to {:.12g} m, rounded by {:.2g} m",
             mTally.low, mTally.high, mTally.rounded),
         "subtract a constant from all heights");
 }

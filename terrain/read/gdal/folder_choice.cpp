@@ -156,10 +156,11 @@ FolderChoice chooseHeights(const std::vector<std::filesystem::path>& files, cons
     const std::filesystem::path folder = files.front().parent_path();
     for (const auto& [n, k] : choosing.undecided()) {
         if (!why[n].empty() || !why[k].empty()) continue;
-        choice.notes.push_back(fmt::format(
-            "{}: {} and {} cover the same ground with other heights: where both have one, that of {} counts",
-            folder.string(), all[n].file.filename().string(), all[k].file.filename().string(),
-            all[k].file.filename().string()));
+        choice.notes.push_back(
+            fmt::format("{}: {} and {} cover the same ground with different heights: where both have one, "
+                        "that of {} counts",
+                        folder.string(), all[n].file.filename().string(), all[k].file.filename().string(),
+                        all[k].file.filename().string()));
         break;  // one tells it
     }
     for (std::size_t n = 0; n < all.size(); ++n)
@@ -171,7 +172,7 @@ FolderChoice chooseHeights(const std::vector<std::filesystem::path>& files, cons
     if (std::all_of(choice.files.begin(), choice.files.end(),
                     [](const FolderFile& file) { return namedForOtherThings(file.file.stem().string()); }))
         choice.notes.push_back(
-            fmt::format("{}: {} is read as heights, though its name speaks of something else",
+            fmt::format("{}: {} is read as heights, although its name suggests something else",
                         folder.string(), first.file.filename().string()));
     std::sort(aside.begin(), aside.end());
     if (!aside.empty()) choice.notes.push_back(asideNote(folder, aside));

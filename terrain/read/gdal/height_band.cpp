@@ -140,7 +140,7 @@ void readUnit(GDALDataset& dataset, GDALRasterBand& band, const std::filesystem:
         throw Error(file.string(), fmt::format("band {}", heights.number),
                     fmt::format("expected a scale other than 0 and an offset, got {:g} and {:g}",
                                 band.GetScale(), band.GetOffset()),
-                    "set them anew, for example with gdal_edit.py -scale 1 -offset 0");
+                    "set them again, for example with gdal_edit.py -scale 1 -offset 0");
 }
 
 std::optional<double> givenNodata(GDALRasterBand& band) {
@@ -166,7 +166,7 @@ void readMissing(GDALDataset& dataset, GDALRasterBand& band, HeightBand& heights
         heights.missing = "-9999, as the format has it";
     } else if (band.GetRasterDataType() == GDT_Int16) {
         heights.nodata = -32768;
-        heights.missing = "-32768, as is customary: the file names none";
+        heights.missing = "-32768, by convention: the file names none";
     }
     if (heights.masked) heights.missing += heights.missing.empty() ? "by a mask" : ", and by a mask";
 }

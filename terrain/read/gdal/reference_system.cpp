@@ -43,7 +43,7 @@ public:
         mTransform.reset(OGRCreateCoordinateTransformation(&from, &to));
         if (!mTransform)
             throw Error(file.string(), "reference system",
-                        "there is no known way from it to a projection in metres",
+                        "no transformation from it to a projection in metres is known",
                         "reproject the file, for example with gdalwarp -t_srs EPSG:32633");
         mTurn = fullTurnOf(to);
     }

@@ -110,7 +110,7 @@ TrackFile readTrackFile(const std::filesystem::path& file) {
             const std::string name = field >= 0 ? feature->GetFieldAsString(field) : "";
             const std::unique_ptr<OGRGeometry> own(geometry->clone());
             if (!toDegrees(*own))
-                throw Error(file.string(), layer->GetName(), "lies in a system that has no longitudes",
+                throw Error(file.string(), layer->GetName(), "uses a reference system without longitudes",
                             "write it in WGS 84");
             addParts(*own, name, features++, 0, places, read);
         }

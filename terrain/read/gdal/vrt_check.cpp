@@ -61,7 +61,7 @@ public:
 
     void check(const fs::path& file, int depth) {
         if (depth > kDeepest)
-            fail("expected files, found virtual rasters that name each other", "name files in them");
+            fail("expected files, found virtual rasters that refer to each other", "name files in them");
         std::error_code code;
         const std::uintmax_t bytes = fs::file_size(file, code);
         if (code) fail("found a virtual raster that is no plain file", "unpack it");
@@ -69,7 +69,7 @@ public:
         const Xml root(CPLParseXMLFile(file.c_str()));
         if (!root)
             fail("expected a virtual raster, found damaged XML",
-                 "make it anew, for example with gdalbuildvrt");
+                 "create it again, for example with gdalbuildvrt");
         const Place place{folderOf(file), depth};
         for (const CPLXMLNode* node = root.get(); node; node = node->psNext) walk(*node, place, false, 0);
     }
@@ -89,7 +89,7 @@ private:
     void walk(const CPLXMLNode& node, const Place& place, bool raw, int nested) {
         if (nested > kDeepestElement)
             fail(fmt::format("expected at most {} elements within each other", kDeepestElement),
-                 "make it anew, for example with gdalbuildvrt");
+                 "create it again, for example with gdalbuildvrt");
         if (EQUAL(node.pszValue, "Metadata")) return;  // GDAL opens nothing of it, or says so as it does
         raw |= EQUAL(CPLGetXMLValue(&node, "subClass", ""), "VRTRawRasterBand");
         checkReferenceText(node, mFirst.string());
@@ -124,7 +124,7 @@ private:
         }
         if (!found && mOfFiles)
             fail("names \"" + name + "\", and there is no such file",
-                 "put it there, or make the virtual raster anew");
+                 "put it there, or create the virtual raster again");
     }
 
     void checkFile(const std::string& name, const fs::path& file, const Place& place, bool raw) {
