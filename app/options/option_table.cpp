@@ -59,7 +59,7 @@ void addOwnOptions(const Command& command, std::vector<Option>& all) {
             ++at;
         }
         option.inFile = option.inFile && inFile;
-        option.commands = command.command;
+        option.commands = option.commands ? commandsWith(option.commands) : command.command;
         at = std::next(all.insert(at, std::move(option)));
     }
 }
