@@ -29,7 +29,7 @@ protected:
 TEST_F(ShownSettings, BeforeASceneIsThereItHasWhatWasGiven) {
     EXPECT_EQ(settings.now().at("fov"), std::vector<std::string>{"50"});
     EXPECT_FALSE(settings.begun());
-    EXPECT_FALSE(settings.canUndo());
+    EXPECT_FALSE(settings.history().canUndo());
 }
 
 TEST_F(ShownSettings, WhatIsLoadedCountsUntilItIsNotToBeHad) {
