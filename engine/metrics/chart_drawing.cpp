@@ -219,6 +219,7 @@ ChartDrawing sideBySide(const std::vector<Chart>& charts, const std::string& cap
     return row;
 }
 
+// To the left and below first: the front comes from above and goes on to the right.
 std::vector<LabelBox> placeLabels(const std::vector<LabelWish>& wishes, const LabelBox& frame) {
     constexpr double kGap = 3, kHeight = kChartFont + 2;
     std::vector<LabelBox> taken, boxes;
@@ -228,10 +229,10 @@ std::vector<LabelBox> placeLabels(const std::vector<LabelWish>& wishes, const La
         LabelBox found;
         for (double away = 0; away <= 2 * kHeight && found.width == 0; away += 0.5 * kHeight)
             for (const auto& [dx, dy] :
-                 {std::pair{beside, -0.5 * kHeight - away}, std::pair{-beside - width, -0.5 * kHeight - away},
-                  std::pair{-0.5 * width, -beside - kHeight - away}, std::pair{-0.5 * width, beside + away},
-                  std::pair{beside, -0.5 * kHeight + away},
-                  std::pair{-beside - width, -0.5 * kHeight + away}}) {
+                 {std::pair{-beside - width, -0.5 * kHeight - away}, std::pair{-0.5 * width, beside + away},
+                  std::pair{beside, -0.5 * kHeight - away}, std::pair{-0.5 * width, -beside - kHeight - away},
+                  std::pair{-beside - width, -0.5 * kHeight + away},
+                  std::pair{beside, -0.5 * kHeight + away}}) {
                 const LabelBox box{wish.x + dx, wish.y + dy, width, kHeight};
                 const bool inside = box.x >= frame.x && box.y >= frame.y &&
                                     box.x + width <= frame.x + frame.width &&
