@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "engine/metrics/pareto_verdict.h"
@@ -130,6 +131,11 @@ private:
             if (!corners.empty()) corners.emplace_back(place.x, corners.back().y);
             corners.push_back(place);
         }
+        for (std::size_t n = 1; n < corners.size(); ++n) {
+            const glm::dvec2 low = glm::min(corners[n - 1], corners[n]),
+                             high = glm::max(corners[n - 1], corners[n]);
+            mAvoided.push_back({low.x - 1, low.y - 1, high.x - low.x + 2, high.y - low.y + 2});
+        }
         line("front", std::move(corners));
     }
 
@@ -171,7 +177,7 @@ private:
         std::vector<LabelWish> wishes;
         for (const auto& wish : ranked) wishes.push_back(wish.second);
         const std::vector<LabelBox> boxes =
-            placeLabels(wishes, {kLeft, mTop, right() - kLeft, mBottom - mTop});
+            placeLabels(wishes, {kLeft, mTop, right() - kLeft, mBottom - mTop}, mAvoided);
         for (std::size_t n = 0; n < boxes.size(); ++n)
             if (boxes[n].width > 0) text(boxes[n].x, boxes[n].y + kChartFont - 1, "start", wishes[n].text);
     }
@@ -191,6 +197,7 @@ private:
     double mTop = kTop, mBottom = 0;  // ends of the frame
     bool mZeros = false;
     std::vector<const ChartPoint*> mFront;
+    std::vector<LabelBox> mAvoided;  // what the front covers
     std::vector<ChartMark> mMarks;
 };
 
@@ -219,30 +226,34 @@ ChartDrawing sideBySide(const std::vector<Chart>& charts, const std::string& cap
     return row;
 }
 
-// To the left and below first: the front comes from above and goes on to the right.
-std::vector<LabelBox> placeLabels(const std::vector<LabelWish>& wishes, const LabelBox& frame) {
+std::vector<LabelBox> placeLabels(const std::vector<LabelWish>& wishes, const LabelBox& frame,
+                                  const std::vector<LabelBox>& avoided) {
     constexpr double kGap = 3, kHeight = kChartFont + 2;
     std::vector<LabelBox> taken, boxes;
     for (const LabelWish& wish : wishes) taken.push_back({wish.x - kDot, wish.y - kDot, 2 * kDot, 2 * kDot});
-    for (const LabelWish& wish : wishes) {
+    const auto isClear = [](const LabelBox& box, const std::vector<LabelBox>& others) {
+        return std::none_of(others.begin(), others.end(),
+                            [&](const LabelBox& other) { return box.overlaps(other); });
+    };
+    const auto placeOf = [&](const LabelWish& wish, const std::vector<LabelBox>& crossed) {
         const double width = widthOf(wish.text), beside = 2 * kDot + kGap;
-        LabelBox found;
-        for (double away = 0; away <= 2 * kHeight && found.width == 0; away += 0.5 * kHeight)
+        for (double away = 0; away <= 2 * kHeight; away += 0.5 * kHeight)
             for (const auto& [dx, dy] :
-                 {std::pair{-beside - width, -0.5 * kHeight - away}, std::pair{-0.5 * width, beside + away},
-                  std::pair{beside, -0.5 * kHeight - away}, std::pair{-0.5 * width, -beside - kHeight - away},
-                  std::pair{-beside - width, -0.5 * kHeight + away},
-                  std::pair{beside, -0.5 * kHeight + away}}) {
+                 {std::pair{beside, -0.5 * kHeight - away}, std::pair{-beside - width, -0.5 * kHeight - away},
+                  std::pair{-0.5 * width, -beside - kHeight - away}, std::pair{-0.5 * width, beside + away},
+                  std::pair{beside, -0.5 * kHeight + away},
+                  std::pair{-beside - width, -0.5 * kHeight + away}}) {
                 const LabelBox box{wish.x + dx, wish.y + dy, width, kHeight};
                 const bool inside = box.x >= frame.x && box.y >= frame.y &&
                                     box.x + width <= frame.x + frame.width &&
                                     box.y + kHeight <= frame.y + frame.height;
-                const bool clear = std::none_of(taken.begin(), taken.end(),
-                                                [&](const LabelBox& other) { return box.overlaps(other); });
-                if (!inside || !clear) continue;
-                found = box;
-                break;
+                if (inside && isClear(box, taken) && isClear(box, crossed)) return box;
             }
+        return LabelBox{};
+    };
+    for (const LabelWish& wish : wishes) {
+        LabelBox found = placeOf(wish, avoided);
+        if (found.width == 0) found = placeOf(wish, {});
         if (found.width > 0) taken.push_back(found);
         boxes.push_back(found);
     }

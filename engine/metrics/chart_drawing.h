@@ -58,7 +58,7 @@ ChartDrawing drawingOf(const Chart& chart);
 // Returns the charts in a row, and below them the caption and what their fronts mean.
 ChartDrawing sideBySide(const std::vector<Chart>& charts, const std::string& caption);
 
-// What labels stand beside: for tests, and for drawingOf.
+// A rectangle that labels stand in: for tests, and for drawingOf.
 struct LabelBox {
     double x = 0, y = 0, width = 0, height = 0;  // pixels, y downwards
     bool overlaps(const LabelBox& other) const {
@@ -68,10 +68,11 @@ struct LabelBox {
 };
 struct LabelWish {
     std::string text;
-    double x = 0, y = 0;  // of the point
+    double x = 0, y = 0;  // of the point, pixels
 };
-// For each wish, in their order, a box near its point that is inside the frame and clear of all points and
-// boxes before; width 0 where there is no such place.
-std::vector<LabelBox> placeLabels(const std::vector<LabelWish>& wishes, const LabelBox& frame);
+// Returns for each wish, in their order, a box near its point that is inside the frame and clear of all
+// points and boxes before, and of what is avoided if that can be; width 0 where there is no such place.
+std::vector<LabelBox> placeLabels(const std::vector<LabelWish>& wishes, const LabelBox& frame,
+                                  const std::vector<LabelBox>& avoided = {});
 
 }  // namespace stereonav

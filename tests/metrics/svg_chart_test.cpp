@@ -173,6 +173,16 @@ TEST(SvgChart, LabelsNeverMeet) {
     }
 }
 
+TEST(SvgChart, LabelsStandOffWhatIsAvoidedWhereTheyCan) {
+    const LabelBox frame{60, 10, 350, 270}, line{100, 99, 300, 2};  // from the point to the right
+    const LabelWish wish{"name", 100, 100};
+    EXPECT_TRUE(placeLabels({wish}, frame)[0].overlaps(line)) << "the test shows nothing";
+    const LabelBox found = placeLabels({wish}, frame, {line})[0];
+    EXPECT_GT(found.width, 0);
+    EXPECT_FALSE(found.overlaps(line));
+    EXPECT_GT(placeLabels({wish}, frame, {frame})[0].width, 0) << "a name is worth more than a line";
+}
+
 TEST(Xml, EscapesWhatMeansSomething) {
     EXPECT_EQ(escapedXml("<a b=\"c\" d='e'>&"), "&lt;a b=&quot;c&quot; d=&#39;e&#39;&gt;&amp;");
     EXPECT_EQ(escapedXml("\x01x\x7f\xff\u009b\n"), "\\x01x\\x7f\\xff\\xc2\\x9b\n");
