@@ -97,11 +97,11 @@ TEST(HelperProgram, OneThatSleepsIsEnded) {
 TEST(HelperProgram, WhatAStrangerSaysThroughItIsNoAnswer) {
     const std::string good = test::helperMessage("ab");
     const std::pair<std::string, const char*> kSaid[] = {
-        {test::helperMessage("ab", 2), "no answer"},  // Ended is not said, but seen
-        {test::helperMessage("ab", 77), "no answer"},
-        {test::helperMessage("ab", ~0ull), "no answer"},
-        {test::helperMessage("ab", 0, 1ll << 62), "no answer"},
-        {test::helperMessage("ab", 1, 1ll << 62), "no answer"},
+        {test::helperMessage("ab", 2), "malformed"},  // Ended is not said, but seen
+        {test::helperMessage("ab", 77), "malformed"},
+        {test::helperMessage("ab", ~0ull), "malformed"},
+        {test::helperMessage("ab", 0, 1ll << 62), "malformed"},
+        {test::helperMessage("ab", 1, 1ll << 62), "malformed"},
         {test::helperMessage("ab", 0, 3), "without an answer"},
         {good.substr(0, 5), "without an answer"},
         {"", "without an answer"},  // nor does it read

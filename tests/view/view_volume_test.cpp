@@ -273,7 +273,7 @@ TEST_F(ViewVolume, AmbientLightIsChosenByKeys) {
     s.act({ViewCommand::LargerRadius});
     s.act({ViewCommand::LargerRadius});
     EXPECT_DOUBLE_EQ(s.surface().takeChange()->surface.ambient->radius, 0.012);
-    EXPECT_THAT(s.notice(), testing::HasSubstr("as far as it can be"));
+    EXPECT_THAT(s.notice(), testing::HasSubstr("as large as it can be"));
     s.act({ViewCommand::PreviousAmbient});
     EXPECT_FALSE(s.surface().takeChange()->surface.ambient->lit);
     s.act({ViewCommand::PreviousAmbient});
