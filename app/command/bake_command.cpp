@@ -41,7 +41,7 @@ bool isStudyOpenness(const Asked& asked) {
 
 // Refuses light for a terrain: it is chosen when the terrain is shown.
 OptionRule chosenWhenShown() {
-    return {nullptr, "is for CT studies, the scene is a terrain",
+    return {nullptr, "only for CT studies, the scene is a terrain",
             "a terrain's sun and sky are chosen when it is shown: --sun, --sky"};
 }
 

@@ -51,7 +51,7 @@ void checkFindingsOptions(const FindingsOptions& options) {
     checkPlace("--file", options.file, ".json", options);
     if (!options.file.empty()) checkOutputToReadAgain("--file", options.file);
     if (options.atTruth && options.scene.scene != "colon")
-        throw Error("--at-truth", "", "is for the built-in colon: the truth of other studies is not known",
+        throw Error("--at-truth", "", "only for the built-in colon: the truth of other studies is not known",
                     "give places with --at x,y,z");
     if (!options.sr.empty() && options.candidates)
         throw Error("--sr", "", "does not go with --candidates, which nobody has looked at",

@@ -50,7 +50,7 @@ void checkUnfoldOptions(const UnfoldOptions& options) {
         checkNoInput({option, file}, inputs);
     }
     if (options.truth && options.scene.scene != "colon")
-        throw Error("--truth", "", "is for the built-in colon: the truth of other studies is not known",
+        throw Error("--truth", "", "only for the built-in colon: the truth of other studies is not known",
                     "mark findings with --findings FILE.json");
 }
 

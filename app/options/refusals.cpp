@@ -44,18 +44,18 @@ Reason reasonOfType(const Option& option, SceneSet type, const std::string& scen
     if (type == kTerrainMedium && option.scenes & kTerrain)
         return {"does not go with a terrain shown as a medium", kLeaveItOut};
     if (!(option.scenes & ~(kTerrains | kMeshFile)))
-        return {medium && !(option.scenes & ~kMedia) ? "is for terrains"
-                : type == kBuiltInMedium             ? fmt::format("is for terrains, {} is a medium", scene)
-                                                     : "is for terrains, the scene is a CT study",
+        return {medium && !(option.scenes & ~kMedia) ? "only for terrains"
+                : type == kBuiltInMedium             ? fmt::format("only for terrains, {} is a medium", scene)
+                                                     : "only for terrains, the scene is a CT study",
                 kLeaveItOut};
     if (type & kTerrains)
-        return {"is for CT studies and the built-in colon, the scene is a terrain", kLeaveItOut};
+        return {"only for CT studies and the built-in colon, the scene is a terrain", kLeaveItOut};
     if (type & (kColon | kColonMedium) && option.scenes & kStudies)
-        return {"is for studies in files, the built-in colon has none", kLeaveItOut};
+        return {"only for studies in files, the built-in colon has none", kLeaveItOut};
     if (medium && option.scenes & kSurfaces && !(option.scenes & kMedia))
         return {"does not go with a medium, which has its own",
                 type == kBuiltInMedium ? kLeaveItOut : "leave it out, or leave out --medium"};
-    return {fmt::format("is for CT studies, {} is built in", scene), kLeaveItOut};
+    return {fmt::format("only for CT studies, {} is built in", scene), kLeaveItOut};
 }
 
 std::optional<Reason> reasonAgainst(const Option& option, const Asked& asked, const std::string& scene) {

@@ -78,7 +78,7 @@ std::vector<OptionRule> lightRules() {
         {[](const Asked& asked) { return asked.shows(kTerrainMedium); },
          "does not go with a terrain shown as a medium", kLeaveOneOut},
         {[](const Asked& asked) { return asked.shows(kBuiltInMedium) && !isTraced(asked); },
-         "is for terrains and CT studies, {SCENE} is built in", kLeaveItOut},
+         "only for terrains and CT studies, {SCENE} is built in", kLeaveItOut},
         {[](const Asked& asked) { return isTraced(asked) && !asked.runs(kRender); }, "traced is for render",
          "bake the light, and name its file"},
         {[](const Asked& asked) { return isTraced(asked) && !asked.shows(kSurfaces); },

@@ -160,7 +160,7 @@ std::vector<Option> mediumFineness() {
          .commands = kShowing,
          .scenes = kMedia,
          .rules = {{[](const Asked& asked) { return asked.shows(kTerrainMedium); },
-                    "is for volumes: a terrain's surfaces are shaded at each sample", kLeaveItOut}},
+                    "only for volumes: a terrain's surfaces are shaded at each sample", kLeaveItOut}},
          .panel = OptionPanel::Quality,
          .take = into<&SceneOptions::medium, &MediumOptions::shadingWidth>},
     };

@@ -88,8 +88,8 @@ std::vector<Option> studyOptions() {
             "exclude", "a place in gas or tagged fluid that was taken for the colon, to leave it out"),
         {.key = "fluid",
          .value = wordValue(fluidNames()),
-         .help = "tagged fluid in a colon: out: removed; left: kept, with its surface as wall; tinted: "
-                 "removed, and the wall under it is green",
+         .help = "what becomes of tagged fluid in a colon; out: it is removed; left: its surface is wall; "
+                 "tinted: it is removed, and the wall under it is green",
          .group = kStudyGroup,
          .fallback = "out",
          .commands = kReading,

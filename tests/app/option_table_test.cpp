@@ -172,13 +172,13 @@ TEST_F(OptionTable, TellsAllThatDoesNotApplyTogether) {
     EXPECT_EQ(
         lineAgainst({"render", "terrain", "--isovalue", "3", "--slices", "9", "--opacity", "0.5", "--samples",
                      "2", "--out", "a.png"}),
-        "--isovalue, --opacity: is for CT studies and the built-in colon, the scene is a terrain; leave it "
+        "--isovalue, --opacity: only for CT studies and the built-in colon, the scene is a terrain; leave it "
         "out. --slices: needs a medium; add --medium, or show cloud or wax. --samples: needs --light "
         "traced; leave it out");
     expectRefused(
         {"render", "colon", "--sun", "90,30", "--mist", "900,2", "--opacity", "0.5", "--transfer", "wall_95",
          "--out", "a.png"},
-        {"--sun: is for terrains", ". --opacity: does not go with --transfer", ". --mist: needs a medium"});
+        {"--sun: only for terrains", ". --opacity: does not go with --transfer", ". --mist: needs a medium"});
 }
 
 // Words stand in the order of what they name.

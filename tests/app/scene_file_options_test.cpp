@@ -132,7 +132,7 @@ TEST_F(SceneFileOptionsTest, ThatAreWrongAreOneLineWithTheirPlace) {
     refused(ground + "open-holes = 3\n", {"scene.toml:4: open-holes: expected true or false"});
     refused(ground + "mode = \"magic\"\n", {"scene.toml:4: mode: there is no output mode \"magic\""});
     refused(ground + "isovalue = 3\nslices = 8\n",
-            {"scene.toml:4: isovalue: is for CT studies", "scene.toml:5: slices: needs a medium"});
+            {"scene.toml:4: isovalue: only for CT studies", "scene.toml:5: slices: needs a medium"});
     refused("fov = 3\n[terrain]\nbuiltin = true\n", {"scene.toml:1: unknown key \"fov\""});
     refused("scene = \"colon\"\n[terrain]\nbuiltin = true\n", {"scene.toml:2: unknown key \"terrain\""});
     refused("scene = \"nowhere.nrrd\"\n", {"nowhere.nrrd: no such file"});
