@@ -8,9 +8,9 @@
 
 namespace stereonav {
 
-// Returns an <svg> element. Its colours come from the page's style sheet, whose classes are the styles of the marks,
-// so that one drawing serves light, dark and paper. alone: a file instead, with its own size and colours on
-// white.
+// Returns an <svg> element. Its colours come from the page's style sheet, whose classes are the styles of the
+// marks, so that one drawing serves light, dark and paper. alone: a file instead, with its own size and
+// colours on white.
 std::string svgOf(const Chart& chart, bool alone = false);
 
 // Printable (engine/text/printable.h), with <, >, & and quotes made harmless in XML and HTML.

@@ -237,7 +237,8 @@ TEST_F(Video, Mp4SaysWhatItCan) {
 
 TEST_F(Video, WhatAFileCanNotSayIsToldOnce) {
     const auto told = [&](const char* file, const char* mode) {
-        return play({"--mode", mode, "--video", file}, "16x12").out.find("can not hold how") != std::string::npos;
+        return play({"--mode", mode, "--video", file}, "16x12").out.find("can not hold how") !=
+               std::string::npos;
     };
     EXPECT_TRUE(told("a.avi", "sbsl"));
     EXPECT_FALSE(told("a.avi", "ml"));

@@ -148,7 +148,8 @@ void reportPapersScaling(ReportRun& run, double seconds) {
                  .unit = "ms",
                  .measured = works[w].measured,
                  .how = fmt::format("{:.2f} times as fast as one", times[w].front().low / times[w][c].low),
-                 .why = "Times by the clock; hyper-threads and what else runs on the machine cost some of it.",
+                 .why =
+                     "Times by the clock; hyper-threads and what else runs on the machine cost some of it.",
                  .kind = PaperRow::Kind::Time});
         }
     ReportSection section{"papers-scaling",

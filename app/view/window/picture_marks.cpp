@@ -4,9 +4,9 @@
 #include <string>
 
 #include "app/output/eye_marks.h"
+#include "app/view/finding_marks.h"
 #include "app/view/frame_views.h"
 #include "app/view/raised_ground.h"
-#include "app/view/finding_marks.h"
 #include "engine/scene/live_paint.h"
 
 namespace stereonav {
