@@ -87,7 +87,7 @@ TEST_F(BakeTerrain, KnowsItsGroundAndForeignFiles) {
     expectRefused({"render", scene, "--vertical-scale", "2", "--light", light, "--out", "p.png"},
                   {light, "other ground"});
     const std::string notes = input("notes.txt", "not to be lost");
-    expectRefused({"bake", scene, "--out", notes}, {notes, "something else"});
+    expectRefused({"bake", scene, "--out", notes}, {notes, "something other than a terrain's light"});
     EXPECT_EQ(contentOf(notes), "not to be lost");
     const std::string whole = contentOf(light);
     std::ofstream(light, std::ios::binary) << whole.substr(0, whole.size() / 2);
