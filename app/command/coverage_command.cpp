@@ -25,13 +25,13 @@ namespace stereonav {
 namespace {
 
 struct CoverageOptions {
-    SceneOptions scene;  // the pictures have the scene's field of view
+    SceneOptions scene;  // its field of view is that of the flight's views
     Telling telling;
     SizeOption size{512, 512};  // only the shape counts
     std::string path;           // file of a flight; "": along the centreline
     double step_mm = 2;         // distance between poses, > 0
-    double within_mm = 100;     // distance from the eye, > 0
-    double angle_deg = 85;      // angle to the wall's normal, in (0, 90]
+    double within_mm = 100;     // largest distance at which wall counts as seen, > 0
+    double angle_deg = 85;      // largest angle to the wall's normal, in (0, 90]
     double patch_mm2 = 300;     // area of the smallest patch that is listed, >= 0
     std::string out;            // .csv of the patches, or -; "": none
 };

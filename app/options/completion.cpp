@@ -25,13 +25,14 @@ std::string optionsOf(CommandSet command) {
     return names;
 }
 
-// Returns the words that an option takes, separated by blanks; "" for an option that takes no words.
+// Returns the words that an option takes, separated by blanks; "" for an option that takes none, and for
+// --set.
 std::string wordsBehind(const Option& option) {
     if (option.key == std::string_view("set")) return "";
     return fmt::format("{}", fmt::join(option.value.words, " "));
 }
 
-// Returns a case of the script: the completions that follow this option.
+// Returns a branch of the script's `case` statement: what may follow this option.
 std::string caseOf(const Command& facts, const Option& option) {
     const std::string words = wordsBehind(option);
     const std::string offered = option.value.isFile() ? fmt::format("files=1 words=\"{}\"", words)

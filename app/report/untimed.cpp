@@ -12,7 +12,7 @@ namespace {
 
 using MakePiece = PeerBytes (*)(ReportRun& run, ByteReader& order);
 
-// The makers, by Untimed.
+// The functions that make pieces, in the order of the enumeration Untimed.
 constexpr std::array<MakePiece, 11> kMakers{makeLightTruth, makePixelTruth, makeGroundTruth, makeTrackedRows,
                                             makeManySlices, makeOpenness,   makeFinePicture, makeFeltWay,
                                             makeLateWay,    makeSweptTruth, makeStepTruth};

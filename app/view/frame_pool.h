@@ -13,7 +13,8 @@ namespace stereonav {
 
 class FramePool : public std::enable_shared_from_this<FramePool> {
 public:
-    // Most frames to keep. More are in use where many pictures are being saved; those are freed.
+    // Most free frames to keep. While many pictures are being saved more are in use; those beyond this number
+    // are deleted when they come back.
     static constexpr std::size_t kMostFree = 4;
 
     std::unique_ptr<ViewFrame> take() {

@@ -39,7 +39,8 @@ std::optional<RaisedGround> RaisedGround::since(const Bookmark& place, const Sce
     return RaisedGround(terrain->ground, *then / terrain->verticalScale);
 }
 
-// Moves a place with the ground below it: outside the ground as over its border; over a hole not at all.
+// Moves a place with the ground below it. Beyond the ground's border the nearest place of the border counts;
+// over a hole nothing moves.
 glm::dvec3 RaisedGround::moved(const glm::dvec3& place) const {
     const glm::dvec2 low = mGround->originWorld(),
                      high = mGround->worldFromGrid({mGround->width() - 1, mGround->height() - 1});

@@ -1,5 +1,5 @@
-// New places of eyes, kept places and flights over ground whose heights are exaggerated by another factor: at
-// the same height over the ground.
+// Moves eyes, bookmarks and flights when the vertical scale of the ground below them changes, so that they
+// keep their height over the ground.
 #pragma once
 
 #include <optional>
@@ -14,10 +14,11 @@ namespace stereonav {
 
 class RaisedGround {
 public:
-    // Returns empty where the scenes do not show the same ground with different factors. `after` must outlive
-    // the result.
+    // Returns nothing unless both scenes show the same ground, with different vertical scales. `after` must
+    // outlive the result.
     static std::optional<RaisedGround> between(const Scene& before, const Scene& after);
-    // Returns empty for a place that was kept over other ground, without its factor, or with the present one.
+    // Returns nothing where `now` is no terrain, and for a bookmark without a vertical scale or with the
+    // present one.
     static std::optional<RaisedGround> since(const Bookmark& place, const Scene& now);
 
     glm::dvec3 moved(const glm::dvec3& place) const;
@@ -28,12 +29,12 @@ public:
 private:
     RaisedGround(const Heightfield& ground, double before) : mGround(&ground), mBefore(before) {}
     const Heightfield* mGround;
-    double mBefore;  // earlier factor over the present one
+    double mBefore;  // earlier vertical scale divided by the present one
 };
 
-// Returns what a place stores of its scene (Bookmark::settings).
+// Returns what a bookmark keeps of its scene (Bookmark::settings).
 std::string groundSettings(const Scene& scene);
-// Returns the place over the ground as it is shown now.
+// Returns the bookmark, moved onto the ground as it is shown now.
 Bookmark placeNow(const Bookmark& place, const Scene& now);
 
 }  // namespace stereonav

@@ -37,8 +37,8 @@ public:
     // Returns whether the width is a guess and the user has not been asked.
     bool asks(const ScreenTold& screen) const;
 
-    // Set values of the user, limited to the permitted range; they replace those of the command line. Empty:
-    // as if neither were given. Values that are no numbers change nothing.
+    // Take the user's values, limited to the permitted range, in the place of the command line's. Empty: as
+    // if neither were given. Values that are no numbers change nothing.
     void setWidth(const std::string& monitor, std::optional<double> mm);
     void setDistance(const std::string& monitor, std::optional<double> mm);
     void noteAsked(const std::string& monitor) { entry(monitor); }

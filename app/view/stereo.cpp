@@ -17,7 +17,8 @@ constexpr double kLargestSeparation = 0.25;  // share of the zero-parallax dista
 // comfortable parallax. A resting picture is refined only once the eyes do not move.
 constexpr double kFollowed = 1e-3;
 
-// Exponential approach in the logarithm, so that halving and doubling look alike.
+// Returns the next value of an exponential approach in the logarithm, so that halving and doubling look
+// alike.
 double approach(double now, double target, double dt) {
     if (!(now > 0) || !(target > 0) || std::abs(now - target) <= kSettled * target) return target;
     return target * std::pow(now / target, std::exp(-dt / kStereoSeconds));

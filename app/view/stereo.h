@@ -24,7 +24,7 @@ public:
     // Change the setting by hand, which ends following.
     void scaleSeparation(double factor);
     void scaleZeroParallax(double factor);
-    // Set metres, limited to what is possible; values that are no numbers, or a screen that is not ahead,
+    // Take metres, limited to what is possible; values that are no numbers, or a screen that is not ahead,
     // change nothing.
     void setSeparation(double metres);
     void setZeroParallax(double metres);

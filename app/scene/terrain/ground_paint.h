@@ -18,7 +18,7 @@ GroundPaint groundPaintOf(const SceneOptions& options);
 GroundPaint groundPaintOf(const std::string& paint);  // for a value of --paint
 
 // Returns the painter of contours, null where the options ask for none. legend: gets an entry. terrain and
-// fog must outlive it.
+// fog must outlive the painter.
 std::shared_ptr<const EyePainter> contoursOf(const TerrainScene& terrain, const Fog& fog,
                                              const GroundPaintOptions& options, PaintLegend& legend);
 

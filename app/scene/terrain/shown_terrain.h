@@ -19,7 +19,7 @@ namespace stereonav {
 
 class GroundPainting;
 
-// Returns a flight over the ground, with a speed that suits its extent. The terrain must outlive it.
+// Returns a flight over the ground, with a speed that suits its extent. The terrain must outlive the flight.
 std::unique_ptr<Flight> flightOver(const TerrainScene& terrain);
 // Sets lens, eyes, start and flight of a terrain.
 void setViews(const TerrainScene& terrain, Scene& scene);

@@ -20,7 +20,7 @@ namespace stereonav {
 namespace {
 
 constexpr double kIsovalueSteps = 100;  // steps from the smallest value to the largest
-constexpr double kAirOfCt = -500;       // HU: volumes with smaller values are taken for CT
+constexpr double kAirOfCt = -500;       // HU: a volume with values as low is taken for CT
 constexpr int kAddedBorder = 1;         // voxels added around a volume seen from outside
 constexpr double kUsualOpacity = 0.95;  // opacity of a translucent wall per millimetre, as in Wan et al. 2004
 
@@ -57,7 +57,7 @@ void setAmbientOptions(const AmbientChoice& to, bool translucent, const VolumeOp
     if (modulated && to.sigma > 0) volume.modulateSigma = to.sigma;
 }
 
-// Notes the present options as given, for later checks.
+// Notes the present options as if the command line had given them, for later checks.
 void noteWhatIsShown(const VolumeOptions& volume, GivenOptions& given) {
     const auto note = [&](const char* key, bool is, const std::string& text, double number) {
         given.forget(key);
@@ -141,7 +141,7 @@ void ShownVolume::setPaint(std::vector<std::shared_ptr<const EyePainter>> painte
     mPaint.set(mPainters);
 }
 
-// Offers paint for an opaque surface: paint lies on one surface.
+// Offers paint only where the surface is opaque: a translucent volume has no single surface to paint.
 void ShownVolume::offerPaint() {
     const ColonInterior* const inside = mWorld->side().interior();
     if (!inside || mRenderer.translucent()) return;
@@ -230,7 +230,8 @@ void ShownVolume::setAmbient() {
         to.ambientMethods.push_back(ambient.method);
 }
 
-// Large data that stay valid are shared; light that is computed during the flight goes on.
+// Makes the changed scene. It shares large data that stay valid with this one; light that is computed during
+// the flight goes on.
 std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progress& progress) const {
     SceneOptions options = mMade;
     applyChange(change, mFirst, options);
