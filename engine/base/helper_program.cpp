@@ -144,7 +144,7 @@ std::string HelperProgram::waitForEnd(int looks) {
     return howItEnded(status);
 }
 
-// From here, so that a helper need not be allowed to change its own limits.
+// Sets the limits from this process, so that a helper need not be allowed to change its own.
 void HelperProgram::limit(const HelperLimits& limits) const {
     if (!kAddressSanitizer) {
         std::uint64_t pages = 0;

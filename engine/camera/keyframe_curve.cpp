@@ -116,7 +116,8 @@ void KeyframeCurve::measure() {
     }
 }
 
-// By monotone cubics between the measured places, so that the speed is the wanted one there and has no steps.
+// Returns the parameter by monotone cubics between the measured places, so that the speed is the wanted one
+// there and has no steps.
 double KeyframeCurve::parameterAt(const Piece& piece, double along) const {
     const std::vector<double>& lengths = piece.lengths;
     const auto after = std::upper_bound(lengths.begin(), lengths.end() - 1, along);

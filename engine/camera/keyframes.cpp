@@ -108,7 +108,8 @@ RecordedPath pathThrough(const Keyframes& keyframes, bool easeEnds) {
     return RecordedPath(std::move(samples), "keyframes");
 }
 
-// Between the first and the last one more are taken where the flight is too far off, until it is nowhere.
+// Returns the first and last pose, and more between them where the flight is too far off, until it is
+// nowhere.
 Keyframes keyframesOf(const RecordedPath& path, double metres, double radians) {
     checkPositive("distance", metres);
     checkPositive("angle", radians);

@@ -186,7 +186,7 @@ std::vector<PathSample> samplesOf(const CameraAnimation& animation, const std::s
     return samples;
 }
 
-// From its root down to a node of the list, by their numbers.
+// Returns the numbers of the nodes from the root down to a node of the list.
 std::vector<int> chainTo(const std::vector<MetNode>& nodes, std::size_t at) {
     std::vector<int> chain;
     for (int n = static_cast<int>(at); n >= 0; n = nodes[n].above) chain.push_back(nodes[n].node);

@@ -16,8 +16,8 @@ struct TimedPose {
 // Returns the poses of RecordedPath::frames with their times. This and timedFramesAtRate(), which is of
 // framesAtRate, throw as those do.
 std::vector<TimedPose> timedFrames(const RecordedPath& path, int count);
-// Beside each of `frames`, which are timedFrames of the path, the pose `seconds` later, or earlier where the
-// path is at its end: as the path is flown. Empty where it is shorter than that.
+// Returns for each of `frames`, which are timedFrames of the path, the pose `seconds` later, or earlier where
+// the path is at its end: as the path is flown. Empty where it is shorter than that.
 std::vector<TimedPose> timedBeside(const RecordedPath& path, const std::vector<TimedPose>& frames,
                                    double seconds);
 std::vector<TimedPose> timedFramesAtRate(const RecordedPath& path, double framesPerSecond);

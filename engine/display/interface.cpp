@@ -148,7 +148,7 @@ private:
     std::vector<ImVec4> mClips;
 };
 
-// Whole pixels of a part; none where it begins or ends between two.
+// Returns a part in whole pixels; none where it begins or ends between two.
 std::optional<InterfacePart> partOf(const InterfaceArea& area, const glm::dvec2& window) {
     const glm::dvec2 corner = glm::dvec2(area.x, area.y) * window;
     const glm::dvec2 size = glm::dvec2(area.width, area.height) * window;

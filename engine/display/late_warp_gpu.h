@@ -16,7 +16,7 @@ namespace stereonav {
 class LateWarpGpu {
 public:
     LateWarpGpu();
-    // False where the driver can not draw into eyes of ten bits; nothing else works then.
+    // Returns false where the driver can not draw into eyes of ten bits; nothing else works then.
     bool works() const { return mWorks; }
 
     // Takes an eye that was cast and prepared, to be warped from now on; uploads it. eye: 0 left, 1 right.

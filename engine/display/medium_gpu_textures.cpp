@@ -56,7 +56,7 @@ glm::ivec2 placeLevels(const std::vector<glm::ivec2>& sizes, std::vector<glm::iv
     return size;
 }
 
-// Over `lowest`, so that floats near it have their digits for what counts.
+// Uploads heights over `lowest`, so that floats near it have their digits for what counts.
 void uploadHeights(const Plane<float>& level, double lowest, const glm::ivec4& place) {
     std::vector<float> row(static_cast<std::size_t>(level.width()));
     for (int y = 0; y < level.height(); ++y) {

@@ -24,7 +24,7 @@ class MediumTextures {
 public:
     static constexpr int kMostLayers = 8, kMostColors = 3, kMostLevels = 16;
 
-    // medium must outlive it. Throws Error where a texture would be larger than the driver allows.
+    // medium must outlive the textures. Throws Error where a texture would be larger than the driver allows.
     explicit MediumTextures(const Medium& medium);
 
     // Lines that tell the shaders what there is. They do not depend on the look.

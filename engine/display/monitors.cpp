@@ -20,7 +20,7 @@ long long sharedLength(int a, int aLength, int b, int bLength) {
     return std::max(end - begin, 0LL);
 }
 
-// Between two spans that share nothing; else 0.
+// Returns the gap between two spans that share nothing; else 0.
 double gapBetween(int a, int aLength, int b, int bLength) {
     const double before = static_cast<double>(b) - (static_cast<double>(a) + aLength);
     const double after = static_cast<double>(a) - (static_cast<double>(b) + bLength);

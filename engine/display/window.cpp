@@ -141,7 +141,7 @@ void Window::open(const std::string& title, int width, int height, bool visible,
     installCallbacks();
 }
 
-// In the middle of the first monitor that has nothing of the first window's.
+// Puts the window into the middle of the first monitor that shows nothing of the first window.
 void Window::placeBeside(const Window& first) {
     const std::vector<Monitor> all = monitors();
     const auto taken = monitorUnder(all, first.place());

@@ -68,7 +68,7 @@ struct ElementRun {
     std::size_t byteOffset = 0, count = 0, size = 0, stride = 0;  // size, stride: bytes
 };
 
-// Their bytes from the first one on, once all of them are known to lie inside.
+// Returns the elements' bytes from the first one on, once all of them are known to lie inside.
 std::span<const unsigned char> elementBytes(const GltfFile& file, const ElementRun& run,
                                             const std::string& place) {
     const auto bytes = bufferViewBytes(file, run.bufferView, place);

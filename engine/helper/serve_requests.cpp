@@ -17,7 +17,7 @@ namespace {
 constexpr int kRequests = STDIN_FILENO;  // the helper's end of the socket
 constexpr int kNoSandbox = 70;           // main's status
 
-// Whole, or false at the other side's end.
+// Reads all that is asked for. Returns false at the other side's end.
 bool readAll(void* to, std::size_t count) {
     for (char* next = static_cast<char*>(to); count > 0;) {
         const ssize_t got = read(kRequests, next, count);

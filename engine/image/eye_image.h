@@ -1,5 +1,5 @@
-// What one eye sees: colour and view depth, and, only where the frame plan asks for view-dependent
-// shading, what is needed to shade a pixel again for the other eye.
+// A picture of one eye: colour and view depth of each pixel, and further planes only where a ViewDependence
+// asks for them.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,13 @@
 
 namespace stereonav {
 
-// How a pixel's colour depends on the direction of view, and so what is kept to shade it again.
+// How a pixel's colour depends on the direction of view, and so which planes are kept for making the other
+// eye's picture.
 enum class ViewDependence {
     None,       // not at all
-    Highlight,  // a part is added to baseColor; the normal is needed for it
-    Normal,     // all of it follows from normal and depth: no baseColor
-    Depths      // it is gathered from several depths, that shift apart: how far is kept
+    Highlight,  // in part: a highlight, which takes the normal, is added to baseColor
+    Normal,     // wholly: it follows from normal and depth, without baseColor
+    Depths      // it mixes light of several depths, which parallax moves apart: depthSpread
 };
 
 constexpr float kMissDepth = std::numeric_limits<float>::infinity();  // view depth where nothing is hit
@@ -32,8 +33,8 @@ struct EyeImage {
     // resampled like one.
     Plane<PackedColor> baseColor;
     Plane<std::uint32_t> normal;
-    // Metres behind viewDepth that a pixel's light comes from, with Depths alone: the root of the mean square
-    // by shares of light; 0 where it comes from nowhere.
+    // Root mean square distance, metres, behind viewDepth of what a pixel's light comes from, weighted by its
+    // shares of the light; 0 where no light comes. Only with Depths.
     Plane<float> depthSpread;
 
     int width() const { return color.width(); }

@@ -35,7 +35,7 @@ std::optional<PictureHead> pngHead(std::string_view content) {
     return PictureHead{file.size(16, 4), file.size(20, 4), file.number(24, 1) == 16 ? 2 : 1};
 }
 
-// From marker to marker until the one of a frame. What lies between is passed over, as decoders do.
+// Goes from marker to marker until that of a frame. What lies between is passed over, as decoders do.
 std::optional<PictureHead> jpegHead(std::string_view content) {
     constexpr std::uint64_t kFirstFrame = 0xC0, kLastFrame = 0xCF, kTables = 0xC4, kReserved = 0xC8,
                             kConditions = 0xCC, kStart = 0xD8, kEnd = 0xD9, kScan = 0xDA,

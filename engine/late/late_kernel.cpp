@@ -166,7 +166,7 @@ STEREONAV_INLINE void storePixels(std::uint32_t* to, I color, int count) {
         store(to, color, firstLanes(count));
 }
 
-// Outside of what was cast.
+// Whether a place is outside of what was cast.
 STEREONAV_INLINE M isBeside(const LateSource& source, const Place& place) {
     return (place.u < F(0.0f)) | (place.v < F(0.0f)) | (place.u > F(static_cast<float>(source.width))) |
            (place.v > F(static_cast<float>(source.height)));

@@ -52,7 +52,8 @@ public:
     // negative farDepth[k] marks a ray to leave alone.
     bool cast(const glm::dvec3* direction, const float* farDepth, int count, MeshHit* hits) const;
 
-    // False only if no ray through the pixels of `rect` meets the box around the mesh nearer than `depth`.
+    // Returns false only if no ray through the pixels of `rect` meets the box around the mesh nearer than
+    // `depth`.
     bool mayMeetBefore(double depth, PixelRect rect) const;
 
 private:

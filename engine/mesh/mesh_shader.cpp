@@ -26,7 +26,7 @@ int texelNumber(int i, int size, TextureWrap wrap) {
     return rest < 0 ? rest + size : rest;
 }
 
-// Bilinear, in linear light. uv: v downwards; rows of a level run upwards.
+// Returns a bilinear mean in linear light. uv: v downwards; rows of a level run upwards.
 glm::vec3 sampleLevel(const ColorTexture& texture, int k, const glm::vec2& uv, const MeshMaterial& material) {
     const auto& level = texture.level(k);
     const float fx = placeInTexture(uv.x, material.wrapX), fy = placeInTexture(uv.y, material.wrapY);

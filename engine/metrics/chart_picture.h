@@ -7,7 +7,7 @@
 
 namespace stereonav {
 
-// Dark on white, 760 pixels for each chart of the usual width. Throws Error.
+// Returns the charts dark on white, 760 pixels for each of the usual width. Throws Error.
 Plane<PackedColor> chartPicture(const ChartDrawing& drawing);
 
 }  // namespace stereonav

@@ -164,7 +164,7 @@ private:
         return mRightFromLeft && mSetting.edges.rays > 0 ? mSmoothLeft : mExact.frame.left;
     }
 
-    // Null where it is not among those that are compared.
+    // Returns null for a method that is not among those that are compared.
     Runner* runnerOf(std::string_view method) {
         if (method == mExact.method) return &mExact;
         for (Runner& runner : mRunners)

@@ -9,11 +9,11 @@
 namespace stereonav {
 
 // Returns an <svg> element. Its colours come from the page's style sheet, whose classes are the styles of the
-// marks, so that one drawing serves light, dark and paper. alone: a file instead, with its own size and
-// colours on white.
+// marks, so that one drawing serves light, dark and paper. alone: returns a whole file instead, with a size
+// and colours on white of its own.
 std::string svgOf(const Chart& chart, bool alone = false);
 
-// Printable (engine/text/printable.h), with <, >, & and quotes made harmless in XML and HTML.
+// Returns printable text (engine/text/printable.h), with <, >, & and quotes made harmless in XML and HTML.
 std::string escapedXml(std::string_view text);
 
 }  // namespace stereonav

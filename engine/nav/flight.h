@@ -57,7 +57,8 @@ public:
     // them.
     virtual void moveTo(const Pose& pose) { setPose(pose); }
 
-    // Where it is on the line that leads it, metres from the line's start; none: nothing leads it now.
+    // Returns where it is on the line that leads it, metres from the line's start; none: nothing leads it
+    // now.
     virtual std::optional<double> along() const { return std::nullopt; }
     // The mode whose `forward` goes along a line; none: it knows no line.
     virtual std::optional<int> lineMode() const { return std::nullopt; }

@@ -60,7 +60,7 @@ void checkNumber(const char* what, double value, bool holds) {
         throw Error("", what, fmt::format("expected a finite number, got {:g}", value), "name another place");
 }
 
-// With a unit quaternion.
+// Returns the goal with a unit quaternion.
 Pose checkedGoal(const Pose& goal) {
     for (const double number : {goal.position.x, goal.position.y, goal.position.z})
         checkNumber("goal", number, std::abs(number) <= kFarthestGoal);
@@ -163,7 +163,7 @@ FlightTo::State FlightTo::stepAlong(Flight& flight, double dt) {
     return State::Flying;
 }
 
-// On to the goal's pose, where there is one.
+// Leaves the line, towards the goal's pose where there is one.
 FlightTo::State FlightTo::endLine(Flight& flight, State state) {
     mOnLine = false;
     if (!mGoal) return state;

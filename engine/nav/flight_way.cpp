@@ -19,7 +19,7 @@ constexpr int kBendPieces = 48;
 constexpr int kBendSides = 12;
 constexpr double kBends[] = {0.15, 0.3, 0.6, 1.2, 2.4};  // how far aside, in lengths of the straight way
 
-// At least that far from both ends there are places to look at.
+// Returns how many pieces a window reaches to each side of place k: `most`, fewer near the ends of the way.
 int windowAt(int k, int most) {
     return std::min({most, k, kPieces - k});
 }

@@ -43,8 +43,8 @@ private:
     PeerBytes mBytes;
 };
 
-// Takes out what ByteWriter put in, in the same order.
-// Throws Error where there are fewer bytes than asked for. The bytes must outlive it.
+// Takes out what ByteWriter put in, in the same order. Throws Error where there are fewer bytes than asked
+// for. The bytes must outlive the reader.
 class ByteReader {
 public:
     explicit ByteReader(std::span<const std::byte> bytes) : mLeft(bytes) {}

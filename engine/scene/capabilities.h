@@ -57,7 +57,7 @@ public:
     virtual void seen(const EyeView& view, const EyeImage& image) = 0;
     // Counts changes, after which the last frame is to be drawn again.
     virtual std::uint64_t changes() const = 0;
-    // Until all that was seen last is lit, for pictures.
+    // Waits until all that was seen last is lit, for pictures.
     virtual void waitUntilDone() const {}
     // Whether a picture is to wait for it: it begins without light.
     virtual bool beginsDark() const { return false; }
@@ -170,7 +170,7 @@ struct MapPicture {
     glm::dvec2 northWest{0.0};   // world x, y of the outer corner of its first pixel
     double metresPerPixel = 1;   // both ways
 
-    // Between pixels, as Plane counts them, and world x, y in metres.
+    // Turns pixels, counted as Plane does, into world x, y in metres; and back.
     glm::dvec2 worldFromMap(const glm::dvec2& pixel) const {
         return northWest + metresPerPixel * glm::dvec2(pixel.x, -pixel.y);
     }

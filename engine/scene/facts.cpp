@@ -27,14 +27,14 @@ struct WordsOf {
     std::string operator()(const std::vector<Facts>& groups) const { return std::to_string(groups.size()); }
 };
 
-// Printable, since words of files stand in it.
+// Returns the text of a fact, made printable, since words of files may stand in it.
 std::string textOf(const Fact& fact) {
     if (!fact.text.empty()) return printable(fact.text, kLongestLine);
     const std::string words = printable(std::visit(WordsOf{}, fact.value), kLongestLine);
     return fact.unit.empty() ? words : words + " " + fact.unit;
 }
 
-// line(label, text) and heading(label), in their order.
+// Calls line(label, text) for each fact with a label, heading(label) for each group with one, in their order.
 template <typename Line, typename Heading>
 void walk(const Facts& facts, const Line& line, const Heading& heading) {
     for (const Fact& fact : facts) {

@@ -31,10 +31,11 @@ private:
     std::shared_ptr<const EyePainter> mOver;
 };
 
-// What the scene offers of it, on an eye that is there; its time, ms: 0 where there is nothing to paint.
+// Paints an eye that is made with what the scene offers. Returns the time, ms: 0 where there is nothing to
+// paint.
 double paintEye(const Scene& scene, const EyeView& view, EyeImage& image);
 
-// On both eyes; the time is added to that of the frame.
+// Paints both eyes; the time is added to that of the frame.
 void paintEyes(const Scene& scene, const StereoViews& views, EyePair& frame);
 
 }  // namespace stereonav

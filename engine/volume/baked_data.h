@@ -7,8 +7,8 @@
 
 namespace stereonav {
 
-// Returns the look's light as kernels read it. look.light must outlive it. frame: the grid in whose voxels
-// the kernels name places. Without light: texels null.
+// Returns the look's light as kernels read it. look.light must outlive the result. frame: the grid in whose
+// voxels the kernels name places. Without light: texels null.
 BakedData bakedDataOf(const BakedLook& look, const VolumeFrame& frame);
 
 // Returns the look's exposure as it is shown: 0 for what is no number or negative, at most kMostExposure.

@@ -78,7 +78,7 @@ private:
     const std::string& mSource;
 };
 
-// To four digits behind the point, without zeros at the end.
+// Returns a channel's sRGB value to four digits behind the point, without zeros at the end.
 std::string colorText(float linear) {
     const float srgb = std::clamp(srgbFromLinear(linear), 0.0f, 1.0f);
     return fmt::format("{}", std::round(static_cast<double>(srgb) * 1e4) / 1e4);

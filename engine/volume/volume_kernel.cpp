@@ -18,7 +18,7 @@ STEREONAV_INLINE Walk startAt(const Grid& grid, const Rays& r, F t, M lanes) {
     return {t, grid.cellsAt(r.direction, t), lanes};
 }
 
-// Where the volume begins, for rays from outside; infinite where they miss it.
+// Returns where the volume begins, for rays from outside; infinite where they miss it.
 STEREONAV_INLINE F entryOf(const Grid& grid, const Rays& r) {
     const auto slab = [](F eye, I base, I last, F inverse, F& in, F& out) {
         const F a = (toFloat(I(0) - base) - eye) * inverse, b = (toFloat(last + I(1) - base) - eye) * inverse;

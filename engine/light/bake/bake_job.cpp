@@ -151,7 +151,7 @@ private:
         }
     }
 
-    // From another process.
+    // Takes bricks that another process made.
     void takeBricks(std::span<const std::size_t> bricks, std::span<const std::byte> made) {
         std::vector<BrickEstimate> estimates;
         double before = 0, after = 0;
@@ -201,7 +201,7 @@ private:
         return square > 0 ? std::sqrt(variance / square) : mError.load();
     }
 
-    // After each batch, on any thread.
+    // Called after each batch, on any thread.
     void check() {
         if (mProgress.cancelled()) end(BakeEnd::Cancelled);
         if (mGoal.minutes > 0 && mSinceStart.elapsed_ms() >= 60000 * mGoal.minutes) end(BakeEnd::TimeUp);
@@ -216,7 +216,7 @@ private:
         tell(fraction());
     }
 
-    // Never less than before, though more may be foreseen to be done than was.
+    // Reports never less than before, though more work may turn up than was foreseen.
     void tell(double fraction) {
         const std::lock_guard lock(mTelling);
         mTold = std::max(mTold, fraction);

@@ -20,7 +20,7 @@ struct BakeSource {
                        int channels, std::span<float> sums, std::span<std::uint8_t> alive)>
         addTransfer;
 };
-BakeSource sourceOf(const TexelLighter& lighter);  // the lighter must outlive it
+BakeSource sourceOf(const TexelLighter& lighter);  // the lighter must outlive the result
 
 // Limits of a bake: the first that is reached ends it; 0: no such limit.
 struct BakeGoal {

@@ -111,7 +111,7 @@ std::uint32_t BakeSums::fewestSamples() const {
     return samples.empty() ? 0 : *std::min_element(samples.begin(), samples.end());
 }
 
-// In the order of the bricks, so that it is the same number however the bricks were shared out.
+// Adds in the order of the bricks, so that it is the same number however the bricks were shared out.
 double BakeSums::error() const {
     BrickEstimate all;
     for (const BrickEstimate& e : estimates) {

@@ -13,7 +13,7 @@ namespace stereonav {
 // Bricks by runs, a piece of work each: many for each process, so that all are done at about the same time.
 class BrickRuns {
 public:
-    // bricks must outlive it.
+    // bricks must outlive the object.
     BrickRuns(const std::vector<std::size_t>& bricks, int processes);
 
     std::size_t count() const { return (mBricks.size() + mEach - 1) / mEach; }

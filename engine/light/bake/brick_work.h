@@ -19,7 +19,7 @@ std::uint32_t batchEnd(std::uint32_t first);
 // Advances bricks; different ones may be advanced at once.
 class BrickWork {
 public:
-    // Both must outlive it.
+    // sums and source must outlive the object.
     BrickWork(BakeSums& sums, const BakeSource& source) : mSums(sums), mSource(source) {}
 
     // Brings each texel to `target` samples, with what they tell of the error. added: samples of texels,

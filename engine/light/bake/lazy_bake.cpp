@@ -182,7 +182,7 @@ void LazyBake::work(const std::stop_token& stop) {
     }
 }
 
-// Until there is another wish; where others are busy also until they may have left something.
+// Waits until there is another wish; where others are busy also until they may have left something.
 void LazyBake::wait(Pick found, std::uint64_t seen, const std::stop_token& stop) {
     std::unique_lock lock(mWishMutex);
     if (mVersion != seen) return;
@@ -319,7 +319,8 @@ bool LazyBake::light(const Task& task, const std::stop_token& stop) {
     return true;
 }
 
-// In the bake's batches, so that the same samples give the same bytes. False: something else is wanted.
+// Lights texels in the bake's batches, so that the same samples give the same bytes. False: something else is
+// wanted.
 bool LazyBake::lightTexels(const Task& task, const std::vector<int>& texels, const std::stop_token& stop) {
     Brick& brick = *task.brick;
     const std::uint32_t target = samplesAt(task.level);
@@ -427,7 +428,7 @@ void LazyBake::publishTransfer(Brick& brick, int level) {
     mShown[brick.number] = std::move(shown);
 }
 
-// Under the light's mutex.
+// Called under the light's mutex.
 void LazyBake::show(const Shown& shown) {
     shown.transfer.relightAll(mLight, mTo);
     const std::uint32_t number = shown.transfer.bricks()[0].number;

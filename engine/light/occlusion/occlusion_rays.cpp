@@ -74,7 +74,7 @@ struct HemispherePoint {
     glm::dvec3 normal, tangent, other;
     explicit HemispherePoint(const glm::dvec3& n)
         : normal(n), tangent(across(n)), other(glm::cross(n, tangent)) {}
-    // By the cosine.
+    // Returns a direction, with a density that goes with the cosine.
     glm::dvec3 at(double u, double v) const {
         const double radius = std::sqrt(u), angle = 2 * kPi * v;
         return radius * (std::cos(angle) * tangent + std::sin(angle) * other) + std::sqrt(1 - u) * normal;

@@ -58,7 +58,7 @@ glm::dvec3 surfaceNormal(const GreyVolume& volume, const glm::dvec3& voxel) {
 
 namespace {
 
-// In voxels from `voxel` along `way` (of length 1), or none within kNearSurface.
+// Returns a distance in voxels from `voxel` along `way` (of length 1), or none within kNearSurface.
 std::optional<double> crossingAlong(const GreyVolume& volume, const glm::dvec3& voxel, const glm::dvec3& way,
                                     double value) {
     constexpr int kPieces = 14, kHalvings = 12;

@@ -225,7 +225,7 @@ private:
         aim(path, way, {red, green, blue}, seen, count);
     }
 
-    // Weighted by the power heuristic (Veach and Guibas 1995).
+    // Aims paths at the probe, weighted by the power heuristic (Veach and Guibas 1995).
     STEREONAV_INLINE void aimAtProbe(I path, int vertex, M m, int& count) {
         const ProbeChoice choice = chooseProbe(mLights.probe, numbers(path, vertex, kProbePair, m), m);
         const V3 way = axesFromWorld(mVolume.axes, choice.world);

@@ -14,7 +14,7 @@ namespace stereonav {
 // Returns the kernels of the set that availableTarget() gives.
 const PathKernels& pathKernels(SimdTarget target);
 
-// The volume as kernels read it; `volume` must outlive it.
+// The volume as kernels read it; `volume` must outlive the result.
 PathVolume pathVolume(const GreyVolume& volume);
 
 // Roulette: paths whose throughput (its largest channel) has fallen below this go on with a probability that

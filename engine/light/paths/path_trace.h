@@ -217,8 +217,8 @@ private:
         r.fresh = m;
     }
 
-    // On to where the rays are after t. The axis that leaves its box is set, not found from rounded
-    // positions, and none goes back: so every step gets on. Cells are never below 0.
+    // Moves an axis on to where the rays are after t. The axis that leaves its box is set, not found from
+    // rounded positions, and none goes back: so every step gets on. Cells are never below 0.
     STEREONAV_INLINE static void moveOn(Rail& a, F t, F end, M m) {
         const I whole = floorToInt(mulAdd(t, a.direction, a.origin));
         const I found = a.base + (whole ^ a.back);

@@ -123,7 +123,7 @@ struct TexelLighter::State {
         return glm::clamp(on ? whole : voxel, glm::dvec3(0.0), glm::dvec3(volume.frame.size - 1));
     }
 
-    // From a point of the surface of this isovalue on.
+    // Returns the start of a path at a point of the surface of this isovalue.
     PathStart startFrom(const glm::dvec3& voxel, double isovalue, const glm::dvec3& normal,
                         std::uint64_t number) const {
         PathStart start;
@@ -135,7 +135,7 @@ struct TexelLighter::State {
         return start;
     }
 
-    // False where the texel lies on no surface, or on two.
+    // Returns false where the texel lies on no surface, or on two.
     bool startOf(const glm::ivec3& texel, PathStart& start) const {
         glm::dvec3 voxel = voxelOf(texel), normal = surfaceNormal(volume, voxel);
         if (normal == glm::dvec3(0.0)) return false;

@@ -59,7 +59,7 @@ struct Choice {
     double fraction;  // 0..1 within it: u used again
 };
 
-// Never an entry of no width.
+// Chooses an entry, never one of no width.
 Choice choose(const double* begin, const double* end, double u) {
     const double inside = u > 0 ? std::min(u, 1.0 - 0x1p-53) : 0.0;  // NaN: 0
     const double* above = std::upper_bound(begin, end, inside);
@@ -122,7 +122,7 @@ float LightProbe::density(const glm::vec3& direction) const {
     return static_cast<float>(densityOf(pixelOf(direction)));
 }
 
-// Uniform over the pixel's piece of the sphere.
+// Returns a direction, uniform over the pixel's piece of the sphere for uniform fractions.
 glm::vec3 LightProbe::directionIn(const Pixel& pixel, const glm::dvec2& fraction) const {
     const double z = mEdges[pixel.row] + (mEdges[pixel.row + 1] - mEdges[pixel.row]) * fraction.y;
     const double radius = std::sqrt(std::max(0.0, (1 - z) * (1 + z)));

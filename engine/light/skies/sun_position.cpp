@@ -56,7 +56,7 @@ void checkPlaceAndTime(double seconds, double latitude, double longitude) {
     check("longitude", longitude, 4 * pi, "radians");
 }
 
-// Without refraction.
+// Returns where the sun stands without refraction.
 SunSeen sunInVacuum(double seconds, double latitude, double longitude) {
     const double day = kUnixDay + seconds / kDaySeconds, dynamical = day + kClocks / kDaySeconds;
     const SunOnSphere sun = sunOnSphere(dynamical);

@@ -51,7 +51,8 @@ Plane<float> meansOf(const Sums& s) {
     return means;
 }
 
-// Bilinear, u and v in samples, the outermost ones count on. Unknown where a sample that counts is.
+// Returns a bilinear height; u and v in samples, beyond the outermost ones these count. Unknown where a
+// sample that counts is.
 double bilinear(const Plane<float>& heights, double u, double v) {
     u = std::clamp(u, 0.0, heights.width() - 1.0);
     v = std::clamp(v, 0.0, heights.height() - 1.0);

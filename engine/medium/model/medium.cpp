@@ -22,7 +22,7 @@ bool insideGrid(const VolumeFrame& frame, const glm::dvec3& voxel) {
     return true;
 }
 
-// Trilinear; voxel: clamped to the grid.
+// Returns the trilinear value. voxel: clamped to the grid.
 double valueAt(const GreyVolume& field, const glm::dvec3& voxel) {
     const glm::ivec3 size = field.frame.size;
     const glm::dvec3 inside = glm::clamp(voxel, glm::dvec3(0.0), glm::dvec3(size - 1));

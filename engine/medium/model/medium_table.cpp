@@ -24,7 +24,7 @@ Place placeOf(double x, int intervals) {
     return {low, inside - low};
 }
 
-// In double precision, so that no result lies beyond its ends once it is a float again.
+// Mixes in double precision, so that no result lies beyond a and b once it is a float again.
 float mix(float a, float b, double s) {
     return static_cast<float>(a * (1 - s) + b * s);
 }

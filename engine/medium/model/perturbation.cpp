@@ -26,7 +26,7 @@ std::uint64_t hashOf(std::uint64_t counter) {
     return z ^ z >> 31;
 }
 
-// Uniform in -32767..32767.
+// Returns values uniform in -32767..32767.
 Channel whiteNoise(std::uint32_t seed, int channel) {
     Channel values(kTexels);
     for (int n = 0; n < kTexels; ++n) {
@@ -48,7 +48,7 @@ Channel blurred(const Channel& values, int stride) {
     return sums;
 }
 
-// Shifted to the mean 0 and stretched so that the farthest reaches the last byte.
+// Returns the values shifted to the mean 0 and stretched so that the farthest reaches the last byte.
 std::vector<std::uint8_t> stretched(const Channel& values) {
     long long sum = 0;
     for (const int v : values) sum += v;

@@ -60,7 +60,7 @@ std::vector<std::uint32_t> pairsOf(const std::vector<float>& entries) {
     return pairs;
 }
 
-// By the texels' own frame: so it may lie as it will, and layers need no grid.
+// Sets baked light by the texels' own frame: it may lie in any way, and layers need no grid.
 void setBaked(SweepLook& to, const BakedLook& look, const glm::dvec3& anchor) {
     const VolumeFrame& frame = look.light->frame;
     to.baked = bakedDataOf(look, frame);

@@ -22,7 +22,7 @@ namespace stereonav {
 
 class SweepEyes {
 public:
-    // space and kernels must outlive it.
+    // space and kernels must outlive the object.
     SweepEyes(const SweepSpace& space, const SweepKernels& kernels) : mSpace(space), mKernels(kernels) {}
 
     // Forgets what was gathered. geometry must outlive the frame. starts: see MediumSweep::render.

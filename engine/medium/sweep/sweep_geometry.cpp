@@ -111,9 +111,9 @@ void setAxis(SweepGeometry& g, const Lamp& lamp, const glm::dvec3& view, double 
     g.axis = length > 0 ? glm::normalize(std::cos(lean) * from + std::sin(lean) / length * aside) : from;
 }
 
-// Ahead of an eye inside the medium, `length` of it: slabs grow with the distance, the last being about
-// kGrowth times the first. What is near fills most of the picture there, and even slabs would show in it as
-// rings.
+// Returns distances of slabs ahead of an eye inside the medium, `length` of it: slabs grow with the distance,
+// the last being about kGrowth times the first. What is near fills most of the picture there, and even slabs
+// would show in it as rings.
 std::vector<double> gradedSteps(double length, int slices, double turn) {
     constexpr double kGrowth = 64;
     std::vector<double> distances;
@@ -128,8 +128,8 @@ std::vector<double> gradedSteps(double length, int slices, double turn) {
     return distances;
 }
 
-// Even faces over the box, of the medium alone, so that they stand still as one flies around it; graded ones
-// ahead of an eye inside.
+// Returns even faces over the box, of the medium alone, so that they stand still as one flies around it; for
+// an eye inside, graded ones ahead of it.
 std::vector<double> evenOrGraded(double low, double high, bool forward, const SweepSetting& setting,
                                  double eye) {
     std::vector<double> faces;

@@ -68,7 +68,7 @@ void SweepLightBuffers::setPlanes(SweepLight& light) {
     mSwapped = false;
 }
 
-// From column -1 to width + 1, row -1 to height + 1.
+// Makes room for columns -1 to width + 1 of rows -1 to height + 1.
 void SweepLightBuffers::setPacked(SweepLight& light) {
     light.packedStride = (light.width + 4 + kLineNumbers - 1) / kLineNumbers * kLineNumbers;
     light.packedPlane = static_cast<std::int64_t>(light.packedStride) * (light.height + 3) + kLineNumbers;
@@ -84,7 +84,7 @@ void SweepLightBuffers::setPacked(SweepLight& light) {
     light.packed = linesOf(mPacked) + kLineNumbers - 1;  // column 0 starts a line
 }
 
-// Scattered light as it sets out, in both turns.
+// Sets the scattered light to what it starts with, in both of the buffers that take turns.
 void SweepLightBuffers::setStart(const SweepLight& light) {
     const std::size_t plane = static_cast<std::size_t>(light.stride) * (light.height + 4);
     for (int y = -1; y <= light.height; ++y)
@@ -99,7 +99,7 @@ void SweepLightBuffers::setStart(const SweepLight& light) {
         }
 }
 
-// Around what is kept for the eyes.
+// Sets the ring of texels around those that are kept for the eyes.
 void SweepLightBuffers::setRing(const SweepLight& light) {
     const auto set = [&](int x, int y) {
         const float value =
@@ -197,7 +197,7 @@ void SweepLightBuffers::findStrips(const SweepGeometry& geometry, const SweepSpa
     parallelFor(tiles(), [&](int tile) { findStripsOf(geometry, *space, tile, middles); });
 }
 
-// Last slabs in which eyes read something.
+// Finds the last slab of each tile in which eyes read something.
 void SweepLightBuffers::findRead(int first, SweepReach* reach) {
     mRead = mLast;
     if (!reach || !reach->known()) return;
@@ -205,8 +205,9 @@ void SweepLightBuffers::findRead(int first, SweepReach* reach) {
     for (int tile = 0; tile < tiles(); ++tile) mRead[tile] = std::min(mRead[tile], reach->lastRead(tile));
 }
 
-// And those of what lies so near that light which spreads from here may get there. Never later than from a
-// slab before: light that stays behind is not asked for again.
+// Finds the last slab of each tile in which light is needed: for what eyes read there, and for what lies so
+// near that light which spreads from here may get there. Never later than from a slab before: light that
+// stays behind is not asked for again.
 void SweepLightBuffers::findNeeded(const SweepLight& light, const SweepGeometry& geometry, int slab) {
     mNeeded = mRead;
     const int last = std::min(*std::max_element(mRead.begin(), mRead.end()), geometry.slabs() - 1);
