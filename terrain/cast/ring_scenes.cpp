@@ -30,7 +30,7 @@ double samplesOf(const RingBox& box) {
     return double(box.size.x) * box.size.y;
 }
 
-// Held by rings, and those before them until these are there.
+// Returns the bytes that rings hold, with those before them until these are there.
 double bytesOf(const std::vector<RingBox>& boxes, const PartColors& colors) {
     double samples = 0, texels = 0, most = 0;
     for (const RingBox& box : boxes) {

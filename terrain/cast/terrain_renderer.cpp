@@ -109,7 +109,7 @@ struct TerrainRenderer::State {
         scene.sky = clear.sky = {sky.map().row(0), sky.map().width(), sky.map().stride()};
     }
 
-    // With or without its fog, of what is cast now.
+    // Returns what is cast now, with its fog or without.
     const CasterScene& shown(bool withoutFog) const {
         if (rings && rings->any()) return rings->first(withoutFog);
         return withoutFog ? clear : scene;

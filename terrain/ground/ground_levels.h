@@ -12,12 +12,13 @@
 
 namespace stereonav {
 
-// A ground whose levels lie elsewhere, as on disk (terrain/tiles). Sizes of its levels follow from the first.
+// A ground whose levels are stored elsewhere than in memory, as on disk (terrain/tiles). Sizes of its levels
+// follow from the first.
 struct StoredLevels {
     glm::ivec2 size{0};                      // samples of the ground itself
     glm::dvec2 spacing{1.0};                 // metres between them
-    float low = 0, high = 0;                 // metres, the least and the most that is known
-    std::uint64_t content = 0;               // names the heights of all levels
+    float low = 0, high = 0;                 // metres, of all known samples
+    std::uint64_t content = 0;               // identifies the heights of all levels
     std::vector<std::vector<float>> bounds;  // of each level's blocks, row by row; metres
     // Writes samples low to low + size - 1 of a level, metres, NaN where missing; from several threads at
     // once.
@@ -31,9 +32,9 @@ class GroundLevels {
 public:
     static constexpr int kBlock = kLevelBlock;  // cells of a level along each side of a block
 
-    // ground must outlive this. Levels end before one that would have less than a block each way.
+    // ground must outlive this. A coarser level is made only where it has kBlock cells each way or more.
     explicit GroundLevels(const Heightfield& ground);
-    // Computes nothing: heights are read from where they lie.
+    // Takes levels that are stored, whose heights are read when they are asked for.
     explicit GroundLevels(StoredLevels stored);
 
     int count() const { return static_cast<int>(mLevels.size()); }  // level 0 is the ground
@@ -46,17 +47,18 @@ public:
     // ground.
     glm::dvec2 gridFromWorld(const glm::dvec2& world) const { return (world - mOrigin) / mSpacing; }
     bool contains(const glm::dvec2& world) const;
-    bool stored() const { return mGround == nullptr; }  // elsewhere than in memory
-    // Names the heights of all levels: a hash of them, or what was said of those that are stored.
+    bool stored() const { return mGround == nullptr; }  // whether elsewhere than in memory
+    // Returns what tells the heights of all levels from others: a hash of level 0, or StoredLevels::content.
     std::uint64_t content() const;
 
     glm::ivec2 blocks(int level) const { return mLevels[level].blocks; }  // each way
-    // Returns a bound in metres: the surface of that level is nowhere further from the ground's, above or
-    // below, over that block, where both are known. 0 at level 0.
+    // Returns a bound in metres: over that block the surface of that level is nowhere further above or below
+    // the ground's, where both are known. 0 at level 0.
     float errorBound(int level, int blockI, int blockJ) const {
         return mLevels[level].bounds[static_cast<std::size_t>(blockJ) * mLevels[level].blocks.x + blockI];
     }
-    // Returns the bound, metres, of the block that a place lies in; world, clamped to the border.
+    // Returns the bound, metres, of the block that a place of the world lies in; beyond the border, of the
+    // nearest block.
     float errorBoundAt(int level, const glm::dvec2& world) const;
     float errorBound(int level) const { return mLevels[level].most; }  // the largest of a level, metres
 

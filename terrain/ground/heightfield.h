@@ -18,9 +18,9 @@ namespace stereonav {
 class Heightfield {
 public:
     Heightfield() = default;
-    // heights: metres above z = 0, width * height values, row 0 southernmost; NaN marks a hole in the
-    // ground (every cell touching it is open). spacing: metres, > 0. At least 2 x 2 samples, and one
-    // finite cell. Throws Error otherwise, named by `source`.
+    // heights: metres above z = 0, width * height values, row 0 southernmost; NaN marks a hole in the ground
+    // (every cell touching it is open). spacing: metres, > 0. At least 2 x 2 samples, and one finite cell.
+    // Throws Error otherwise, which names `source`.
     Heightfield(int width, int height, glm::dvec2 spacing, std::vector<float> heights,
                 const std::string& source);
     // Makes a part of a larger ground, whose sample (0, 0) lies there: world, metres.

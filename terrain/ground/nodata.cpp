@@ -41,7 +41,7 @@ FillLevel averaged(const FillLevel& fine) {
     return coarse;
 }
 
-// Bilinear between the centres of the coarse samples; clamped at the border.
+// Returns a bilinear mean between the centres of the coarse samples; clamped at the border.
 float between(const FillLevel& coarse, int fineI, int fineJ) {
     const double x = std::clamp(0.5 * fineI - 0.25, 0.0, coarse.width - 1.0);
     const double y = std::clamp(0.5 * fineJ - 0.25, 0.0, coarse.height - 1.0);

@@ -61,7 +61,7 @@ Head headIn(const std::filesystem::path& file) {
     return {};
 }
 
-// With the finest level that the file has, where it is such a file.
+// Returns the shape with the finest level of the file, where it is a file of finer light.
 FineLightShape asFineAs(const std::filesystem::path& file, FineLightShape shape) {
     checkFileToRead(file);
     const Head head = headIn(file);

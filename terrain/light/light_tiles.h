@@ -41,7 +41,7 @@ bool isFineLightOf(const std::filesystem::path& file, std::uint64_t key);
 
 class LightTiles {
 public:
-    // Opens a whole file, as far as it goes: shape.finest is not looked at. Throws Error named by the file
+    // Opens a whole file, as far as it goes: shape.finest is not looked at. Throws Error that names the file
     // where it is not whole, or its light or ground is another one.
     LightTiles(const std::filesystem::path& file, const FineLightShape& shape);
     // Begins a file, or goes on with the undamaged tiles that an earlier run left of it. Throws Error where
@@ -62,7 +62,7 @@ public:
     glm::ivec2 sizeOf(const Tile& tile) const;  // samples
 
     // Returns the tile's light at each of its samples, in a grid of its own; nothing where no sample is
-    // known. From any thread. Throws Error named by the file where it is not there or is damaged.
+    // known. From any thread. Throws Error that names the file where it is not there or is damaged.
     std::optional<TerrainLight> read(const Tile& tile) const;
 
     bool isWhole() const;  // reads all tiles: whether they are undamaged

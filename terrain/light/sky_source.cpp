@@ -64,7 +64,7 @@ void toneMap(LinearImage& probe, bool sphere) {
     }
 }
 
-// Bilinear; around the horizon the columns close, at top and bottom the rows end.
+// Returns a bilinear mean; around the horizon the columns close, at top and bottom the rows end.
 glm::vec3 lookUp(const LinearImage& image, double u, double v) {
     const double x = u * image.width - 0.5, y = std::clamp(v * image.height - 0.5, 0.0, image.height - 1.0);
     const double left = std::floor(x);

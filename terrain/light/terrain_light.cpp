@@ -191,7 +191,7 @@ private:
         return blocks;
     }
 
-    // From where an earlier run of the same bake was stopped.
+    // Goes on from where an earlier run of the same bake was stopped.
     void goOn() {
         allocate();
         if (!mKeeps) return;

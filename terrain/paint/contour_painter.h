@@ -45,7 +45,7 @@ double contourShareAt(const GroundSeen& seen, double least, const ContourSetting
 
 class ContourPainter final : public EyePainter {
 public:
-    // ground, fog: outlive it; the lines are seen through the fog as the ground is.
+    // ground and fog must outlive the painter; the lines are seen through the fog as the ground is.
     ContourPainter(const Heightfield& ground, const Fog& fog, const ContourSetting& setting,
                    SimdTarget target = SimdTarget::Auto)
         : mGround(ground), mFog(fog), mSetting(setting), mTarget(target) {}

@@ -10,7 +10,7 @@ namespace stereonav {
 
 class ContourRows {
 public:
-    // All but the target must outlive it.
+    // All parameters but target must outlive the object.
     ContourRows(const Heightfield& ground, const Fog& fog, const ContourSetting& setting, const EyeView& view,
                 SimdTarget target);
 

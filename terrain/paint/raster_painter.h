@@ -20,8 +20,8 @@ struct PaintStop {
 
 class RasterPainter final : public EyePainter {
 public:
-    // ground, fog: outlive it. values: by sample, row 0 southernmost, bilinear between them; clamped to 0 to
-    // 1, and a cell with a NaN stays as it is. stops: two or more.
+    // ground and fog must outlive the painter. values: by sample, row 0 southernmost, bilinear between them;
+    // clamped to 0 to 1, and a cell with a NaN stays as it is. stops: two or more.
     RasterPainter(const Heightfield& ground, const Fog& fog, Plane<float> values,
                   std::vector<PaintStop> stops);
 

@@ -40,7 +40,7 @@ double trackCover(double halfWidth, double distance) {
     return std::clamp(halfWidth + 0.5 - distance, 0.0, 1.0);
 }
 
-// Cut at the near plane; false: all of it lies before that.
+// Cuts a piece at the near plane. Returns false where all of it lies before that.
 bool cutAtNear(const EyeView& view, glm::dvec3& a, glm::dvec3& b) {
     const double da = glm::dot(a - view.eye, view.forward), db = glm::dot(b - view.eye, view.forward);
     if (!(da >= view.nearDepth) && !(db >= view.nearDepth)) return false;

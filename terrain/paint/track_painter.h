@@ -25,8 +25,8 @@ constexpr double kCasingShare = 0.65;  // of black beside the line
 
 class TrackPainter final : public EyePainter {
 public:
-    // ground, fog: outlive it. lines: two places or more each, world metres; closed ones come back by
-    // themselves. What lies beside the ground or in its holes is not drawn.
+    // ground and fog must outlive the painter. lines: two places or more each, world metres; closed ones come
+    // back by themselves. What lies beside the ground or in its holes is not drawn.
     TrackPainter(const Heightfield& ground, const Fog& fog, const std::vector<std::vector<glm::dvec2>>& lines,
                  const std::vector<glm::dvec2>& places);
 

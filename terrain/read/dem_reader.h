@@ -53,7 +53,7 @@ using BytesForSamples = std::function<double(double samples)>;
 // control points and projections whose scale is off by more than 1 % (web Mercator) are brought to metres;
 // over a pole the file's projection stays. Where the band or the vertical axis counts downward heights are
 // turned over. Without a georeference a sample is a metre wide, except for a coded tile: spacing from a path
-// that ends in zoom/x/y.png, else that of zoom 14 at 36 degrees north. Throws Error named by the file;
+// that ends in zoom/x/y.png, else that of zoom 14 at 36 degrees north. Throws Error that names the file;
 // Cancelled. after: where what it gives, or what reading takes, does not fit into the memory that can be had,
 // nothing is read.
 DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,

@@ -87,8 +87,8 @@ public:
         return mReader->readSpread(time_ms, most_ms, fill);
     }
 
-    // Names the content: path, size and time of change of each file that it is made of, overviews and the
-    // sources of virtual rasters among them.
+    // Identifies the content by path, size and time of change of each file that it is made of, overviews and
+    // the sources of virtual rasters among them.
     std::uint64_t identity() const { return mReader->identity(); }
     // Bytes of all these files on disk.
     double bytesOfFiles() const { return mReader->bytesOfFiles(); }

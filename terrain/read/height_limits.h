@@ -11,13 +11,13 @@
 
 namespace stereonav {
 
-// More than the Earth's radius: no height of any ground; casters are tried up to here.
+// More than the Earth's radius, so that no ground is as high; casters are tested up to here.
 constexpr double kMostHeight_m = 1e7;
 
-// Throws Error named by `file` where heights from low to high, times the vertical scale, are beyond
+// Throws Error that names `file` where heights from low to high, times the vertical scale, are beyond
 // kMostHeight_m, or so small that floats lose them. low, high: metres.
 inline void checkScaledHeights(const std::string& file, double low, double high, double verticalScale) {
-    constexpr double kLeast_m = 1e-30;  // floats hold eight digits from 1.2e-38
+    constexpr double kLeast_m = 1e-30;  // below 1.2e-38 floats lose digits
     const double most = std::max(std::abs(low), std::abs(high));
     const auto fail = [&](const char* expected, const char* advice) {
         throw Error(

@@ -39,8 +39,8 @@ public:
 std::unique_ptr<RasterPicture> openRasterPicture(const std::filesystem::path& file,
                                                  const std::string& expected, const std::string& advice);
 
-// Maps pixels of `target` to those of `source`. Throws Error named by `file` when there is no way between the
-// two reference systems.
+// Maps pixels of `target` to those of `source`. Throws Error that names `file` when there is no way between
+// the two reference systems.
 PixelMap mapPixels(const Georeference& target, const Georeference& source, const std::filesystem::path& file);
 
 // Whether the two rasters share ground. Throws Error as mapPixels does.

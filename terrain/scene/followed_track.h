@@ -23,8 +23,8 @@ using GroundRises = std::function<double(const glm::dvec2& place)>;
 // behind, twice averaged, so that corners and the jitter of receivers become turns. Above the ground by
 // `height` metres and more, at its samples and between them: over the highest ground within a second's way,
 // averaged. Holes are passed at the height beside them. places: two or more that differ, world metres, on the
-// ground. rises: null where `ground` is not a coarser one. Throws Error named `source` where places do not
-// differ.
+// ground. rises: null where `ground` is not a coarser one. Throws Error that names `source` where places do
+// not differ.
 RecordedPath followTrack(const Heightfield& ground, const std::vector<glm::dvec2>& places, double height,
                          const std::string& source, const GroundRises& rises = {});
 

@@ -59,7 +59,7 @@ struct PicturedGround {
 // elevation model's system) is laid where it belongs; one without covers the extent of the elevation file,
 // whatever its aspect. Masked and uncovered places get the tint. 8 or 16 bits, gray, colour or palette, taken
 // as sRGB; texels as fine as the image's pixels, 2^26 of them and mostDensity a sample each way at most.
-// Throws Error named by the image, among others where it does not overlap; Cancelled.
+// Throws Error that names the image, among others where it does not overlap; Cancelled.
 GroundColor picturedGround(const Heightfield& ground, const PicturedGround& pictured, double mostDensity,
                            Progress& progress);
 // Colours of a part of a ground, of any level: texels as fine as the picture's pixels, so many at most, or a

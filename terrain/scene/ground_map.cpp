@@ -21,7 +21,7 @@ constexpr int kHatch = 3;             // pixels of a hatch's stripe
 constexpr float kHatchDark = 0.02f, kHatchLight = 0.16f;  // linear
 constexpr const char* kDrawing = "drawing the map";
 
-// From the north-west, half way up: as relief maps are lit.
+// Returns a direction to the north-west, half way up: relief maps are lit from there.
 glm::dvec3 mapSun() {
     return glm::normalize(glm::dvec3(-1, 1, std::numbers::sqrt2));
 }

@@ -232,7 +232,7 @@ GroundTint::GroundTint(const Heightfield& ground, const TintPlace& place, const 
     }
 }
 
-// Where on the scales a height above the sea lies.
+// Returns where on the scales a height above the sea lies.
 double GroundTint::scaleHeight(const GrowthLines& lines, double metres) const {
     if (!mPlaced) return 1800 * (metres - mLow) * mPerMetre;
     if (!(metres > 0)) return metres;

@@ -41,7 +41,7 @@ GrowthLines growthLines(double latitude);
 
 class GroundTint {
 public:
-    // ground must outlive it.
+    // ground must outlive the tint.
     GroundTint(const Heightfield& ground, const TintPlace& place) : GroundTint(ground, place, ground) {}
     // Takes a part of a ground, finer than that or not: in the colours that it has as a part of the whole,
     // which must outlive this. place: that of the whole.
@@ -71,7 +71,7 @@ private:
     };
     double scaleHeight(const GrowthLines& lines, double metres) const;
     bool seaAt(const glm::dvec2& grid) const;
-    // From grid coordinates of the part to those of the whole.
+    // Turns grid coordinates of the part into those of the whole.
     glm::dvec2 inWhole(const glm::dvec2& grid) const { return mFirst + grid * mStep; }
 
     const Heightfield &mGround, &mWhole;

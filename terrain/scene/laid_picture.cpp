@@ -24,7 +24,7 @@ std::unique_ptr<RasterPicture> openPicture(const std::filesystem::path& file) {
     return openRasterPicture(file, "a picture", "give a JPEG, PNG or TIFF picture of the ground");
 }
 
-// Over the elevation file's extent, whatever its aspect.
+// Lays the picture over the elevation file's extent, whatever its aspect.
 void layOverAll(const DemGrid& dem, Georeference& place) {
     const double columns = dem.source.width / double(place.width);
     const double rows = dem.source.height / double(place.height);
@@ -98,7 +98,8 @@ LaidPicture::LaidPicture(const std::filesystem::path& file, const DemGrid& dem)
     mTone = picture->tone();
 }
 
-// By the places of the ground's samples in the world, whose origin is the middle of the model's grid.
+// Returns the texture's grid by the places of the ground's samples in the world, whose origin is the middle
+// of the model's grid.
 Georeference LaidPicture::gridOf(const Heightfield& ground, const GroundTextureSize& size) const {
     const glm::dvec2 first = -0.5 * glm::dvec2(mGrid.width - 1, mGrid.height - 1) * mSpacing;
     const glm::dvec2 samples = ground.spacing() / mSpacing, at = (ground.originWorld() - first) / mSpacing;

@@ -19,8 +19,8 @@ namespace stereonav {
 // Keeps no file open: every read opens it anew, so that parts may be read from any thread.
 class LaidPicture {
 public:
-    // Opens the picture. dem: its heights are not read. Throws Error named by the picture, among others where
-    // it does not overlap.
+    // Opens the picture. dem: its heights are not read. Throws Error that names the picture, among others
+    // where it does not overlap.
     LaidPicture(const std::filesystem::path& file, const DemGrid& dem);
 
     // Returns pixels a sample, each way, of a ground, or a part of one, at any of its levels: by that at the
@@ -40,7 +40,7 @@ public:
     const std::vector<std::string>& notes() const { return mTone.notes; }
     // "image winter.jpg 457x499 over the same extent"
     std::string describe() const;
-    // Throws Error named by the picture.
+    // Throws Error that names the picture.
     [[noreturn]] void throwNoOverlap() const;
 
 private:

@@ -50,7 +50,7 @@ glm::vec3 PartLight::quotientAt(const glm::dvec2& world) const {
     return mixed;
 }
 
-// Clamped to its samples, which are around all texels but at the ground's edge.
+// Returns a quotient, clamped to the samples, which are around all texels but at the ground's edge.
 glm::vec3 PartLight::quotientAt(const FineQuotients& fine, const glm::dvec2& world) const {
     const glm::ivec2 last(fine.quotients.width() - 1, fine.quotients.height() - 1);
     const glm::dvec2 grid = glm::clamp(

@@ -86,7 +86,8 @@ glm::dvec2 onEllipse(const Heightfield& ground, double radius, double angle) {
     return radius * halfExtents(ground) * glm::dvec2(std::cos(angle), std::sin(angle));
 }
 
-// Where near the border it is low and far from the summit; radians counter-clockwise from east.
+// Returns the direction in which the ground near the border is low and far from the summit; radians
+// counter-clockwise from east.
 double bestViewAngle(const Heightfield& ground) {
     constexpr int kCandidates = 32;
     const glm::dvec2 peak = highestPlace(ground);
@@ -149,7 +150,8 @@ std::vector<double> leastHeights(const Plan& plan, double height) {
     return least;
 }
 
-// Smooth and nowhere below `least`: every value is a mean of maxima whose windows all hold its place.
+// Returns values that are smooth and nowhere below `least`: each is a mean of maxima whose windows all hold
+// its place.
 std::vector<double> smoothAbove(const std::vector<double>& least) {
     const int count = static_cast<int>(least.size());
     const auto inside = [count](int k) { return std::clamp(k, 0, count - 1); };

@@ -26,7 +26,7 @@ public:
           mHeight(rows.place().height),
           mHeights(static_cast<std::size_t>(mWidth) * mHeight) {}
 
-    // False where it would take too long for the fewest.
+    // Returns false where it would take too long for the fewest.
     bool read() {
         if (!mRows.isPacked() && readInSteps()) return true;
         if (!mRows.readSpread(kTime_ms, kMuchMore * kTime_ms, guessMissing)) return false;

@@ -185,7 +185,7 @@ void loadColor(const SceneFile& file, const LoadedGround& loaded, TerrainScene& 
     if (litLater(file)) leaveOutLit(scene.report.colorSource);
 }
 
-// Null where none was baked. Throws Error where it does not go with that light.
+// Returns null where none was baked. Throws Error where it does not go with that light.
 std::shared_ptr<const FineLight> finerLight(const std::filesystem::path& place, const TerrainLight& light,
                                             const TerrainScene& scene) {
     const std::filesystem::path finer = fineLightPlace(place);

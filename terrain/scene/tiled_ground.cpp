@@ -62,7 +62,7 @@ void noteSize(const std::filesystem::path& dem, DemRows& rows, const std::filesy
         dem.string(), size.x, size.y, there / 1e6, memoryText(bytes), place.parent_path().string()));
 }
 
-// Anew; twice where only all samples tell which of them are missing.
+// Makes the store anew; reads twice where only all samples tell which of them are missing.
 void makeStore(const std::filesystem::path& dem, DemRows& rows, const TileSource& source,
                const std::filesystem::path& place, Progress& progress) {
     checkRoom(dem, place, source.size);
@@ -102,7 +102,7 @@ StorePlan storeOf(DemRows& rows) {
     return {std::move(source), place};
 }
 
-// Null where there is none, or it is of no use.
+// Returns null where there is none, or it is of no use.
 std::shared_ptr<const TileStore> storeThere(const StorePlan& plan) {
     try {
         return std::make_shared<TileStore>(plan.place, plan.source.content);
@@ -160,7 +160,7 @@ std::shared_ptr<const GroundLevels> levelsOf(const SceneFile& file, std::shared_
     return std::make_shared<GroundLevels>(storedLevels(std::move(store), spacing, file.verticalScale));
 }
 
-// More than readDem() takes, whatever the memory.
+// Whether the model has more samples than readDem() takes, whatever the memory.
 bool isBeyondMemory(const DemGrid& dem) {
     return dem.width > kMostDemSide || dem.height > kMostDemSide ||
            1ll * dem.width * dem.height > kMostDemSamples;

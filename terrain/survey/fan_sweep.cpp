@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kBelowAll = std::numeric_limits<float>::lowest();
 
-// Neither more than a float holds nor beyond it.
+// For a value that is neither finer nor larger than a float holds.
 float floatOf(double value) {
     return static_cast<float>(value);
 }
@@ -320,7 +320,7 @@ void FanSweep::walk(int at, const Column& column) {
     }
 }
 
-// By doubles.
+// Decides on one sample in doubles.
 void FanSweep::sampleAlone(int at, int row) {
     ++mCounts.alone;
     const double height = double(mGround.height(at, row)) + mTask.targetHeight;

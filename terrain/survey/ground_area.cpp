@@ -76,8 +76,8 @@ double surfaceOver(const Cell& cell, const Triangle& t) {
     return sum * t.area();
 }
 
-// Over and under a plane, in metres of height times the triangle's area. The middles of the sides are exact
-// for the second degree.
+// Returns what is over and under a plane, in metres of height times the triangle's area. The middles of the
+// sides are exact for the second degree.
 glm::dvec2 volumeOver(const Cell& cell, const Triangle& t, double plane, int halvings) {
     const glm::dvec2 ab = 0.5 * (t.a + t.b), bc = 0.5 * (t.b + t.c), ca = 0.5 * (t.c + t.a);
     const double corner[3] = {cell.height(t.a) - plane, cell.height(t.b) - plane, cell.height(t.c) - plane};

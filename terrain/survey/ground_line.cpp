@@ -83,7 +83,7 @@ void eachPiece(const GroundSamples& ground, const std::vector<glm::dvec2>& world
     }
 }
 
-// Up and down of a piece, whose height is a parabola.
+// Returns how far a piece, whose height is a parabola, goes up and how far down.
 glm::dvec2 climbOf(const LinePiece& piece) {
     const auto way = [](double rise) { return glm::dvec2(std::max(rise, 0.0), std::max(-rise, 0.0)); };
     if (piece.slope0 * piece.slope1 >= 0) return way(piece.height1 - piece.height0);

@@ -51,7 +51,7 @@ private:
 // One object is for one thread; copies are cheap, and share the tiles.
 class GroundSamples {
 public:
-    // ground must outlive it.
+    // ground must outlive the object.
     GroundSamples(const Heightfield& ground);  // NOLINT: a ground is its samples
     explicit GroundSamples(std::shared_ptr<SurveyTiles> tiles);
 

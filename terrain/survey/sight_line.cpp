@@ -108,7 +108,7 @@ public:
     double to() const { return mOut; }
 
 private:
-    // At a border the cell that lies ahead.
+    // Returns the cell of the present place; at a border, the cell that lies ahead.
     int cellAt(int axis, int low, int high) const {
         const double p = mLine.start[axis] + mS * mLine.step[axis];
         const double k = std::floor(p) - (p == std::floor(p) && mLine.step[axis] < 0 ? 1 : 0);

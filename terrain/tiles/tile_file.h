@@ -18,7 +18,7 @@ constexpr std::uint64_t kTileBytes = sizeof(float) * kTileSide * kTileSide;
 // The head of the file, as it lies there.
 struct TileFileHead {
     std::array<char, 8> magic{'s', 'n', 't', 'i', 'l', 'e', 's', '1'};
-    std::uint64_t content = 0;           // names the heights: TileStore's `content`
+    std::uint64_t content = 0;           // identifies the heights: TileStore's `content`
     std::int32_t width = 0, height = 0;  // samples of the finest level
     float low = 0, high = 0;             // metres, of the finest level
     std::int64_t missing = 0;            // samples of the finest level

@@ -15,8 +15,8 @@ namespace stereonav {
 // number of threads may read.
 class TileStore {
 public:
-    // Opens a store. content: names what the heights must be of. Throws Error named by the file where it is
-    // of something else, is cut off, or its index is damaged.
+    // Opens a store. content: identifies the heights that it must have. Throws Error that names the file
+    // where it is of something else, is cut off, or its index is damaged.
     TileStore(const std::filesystem::path& file, std::uint64_t content);
 
     int levels() const { return static_cast<int>(mPlan.levels().size()); }
@@ -29,7 +29,7 @@ public:
     const std::vector<float>& bounds(int level) const { return mBounds[level]; }
 
     // Writes samples low to low + size - 1 of a level, which has them; rows of size.x, the southernmost
-    // first; metres, NaN where missing. Throws Error named by the file where a tile can not be read or is
+    // first; metres, NaN where missing. Throws Error that names the file where a tile can not be read or is
     // damaged.
     void read(int level, const glm::ivec2& low, const glm::ivec2& size, float* heights) const;
 

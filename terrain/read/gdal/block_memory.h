@@ -12,7 +12,7 @@ namespace stereonav {
 // format: the driver's name.
 double bytesOfBlock(GDALDataset& dataset, const std::string& format);
 
-// Throws Error named by `name` where that is more than can be had.
+// Throws Error that names `name` where that is more than can be had.
 void checkBlocks(GDALDataset& dataset, const std::string& format, const std::string& name);
 
 }  // namespace stereonav

@@ -23,10 +23,10 @@ struct CodedTile {
     std::string note;  // where two codes would do, which was taken and why; "" else
 };
 
-// Square, of 256 or 512 pixels (of GSI 256), three or four 8-bit bands, not JPEG. Heights are told from
-// pictures by their carries: where the middle byte of heights changes the lowest one wraps, which no colours
-// do. Codes are told apart by the heights that they would give, where the tile lies by its path, and how
-// steep it would be.
+// Tells what code a tile has: it is square, of 256 or 512 pixels (of GSI 256), with three or four 8-bit
+// bands, not JPEG. Heights are told from pictures by their carries: where the middle byte of heights changes
+// the lowest one wraps, which no colours do. Codes are told apart by the heights that they would give, where
+// the tile lies by its path, and how steep it would be.
 CodedTile codedTileOf(GDALDataset& dataset, const std::filesystem::path& file);
 
 // "Terrain-RGB elevation tile"

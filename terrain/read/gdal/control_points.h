@@ -30,7 +30,7 @@ class PixelPlacement {
 public:
     using Transformer = std::unique_ptr<void, Destroy>;
 
-    // raster must outlive it. Throws Error named by no file where the points give no polynomial.
+    // raster must outlive the object. Throws Error that names no file where the points give no polynomial.
     explicit PixelPlacement(const Georeference& raster);
     glm::dvec2 fromPixel(const glm::dvec2& pixel) const;
     // Where control points place the raster this is a fit of its own, not quite the other's inverse.

@@ -111,7 +111,7 @@ bool lookLikeDegrees(const std::vector<FilePlan*>& plans) {
     });
 }
 
-// Checked to go together, and laid on one side of 180 degrees.
+// Returns the files, checked to go together, and laid on one side of 180 degrees.
 FolderChoice filesOfOneGround(const std::filesystem::path& folder, const GdalMessages& messages) {
     const std::vector<std::filesystem::path> all = elevationFilesIn(folder);
     if (all.empty()) throwMisfit(folder, "", "expected elevation files, found a folder without any", kAdvice);

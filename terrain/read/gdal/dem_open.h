@@ -23,8 +23,8 @@ struct OpenedDem {
 // counts, but for its missing samples; where there is none samples are missing. Missing is what each file
 // says, or its type's custom, or a -9999 that it does not name, where all heights lie far above that
 // (HeightSamples::findCustomary(); where files overlap or are resampled by some samples of each:
-// hasDeepGround()). Of netCDF files of several variables the one that is called heights. Throws Error named
-// by the file that does not fit.
+// hasDeepGround()). Of netCDF files of several variables the one that is called heights. Throws Error that
+// names the file that does not fit.
 OpenedDem openDem(const std::filesystem::path& place, const GdalMessages& messages);
 
 // The dataset with at most so many samples, at least 2 each way, as a virtual raster over it: one sample of

@@ -163,7 +163,7 @@ Georeference turnedOver(const Georeference& source) {
     return grid;
 }
 
-// Placed by what is not read here; without, it would be taken for one that has no place.
+// Refuses a file that is placed by what is not read here: it would be taken for one that has no place.
 void checkPlacement(GDALDataset& dataset, const std::filesystem::path& file, bool georeferenced) {
     if (georeferenced) return;
     for (const auto& [domain, advice] : {std::pair{"RPC", "rectify it, for example with gdalwarp -rpc"},

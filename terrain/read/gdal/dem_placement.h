@@ -15,7 +15,7 @@
 namespace stereonav {
 
 // Fills in driver, crs, datum, body, source, georeferenced and notes. dataset: opened.dataset, or thinned
-// from it. Throws Error named by the file where its samples lie nowhere or are less than 2x2.
+// from it. Throws Error that names the file where its samples lie nowhere or are less than 2x2.
 void describeSource(GDALDataset& dataset, const OpenedDem& opened, const std::filesystem::path& file,
                     DemGrid& dem);
 
@@ -29,7 +29,7 @@ struct DemPlacement {
     std::string stretch;        // of the plane over a pole, in words
 };
 
-// Throws Error named by the file where there is no way to metres or the grid is beyond the limits.
+// Throws Error that names the file where there is no way to metres or the grid is beyond the limits.
 DemPlacement placementOf(const Georeference& source, const std::filesystem::path& file,
                          const RasterLimits& limits);
 

@@ -15,14 +15,13 @@ struct ResampledDem {
 };
 
 // Samples of `source`, in its row order, at the pixels of `target`. Missing where the nearest sample is
-// missing, so that holes keep their size. What holds for each height, whatever the ground:
-// - it lies between the lowest and the highest of the four source samples around it;
-// - each summit and each pit of the source (no higher, or no lower, sample among its eight neighbours) that
-// lies on
-//   the target has a sample of just its height, at most one source sample away along rows and columns: the
-//   nearest one, unless that is a summit or pit already. This needs a target that is not coarser than the
-//   source; where it is, what is not held is the lesser of what meets in one sample.
-// Throws Error named by `file` where there is no way between the reference systems; Cancelled.
+// missing, so that holes keep their size. What holds for each height, whatever the ground: - it lies between
+// the lowest and the highest of the four source samples around it; - each summit and each pit of the source
+// (no higher, or no lower, sample among its eight neighbours) that lies on   the target has a sample of just
+// its height, at most one source sample away along rows and columns: the   nearest one, unless that is a
+// summit or pit already. This needs a target that is not coarser than the   source; where it is, what is not
+// held is the lesser of what meets in one sample. Throws Error that names `file` where there is no way
+// between the reference systems; Cancelled.
 ResampledDem resampleDem(const std::vector<float>& samples, const Georeference& source,
                          const Georeference& target, const std::filesystem::path& file, Progress& progress);
 

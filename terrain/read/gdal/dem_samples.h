@@ -23,7 +23,7 @@ struct SampleWindow {
 // counted for what only all samples tell.
 class HeightSamples {
 public:
-    // dataset must outlive it. Throws Error when the raster holds no elevations.
+    // dataset must outlive the object. Throws Error when the raster holds no elevations.
     HeightSamples(GDALDataset& dataset, const std::filesystem::path& file);
 
     const HeightBand& band() const { return mBand; }
@@ -46,7 +46,8 @@ public:
     // For heights that were read before.
     void dropCustomary(float* heights, std::size_t count) const;
 
-    // After all was read. Throws Error for relief that floats would turn to steps: it would be other ground.
+    // Called after all was read. Throws Error for relief that floats would turn to steps: it would be other
+    // ground.
     void checkPrecision() const;
     const HeightTally& tally() const { return mTally; }
     bool allMissing() const;

@@ -26,7 +26,8 @@
 namespace stereonav {
 namespace {
 
-// Else a twentieth of the machine's memory, some of which the heap keeps after a file is closed.
+// Bounds GDAL's blocks, which else take a twentieth of the machine's memory. The heap keeps some of that
+// after a file is closed.
 void boundBlocks() {
     constexpr double kShare = 0.25, kLeast = 4 << 20;
     const bool wished = CPLGetConfigOption("GDAL_CACHEMAX", nullptr) != nullptr;

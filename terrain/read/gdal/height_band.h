@@ -46,7 +46,7 @@ private:
 // The band of heights. Of several it is the one whose description or names speak of heights; else the only
 // one with a unit of length; else the first. A colour table, or three bands and more of whole numbers without
 // such a word, are a picture. Heights are in the band's unit, else in that of the vertical reference system,
-// else in metres; where band or system count downward they are turned over. Throws Error named by `file`,
+// else in metres; where band or system count downward they are turned over. Throws Error that names `file`,
 // NoHeights among them.
 HeightBand heightBandOf(GDALDataset& dataset, const std::filesystem::path& file);
 

@@ -16,7 +16,7 @@ struct PixelBox {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-// Metres, thinned to so many columns and rows; NaN where missing.
+// Returns the heights in a box, metres, thinned to so many columns and rows; NaN where missing.
 std::vector<double> someHeights(GDALDataset& dataset, const HeightBand& band, const PixelBox& box,
                                 int columns, int rows) {
     std::vector<double> some(static_cast<std::size_t>(columns) * rows);
@@ -37,11 +37,11 @@ std::vector<double> someHeights(GDALDataset& dataset, const HeightBand& band, co
     return some;
 }
 
-// Measures of the numbers that are there.
+// Statistics of the values that are finite.
 struct Spread {
     double low = 0, high = 0, median = 0, deviation = 0;
-    std::size_t count = 0, kinds = 0;  // how many differ
-    bool whole = true;                 // without fractions
+    std::size_t count = 0, kinds = 0;  // how many values; how many distinct ones
+    bool whole = true;                 // no value has a fraction
 };
 
 Spread spreadOf(std::vector<double> values) {
@@ -62,7 +62,8 @@ Spread spreadOf(std::vector<double> values) {
     return spread;
 }
 
-// Mean step from a sample to the next eastward, as a share of how far samples spread; 0 where they are level.
+// Returns the mean step from a sample to the next one eastward as a share of their standard deviation; 0
+// where they are level.
 double roughness(const std::vector<double>& rows, int columns, double deviation) {
     double sum = 0, count = 0;
     for (std::size_t n = 1; n < rows.size(); ++n) {
@@ -97,7 +98,7 @@ void weighSamples(GDALDataset& dataset, const FolderFile& file, HeightEvidence& 
     weigh(rough > 0.6, -1, "its steps");
 }
 
-// Samples of a and b at the same places of the part that both cover.
+// Returns samples of a and b at the same places of the part that both cover.
 std::pair<std::vector<double>, std::vector<double>> shared(GDALDataset& a, const FolderFile& fileA,
                                                            GDALDataset& b, const FolderFile& fileB) {
     constexpr double kPlaces = 32;
@@ -165,7 +166,7 @@ bool isOtherGround(GDALDataset& a, const FolderFile& fileA, GDALDataset& b, cons
     const double both = ofA.deviation * ofB.deviation;
     const double alike = both > 0 ? product / both : 0,
                  steeper = both > 0 ? ofB.deviation / ofA.deviation : 0;
-    // Counted from another zero, as above the ellipsoid and above the geoid.
+    // One relief counted from two zeros, such as the ellipsoid and the geoid, is not another ground.
     return !(alike > 0.9 && steeper > 0.8 && steeper < 1.25);
 }
 

@@ -51,7 +51,7 @@ bool isAlpha(GDALRasterBand& band) {
     return band.GetColorInterpretation() == GCI_AlphaBand;
 }
 
-// Without an alpha band.
+// Returns the bands, without those of alpha.
 std::vector<int> colorBands(GDALDataset& dataset) {
     std::vector<int> bands;
     for (int k = 1; k <= dataset.GetRasterCount(); ++k)

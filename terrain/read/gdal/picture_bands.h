@@ -21,8 +21,8 @@ struct PictureBands {
     int count() const { return kind == Kind::Rgb ? 3 : kind == Kind::Cmyk ? 4 : 1; }
 };
 
-// By their colour interpretation, else by their descriptions (red, B04), else the first three that are no
-// alpha. Throws Error for colours that are none of these.
+// Chooses the bands of colour by their colour interpretation, else by their descriptions (red, B04), else
+// takes the first three that are no alpha. Throws Error for colours that are none of these.
 PictureBands pictureBandsOf(GDALDataset& dataset, const std::filesystem::path& file);
 
 // All that its bits hold; where 98 % of the pixels of 16 bits lie in the lower half of that, as measured

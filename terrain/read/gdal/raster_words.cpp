@@ -12,7 +12,7 @@ bool isLetter(char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0;
 }
 
-// In small letters. A capital after a small letter begins a word too: demSlope.
+// Returns words in small letters. A capital after a small letter begins a word too: demSlope.
 std::vector<std::string> wordsIn(const std::string& text) {
     std::vector<std::string> words(1);
     for (std::size_t n = 0; n < text.size(); ++n) {

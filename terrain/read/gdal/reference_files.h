@@ -15,7 +15,7 @@ namespace stereonav {
 // none, or only grids by their bare names, which PROJ looks up among its own.
 std::string pathInReference(std::string_view definition);
 
-// Throws Error named by `file` where the system names a path. Null: does nothing.
+// Throws Error that names `file` where the system names a path. Null: does nothing.
 void checkReference(const OGRSpatialReference* system, const std::string& file);
 
 // The same for one element or attribute of a virtual raster or of metadata beside a raster, whose text is a

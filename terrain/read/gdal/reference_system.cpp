@@ -110,7 +110,7 @@ Box around(const std::array<Box, 4>& edges) {
     return box;
 }
 
-// Between the two edges lying west and east, and the two lying south and north.
+// Returns the box between the two edges lying west and east, and the two lying south and north.
 Box inside(const std::array<Box, 4>& edges) {
     const auto before = [](const Box& a, const Box& b, int axis) {
         return a.min[axis] + a.max[axis] < b.min[axis] + b.max[axis];

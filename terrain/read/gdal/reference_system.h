@@ -33,9 +33,8 @@ bool holdsPole(const Georeference& raster);
 
 // The raster's samples on a grid in metres, north up: in a transverse Mercator projection whose origin is the
 // raster's middle; with ownSystem, or without a reference system, in the raster's own units, turned level.
-// Steps are those of the source at its middle. The grid is the rectangle inside the raster where
-// that keeps nine tenths of the area around it, else the rectangle around it. Throws Error named by
-// `file`.
+// Steps are those of the source at its middle. The grid is the rectangle inside the raster where that keeps
+// nine tenths of the area around it, else the rectangle around it. Throws Error that names `file`.
 Georeference metricGrid(const Georeference& raster, bool ownSystem, const std::filesystem::path& file);
 
 // mapPixels() for a run of the target's rows at a time, whose places are the same: for targets larger than

@@ -24,7 +24,7 @@ public:
     SampleReader(const float* samples, const SampleWindow& window, int width, int height)
         : mSamples(samples), mWindow(window), mWidth(width), mHeight(height) {}
 
-    // Within the window.
+    // Returns a sample within the window.
     float at(int i, int j) const {
         return mSamples[static_cast<std::size_t>(j - mWindow.y) * mWindow.width + (i - mWindow.x)];
     }
@@ -48,7 +48,7 @@ public:
         return {x, y, last(high.x, mWidth) - x + 1, last(high.y, mHeight) - y + 1};
     }
 
-    // At a place inside.
+    // Returns the value at a place inside.
     float between(const glm::dvec2& pixel) const {
         const double x = std::clamp(pixel.x - 0.5, 0.0, mWidth - 1.0);
         const double y = std::clamp(pixel.y - 0.5, 0.0, mHeight - 1.0);

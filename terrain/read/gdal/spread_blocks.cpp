@@ -69,7 +69,7 @@ public:
           mHeights(static_cast<std::size_t>(size.x) * size.y, kNotThere),
           mRead(mHeights.size(), 0) {}
 
-    // False where the fewest take too long.
+    // Returns false where the fewest take too long.
     bool read(double time_ms, double most_ms) {
         const Stopwatch watch;
         int count = 0;

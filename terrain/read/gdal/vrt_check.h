@@ -23,15 +23,15 @@ struct VirtualRasterFiles {
     std::vector<std::filesystem::path> all, outside;  // outside: not in the folder of the one that names them
 };
 
-// None where it is no virtual raster. Throws Error named by `file` unless all that it names, and so on, are
+// None where it is no virtual raster. Throws Error that names `file` unless all that it names, and so on, are
 // local files of the formats read here, and files that are read as plain numbers lie in its folder or below.
 VirtualRasterFiles filesOfVirtualRaster(const std::filesystem::path& file);
 
 // One line on the files outside the folder; "" where there are none.
 std::string outsideNote(const std::filesystem::path& file, const VirtualRasterFiles& files);
 
-// Checks the file itself when GDAL opens it, whoever named it; not what its files are. Throws Error named by
-// `file`.
+// Checks the file itself when GDAL opens it, whoever named it; not what its files are. Throws Error that
+// names `file`.
 void checkOpenedVirtualRaster(const std::filesystem::path& file);
 
 // nullptr-terminated; of formats that hold their data themselves, and VRT.
