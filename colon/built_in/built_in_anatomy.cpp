@@ -166,7 +166,7 @@ double indexOfTurn(const std::vector<Control>& line, double turn) {
     return static_cast<double>(after - line.begin()) - (high.turn - turn) / (high.turn - low.turn);
 }
 
-// Where each millimetre of a line is on another line of the same spline.
+// Returns where each millimetre of a line is on another line of the same spline.
 std::vector<double> matchOf(const std::vector<Control>& from, const std::vector<Control>& to) {
     std::vector<double> match;
     for (std::size_t n = 0; n < from.size(); ++n)
@@ -204,14 +204,14 @@ void BuiltInAnatomy::makeAxis(std::uint64_t seed, double bend, double inflation)
     makeFluid();
 }
 
-// Where a place of the unbent axis is on this one, mm along both.
+// Returns where a place of the unbent axis is on this one, mm along both.
 double BuiltInAnatomy::bentAlong(double along) const {
     const double at = std::clamp(along, 0.0, static_cast<double>(mBent.size() - 1));
     const auto n = std::min(static_cast<std::size_t>(at), mBent.size() - 2);
     return mBent[n] + (at - static_cast<double>(n)) * (mBent[n + 1] - mBent[n]);
 }
 
-// In the descending part, which sags to the back and rises above the level at both ends.
+// Puts fluid into the descending part, which sags to the back and rises above the level at both ends.
 void BuiltInAnatomy::makeFluid() {
     mFluid.y = 66;
     double first = length(), last = 0;

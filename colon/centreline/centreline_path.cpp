@@ -51,7 +51,7 @@ std::vector<float> nodeDistances(const VoxelGraph& graph, const DistanceVolume& 
     return deepest;
 }
 
-// In the memory of the distances. At least 1, at the node farthest from the wall.
+// Returns weights in the memory of the distances: least, 1, at the node farthest from the wall.
 std::vector<float> wallWeights(std::vector<float> distances) {
     float deepest = 0;
     for (const float d : distances) deepest = std::max(deepest, d);

@@ -6,7 +6,8 @@
 
 namespace stereonav {
 
-// Points are in world metres. The lumen and the distances must outlive it; safe to use from many threads.
+// Points are in world metres. The lumen and the distances must outlive the probe; safe to use from many
+// threads.
 class LumenProbe {
 public:
     LumenProbe(const LumenField& lumen, const DistanceVolume& distance, int segment);

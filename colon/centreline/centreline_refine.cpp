@@ -187,7 +187,7 @@ bool allInside(const LumenProbe& probe, const Points& points) {
     return true;
 }
 
-// Resampled, unless the line would leave the lumen where it cuts a corner.
+// Returns the points resampled, unless the line would leave the lumen where it cuts a corner.
 Points evened(const LumenProbe& probe, const Points& points, double spacing) {
     Points even = resampleEvenly(probe, points, spacing);
     return allInside(probe, even) ? even : points;

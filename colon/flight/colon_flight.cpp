@@ -129,7 +129,8 @@ glm::dvec3 ColonFlight::State::besideWall(const glm::dvec3& by, double range, bo
     return move;
 }
 
-// Taken only as far as it raises the room by half its length, so that it ends between opposite walls.
+// Returns the place after a push, which is taken only as far as it raises the room by half its length, so
+// that it ends between opposite walls.
 glm::dvec3 ColonFlight::State::pushed(const glm::dvec3& wall, double length) const {
     const glm::dvec3 right = view.right();
     const double before = room.room(position, right, 1);
@@ -282,7 +283,7 @@ bool ColonFlight::State::findOnLine() {
     return seen;
 }
 
-// From the wanted place straight to the line's nearest point: the first place with room.
+// Goes from the wanted place straight to the line's nearest point, to the first place with room.
 bool ColonFlight::State::findPlaceTowardsLine(const glm::dvec3& wanted) {
     if (line.runs().empty()) return false;
     position = wanted;
@@ -297,7 +298,7 @@ bool ColonFlight::State::findPlaceTowardsLine(const glm::dvec3& wanted) {
     return false;
 }
 
-// False, and nothing changed, when there is none.
+// Moves to a place with room near the wanted one. Returns false, with nothing changed, where there is none.
 bool ColonFlight::State::findPlace(const glm::dvec3& wanted) {
     const glm::dvec3 before = position;
     position = wanted;

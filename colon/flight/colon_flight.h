@@ -66,7 +66,7 @@ public:
     // Returns the clearance of the nearer eye, at the largest separation, metres; at most kFarthestClearance.
     double clearanceNow() const override;
     static constexpr double kFarthestClearance = 0.1;  // metres
-    // With the head as it is, and the eyes at their largest separation.
+    // Whether the way is clear for the head as it is turned, with the eyes at their largest separation.
     bool wayIsClear(const glm::dvec3& from, const glm::dvec3& to) const override;
     void moveTo(const Pose& pose) override;
     std::optional<double> along() const override;  // while guided

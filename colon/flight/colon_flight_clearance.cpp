@@ -39,7 +39,7 @@ struct Flier {
         const glm::dvec3 right = pose.orientation * glm::dvec3(1, 0, 0);
         return {time, freeAt(free, pose.position + aside * right, upTo), pose};
     }
-    // At least as far as the point moves from one to the other.
+    // Returns a distance, at least as far as the point moves from one to the other.
     double way(const Look& a, const Look& b) const {
         const glm::dquat turn = glm::conjugate(a.pose.orientation) * b.pose.orientation;
         const double sine = glm::length(glm::dvec3(turn.x, turn.y, turn.z));
@@ -47,8 +47,8 @@ struct Flier {
                std::abs(aside) * 2 * std::asin(std::min(sine, 1.0));
     }
 
-    // Never above what is kept between the two, and below it by no more than the tightness or the whole
-    // flight's least, which is brought down by each look.
+    // Returns a bound: never above what is kept between the two, and below it by no more than the tightness
+    // or the whole flight's least, which is brought down by each look.
     double leastBetween(const Look& a, const Look& b, double& leastSeen, int halvings) const {
         leastSeen = std::min({leastSeen, a.distance, b.distance});
         const double bound = std::max(0.0, (a.distance + b.distance - way(a, b)) / 2);

@@ -9,7 +9,7 @@
 namespace stereonav {
 namespace {
 
-// From 0 to 1, at rest at both ends.
+// Returns the eased share, from 0 to 1: at rest at both ends.
 double easedTurn(double share) {
     const double t = std::clamp(share, 0.0, 1.0);
     return t * t * (3 - 2 * t);
@@ -17,7 +17,7 @@ double easedTurn(double share) {
 
 }  // namespace
 
-// About the head's own up, so that it is no somersault. Turned round again half way it goes back.
+// Turns round about the head's own up, so that it is no somersault. Called again half way it turns back.
 void ColonFlight::State::turnRound() {
     back = !back;
     const double left = roundAngle * (1 - easedTurn(roundTime / kRoundSeconds));

@@ -61,7 +61,7 @@ std::vector<Stop> stopsOf(const FlightLine& line, const FlightRun& run, bool bac
     return stops;
 }
 
-// With the head as upright as it can be.
+// Returns a view in that direction, with the head as upright as it can be.
 FlightView startView(const glm::dvec3& direction) {
     const double pitch = std::asin(std::clamp(direction.z, -1.0, 1.0));
     const double heading = std::atan2(direction.x, direction.y);

@@ -30,7 +30,7 @@ struct ColonFlight::State {
     void substep(const FlightInput& wish, double h);
     void turn(const FlightInput& wish, double h);
     void turnTo(const FlightView& wanted);
-    // False where the eyes have no room, even aside.
+    // Returns false where the eyes have no room, even aside.
     bool turnPiece(const FlightView& next);
     void moveFree(const FlightInput& wish, double h);
     void moveGuided(const FlightInput& wish, double h);

@@ -84,7 +84,7 @@ bool Coverage::reaches(const Chunk& chunk, const EyeView& view) const {
     return glm::length(to) - r <= mSetting.within && glm::dot(to, view.forward) > -r;
 }
 
-// On the wall itself every line of sight would end in it.
+// Returns a place off the wall: on the wall itself every line of sight would end in it.
 glm::dvec3 Coverage::lifted(std::uint32_t vertex) const {
     return glm::dvec3(mMesh.places[vertex]) +
            kLift * mSight.smallestSpacing() * glm::dvec3(mMesh.normals[vertex]);

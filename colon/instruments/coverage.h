@@ -44,7 +44,8 @@ public:
     // Returns the distance free of wall around a place, metres, at most upTo (ColonScene::freeDistanceAt).
     using FreeDistance = std::function<double(const glm::dvec3& world, double upTo)>;
 
-    // All but the setting must outlive it. Nothing is seen yet. Throws Error for settings out of range.
+    // mesh, neighbours and sight must outlive the object. Nothing is seen yet. Throws Error for settings out
+    // of range.
     Coverage(const WallMesh& mesh, const WallNeighbours& neighbours, const LineOfSight& sight,
              const CoverageSetting& setting);
 
@@ -54,7 +55,8 @@ public:
     // Adds what is in these pictures.
     void look(std::span<const EyeView> eyes, Progress& progress);
     // From here on the wall is shared with the other processes of this run, each of which calls look() as
-    // this one does; the first has what is seen, the others have nothing of use. They must outlive it.
+    // this one does; the first has what is seen, the others have nothing of use. peers must outlive the
+    // object.
     void shareWith(Peers& peers) { mPeers = &peers; }
     // Forgets all that was seen. Throws as the constructor.
     void startAgain(const CoverageSetting& setting);

@@ -39,10 +39,10 @@ struct Finding {
 
 class FindingTool {
 public:
-    // colon must outlive it; wall: the wall of it. Values are those of its `study`, where it has one.
+    // colon must outlive the tool; wall: the wall of it. Values are those of its `study`, where it has one.
     FindingTool(const ColonScene& colon, std::shared_ptr<const JoinedWall> wall);
 
-    // Takes values from this study from now on, which must outlive it.
+    // Takes values from this study from now on, which must outlive the tool.
     void useStudy(const GreyVolume& study);
 
     // Measures what is at a place: world, metres. Where there is no polyp `problem` says so.

@@ -1,12 +1,12 @@
-// The wall of a colon as it is seen from both ends: what lies behind a fold from the one shows from the
-// other.
+// The wall of a colon as it is seen from either end of its line: what a fold hides from one end shows from
+// the other.
 //
-// An eye goes along the line and looks, at each place, in a ring half way between ahead and aside: 45 degrees
-// off the line. The rings beside each other are a strip: as long as the line, as high as a turn around it,
-// where rays to the same side of the line are in the same row. The one strip looks ahead from the rectum's
-// end, the other one back from the caecum's. Both keep a place of a straight wall in the same column. Unlike
-// the unfolded wall (unfolding.h) these are views: wall is hidden as it is hidden in flight, areas are not
-// true, and in bends a place may be seen twice or not at all, as with any rays from a line.
+// An eye goes along the line. At each place it sees a ring of wall, by rays 45 degrees off the line: half way
+// between ahead and aside. These rings, side by side, are a strip: as long as the line, as high as a turn
+// around it; rays to the same side of the line are in the same row. One strip looks ahead from the rectum's
+// end, the other back from the caecum's. A place of a straight wall is in the same column of both. Unlike the
+// unfolded wall (unfolding.h) these are views: wall is hidden as it is hidden in flight, areas are not true,
+// and in bends a place may be seen twice or not at all, as with any rays from a line.
 #pragma once
 
 #include <array>
@@ -28,25 +28,25 @@ namespace stereonav {
 
 class Panorama {
 public:
-    enum class End { Rectum = 0, Caecum = 1 };  // from which the eye looks
+    enum class End { Rectum = 0, Caecum = 1 };  // end of the line that the eye starts from
 
-    // All must outlive it. pixel: metres along the line, > 0. The same on any number of threads. Throws Error
-    // (no line, too large a picture), Cancelled.
+    // field and sight must outlive the panorama. pixel: metres along the line, > 0. The result does not
+    // depend on the number of threads. Throws Error (no line, too large a picture), Cancelled.
     Panorama(const GreyVolume& field, const Centreline& line, const LineOfSight& sight, double pixel,
              Progress& progress);
 
-    // A place of the wall in picture(), and the eye that sees it. World, metres.
+    // A place of the wall that picture() shows, and the eye that sees it: world, metres.
     struct Place {
         glm::dvec3 wall{0.0}, eye{0.0};
     };
-    // Told what a pixel of picture() shows, from many threads.
+    // Called from many threads with what a pixel of picture() shows.
     using Seen = std::function<void(int x, int y, const Place& place)>;
 
     int width() const { return mWidth; }
     int height() const { return mHeight; }
-    // Returns both strips, that from the rectum above, lit by the eye's own lamp; white where there is no
-    // eye. Between them a mark each centimetre of the line, a longer one every ten. seen: told of each pixel
-    // that shows something; null for none. Throws Cancelled.
+    // Returns both strips, the rectum's above, lit by the eye's own lamp; white where there is no eye.
+    // Between them is a mark at each centimetre of the line, a longer one at every tenth. seen: called for
+    // each pixel that shows something; null for none. Throws Cancelled.
     Plane<PackedColor> picture(const VolumeLook& look, Progress& progress, const Seen& seen = nullptr) const;
 
     int rows() const { return 2 * mHeight + kGap; }  // pixels, of picture()
@@ -54,11 +54,13 @@ public:
 
     // Whether the ring of some eye passes through a place (in the lumen; world, metres) with nothing between.
     bool shows(End from, const glm::dvec3& place) const { return eyeThatSees(from, place).has_value(); }
-    // Returns where a place (world, metres) lies in picture(), continuous pixels: from the rectum's end, from
-    // the caecum's; none where it does not show. Of several eyes that see it the one nearest to the rectum.
+    // Returns where a place (world, metres) shows in picture(), in continuous pixels: in the strip from the
+    // rectum's end, and in that from the caecum's; none where it does not show. Of several eyes that see it
+    // the one nearest to the rectum counts.
     std::array<std::optional<glm::dvec2>, 2> pixelsOf(const glm::dvec3& place) const;
 
-    // Shares of the wall's area, 0 to 1: what the strip from each end shows, and what one of both shows.
+    // Shares of the wall's area, 0 to 1: what shows from the rectum's end, from the caecum's, and from at
+    // least one of them.
     struct Shares {
         double rectum = 0, caecum = 0, either = 0;
     };
@@ -67,7 +69,7 @@ public:
 private:
     static constexpr int kGap = 14;  // pixels between the strips
 
-    // The eye of a column, and where its ring is looked at.
+    // The ray of a pixel: the frame of its column's eye, and the direction.
     struct Ray {
         UnfoldingLine::Frame from;
         glm::dvec3 way{0.0};  // unit

@@ -158,7 +158,7 @@ std::vector<std::array<std::uint32_t, 3>> trianglesOf(const WallMesh& mesh, cons
     return inside;
 }
 
-// In planes of voxels half a millimetre apart, as a reader would page through slices.
+// Measures in planes of voxels half a millimetre apart, as a reader would page through slices.
 void measureSlices(const WallMesh& mesh, const std::vector<std::array<std::uint32_t, 3>>& triangles,
                    MeasuredPolyp& polyp) {
     constexpr double kApart = 0.0005, kMostPlanes = 4000;

@@ -23,7 +23,7 @@ double storedAt(const GreyVolume& study, const glm::ivec3& voxel) {
     return study.at(voxel) * study.scale + study.offset;
 }
 
-// Trilinear; NaN beyond the study.
+// Returns the trilinear value; NaN beyond the study.
 double valueAt(const GreyVolume& study, const glm::dvec3& world) {
     const glm::dvec3 place = study.frame.voxelFromWorld(world), low = glm::floor(place), part = place - low;
     const glm::ivec3 first(low);
@@ -45,8 +45,8 @@ double medianOf(std::vector<double>& values) {
 
 using Profile = std::array<double, 2 * kSteps + 1>;
 
-// From air (0) to tissue (1) along a vertex's normal, `far` metres to each side; false where there is
-// neither.
+// Finds the profile along a vertex's normal, `far` metres to each side, from air (0) to tissue (1). Returns
+// false where either is missing.
 bool profileAt(const GreyVolume& study, const WallMesh& wall, std::size_t vertex, double far,
                Profile& profile) {
     const glm::dvec3 place(wall.places[vertex]), inwards = -glm::dvec3(wall.normals[vertex]);
@@ -84,7 +84,7 @@ NearWall wallAround(const WallMesh& wall, const MeasuredPolyp& polyp, const glm:
     return near;
 }
 
-// Inside the flesh of the polyp, and so far from all wall.
+// Whether a place is inside the flesh of the polyp, and so far from all wall.
 bool isDeepInside(const NearWall& near, const glm::dvec3& place, double away) {
     double least = std::numeric_limits<double>::infinity();
     std::size_t nearest = 0;

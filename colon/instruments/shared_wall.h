@@ -20,7 +20,7 @@ std::shared_ptr<const JoinedWall> joinedWall(const ColonScene& colon, Progress& 
 // Gives the wall to all who measure on it, on any number of threads: it lives as long as somebody holds it.
 class SharedWall {
 public:
-    // colon must outlive it.
+    // colon must outlive the object.
     explicit SharedWall(const ColonScene& colon) : mColon(colon) {}
 
     // Returns the wall, which is made where nobody has it; who asks meanwhile waits for that one. Throws as

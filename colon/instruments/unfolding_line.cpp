@@ -82,7 +82,7 @@ std::vector<float> cotangents(const WallMesh& mesh, const WallNeighbours& neighb
     return weights;
 }
 
-// From known vertices outward, ring by ring, the mean of what is known next to each.
+// Fills unknown vertices ring by ring from known ones outward, with the mean of what is known next to each.
 void fillUnknown(const WallNeighbours& neighbours, std::vector<glm::vec3>& values,
                  std::vector<std::uint8_t> known) {
     std::vector<std::uint32_t> ring, next;

@@ -67,7 +67,8 @@ Plane<PackedColor> UnfoldedWall::picture(const VolumeLook& look, std::span<const
     return picture;
 }
 
-// By square of `side` pixels: the wall's area in it over its own; -1 where it is not all within the picture.
+// Returns, by square of `side` pixels, the area of the wall in it divided by its own; -1 where it is not all
+// within the picture.
 std::vector<float> UnfoldedWall::densities(int side) const {
     const int columns = mWidth / side, rows = mHeight / side;
     std::vector<float> density(static_cast<std::size_t>(columns) * rows, 0);

@@ -135,7 +135,8 @@ struct Ball {
     glm::dvec3 middle{0.0};  // world
     double radius = 0;
 };
-// Around the box of the voxels that reach the isovalue; of one voxel around that.
+// Returns a ball around the box of the voxels that reach the isovalue; where that is one voxel, a ball around
+// the voxel.
 Ball ballAround(const GreyVolume& field, float isovalue) {
     glm::ivec3 low = field.frame.size, high(-1);
     const glm::ivec3 size = field.frame.size;

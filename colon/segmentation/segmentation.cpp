@@ -55,7 +55,8 @@ LumenCrop cropOf(const GreyVolume& study, const AirPieces& air, const FluidPools
 
 using SliceDone = std::function<void(int k)>;  // of the study: it is not read any more
 
-// HU in the crop's frame; tissue beyond the study and on the outermost voxels, which closes the lumen.
+// Returns HU in the crop's frame; tissue beyond the study and on the outermost voxels, which closes the
+// lumen.
 GreyVolume cutField(const GreyVolume& study, const LumenCrop& crop, const SliceDone& done) {
     checkLumenMemory(crop);
     GreyVolume field(crop.frame);
@@ -109,7 +110,7 @@ void releaseUnmarked(const MaskVolume& marks, int k) {
     releaseZeroPages(marks.values, marks.frame.index(0, 0, k), marks.frame.index(0, 0, 1));
 }
 
-// In the order of voxels.
+// Returns the marked voxels that have an unmarked neighbour, in the order of the volume.
 std::vector<glm::ivec3> markedBorder(const MaskVolume& marks) {
     const glm::ivec3 size = marks.frame.size;
     std::vector<std::vector<glm::ivec3>> slices(static_cast<std::size_t>(std::max(0, size.z - 2)));
@@ -204,7 +205,7 @@ std::vector<int> worthKeeping(const Pieces& pieces, const VolumeFrame& frame) {
     return bySize;
 }
 
-// Where a lumen's frame lies in the study's; nothing unless it is a part of the same grid.
+// Returns where a lumen's frame lies in the study's; nothing unless it is a part of the same grid.
 std::optional<LumenCrop> placeIn(const VolumeFrame& lumen, const VolumeFrame& study) {
     const glm::dvec3 voxel = study.voxelFromWorld(lumen.origin), nearest = glm::round(voxel);
     for (int a = 0; a < 3; ++a)

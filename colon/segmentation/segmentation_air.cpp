@@ -34,7 +34,7 @@ public:
     AirJudge(const GreyVolume& study, AirPieces& air)
         : mStudy(study), mAir(air), mMeasures(study, air.pieces) {}
 
-    // By what each is by itself.
+    // Judges each piece by itself.
     void judgeEach() {
         const std::size_t count = mAir.pieces.parts.list.size();
         mAir.kinds.resize(count);
@@ -43,7 +43,7 @@ public:
         for (std::size_t n = 0; n < count; ++n) mAir.kinds[n] = kindOf(static_cast<int>(n));
     }
 
-    // By what else there is.
+    // Judges pieces by the others.
     void compare() {
         leaveDense();
         measureColon();

@@ -38,7 +38,7 @@ bool isVolumeName(const fs::path& path) {
     return isNiftiPair(path);  // .hdr and .img are names of other things as well
 }
 
-// In blocks on all threads; the value depends on the bytes alone.
+// Hashes blocks on all threads; the value depends on the bytes alone.
 std::uint64_t hashOfFile(const fs::path& file) {
     const MappedFile mapped(file);
     std::vector<std::uint64_t> blocks((mapped.size() + kHashBlock - 1) / kHashBlock);
@@ -110,7 +110,7 @@ std::string ownerOf(const fs::path& path) {
     return "";
 }
 
-// True for a folder and a file of slices; throws Error for what is neither that nor a volume file.
+// Returns true for a folder and a file of slices; throws Error for what is neither that nor a volume file.
 bool isDicom(const fs::path& path) {
     std::error_code code;
     if (!fs::exists(path, code)) throw Error(path.string(), "", "does not exist", "check the name");

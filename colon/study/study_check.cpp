@@ -18,7 +18,7 @@ std::string bytesText(double bytes) {
     return fmt::format("{:.3g} {}", bytes, units[unit]);
 }
 
-// In floating point, so that no product overflows.
+// Multiplies in floating point, so that no product overflows.
 double voxelsOf(const std::vector<std::uint64_t>& size) {
     double voxels = 1;
     for (const std::uint64_t n : size) voxels *= static_cast<double>(n);

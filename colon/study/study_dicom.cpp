@@ -148,7 +148,7 @@ Scanned scanFiles(const std::vector<fs::path>& files) {
     return all;
 }
 
-// In the folder itself, or, where it is the root of a disc without any, in those below.
+// Looks in the folder itself or, where it is the root of a disc and has no slices, in all folders below it.
 Scanned scanPlace(const fs::path& folder) {
     Scanned scanned = scanFiles(filesIn(folder));
     if (scanned.slices.empty() && isRootOfDisc(folder)) scanned = scanFiles(filesBelow(folder));

@@ -340,7 +340,7 @@ void DicomFile::readHead(const fs::path& file) {
     mBig = mSyntax == kBigEndian;
 }
 
-// By what the elements before the pixels say of them.
+// Returns the bytes of the pixels by what the elements before them say.
 double DicomFile::pixelBytes() const {
     const std::uint64_t columns = word(0x00280011, 0), rows = word(0x00280010, 0);
     const std::uint64_t samples = word(0x00280002, 1), bits = word(0x00280100, 16);

@@ -80,7 +80,7 @@ std::string asideOf(const DicomSlice& slice, const DicomItem& set) {
     return "";
 }
 
-// True for the storage of pictures (PS3.4 B.5), not for reports, plans, waveforms and the like.
+// Returns true for the storage of pictures (PS3.4 B.5), not for reports, plans, waveforms and the like.
 bool isImageClass(const std::string& uid) {
     static const std::string kStorage = "1.2.840.10008.5.1.4.1.1.";
     if (!uid.starts_with(kStorage) || uid == kStorage + "4.2") return false;  // 4.2: spectra

@@ -34,7 +34,7 @@ void addLook(SliceLook look, SliceLooks& looks);  // appends the next slice
 // thread, start none.
 class FactsBeside {
 public:
-    // raw must outlive it and keep its samples where they are. airBelow: lookAtSlice()'s.
+    // raw must outlive the object and keep its samples where they are. airBelow: lookAtSlice()'s.
     explicit FactsBeside(const RawStudy& raw, const std::optional<double>& airBelow = {});
     ~FactsBeside();
     // Tells it that so many bytes of samples have come; they do not change any more. Called by the reading

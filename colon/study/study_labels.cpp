@@ -40,7 +40,7 @@ std::string labelText(const NamedLabel& label) {
     return fmt::format("{} \"{}\"", label.value, shortText(label.name));
 }
 
-// By its number where it is one that a label has, else by its name, else by its ID.
+// Returns the labels that have the wanted number, else those of that name, else those of that ID.
 std::vector<NamedLabel> matchesOf(const std::string& wanted, const std::vector<NamedLabel>& labels) {
     const auto number = labelNumber(wanted);
     const auto where = [&](const auto& isMeant) {

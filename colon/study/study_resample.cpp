@@ -20,7 +20,7 @@ struct Axis {
     int first;      // sample before the place
     double weight;  // of the one behind
 };
-// False where `place` (in samples) lies outside of [0, count - 1].
+// Returns false where `place` (in samples) lies outside of [0, count - 1].
 bool locate(double place, int count, Axis& axis) {
     if (!(place > -kNothing && place < count - 1 + kNothing)) return false;
     axis.first = std::clamp(static_cast<int>(std::floor(place + kNothing)), 0, count - 1);

@@ -96,7 +96,7 @@ double usualStep(const Stack& stack) {
     return *middle;
 }
 
-// True when all steps are alike; else throws, unless that is to be mended.
+// Returns true when all steps are alike; else throws, unless that is to be mended.
 bool checkSteps(const Stack& stack, double usual, bool resample) {
     const double tolerance = std::max(kStepTolerance * usual, kStepTolerance_mm);
     for (std::size_t k = 0; k + 1 < stack.slices.size(); ++k) {

@@ -45,7 +45,7 @@ ValueFacts scaledFacts(ValueFacts facts, const RawStudy& raw) {
     return facts;
 }
 
-// With the names that the header gives.
+// Returns a list of labels, with the names that the header gives.
 std::string labelList(const std::vector<double>& values, const MaskLabels& labels) {
     std::string text;
     int listed = 0;

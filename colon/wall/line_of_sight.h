@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// The volume and its cells must outlive it; safe to use from many threads.
+// The volume and its cells must outlive the object; safe to use from many threads.
 class LineOfSight {
 public:
     // The wall is where the trilinear value of `field` reaches `isovalue` (stored numbers); `cells` are those

@@ -73,7 +73,7 @@ private:
         return corners > 0 && corners < 8;
     }
 
-    // Where the wall crosses the edge between two voxels of which one is inside, from a, in [0, 1].
+    // Returns where the wall crosses the edge between two voxels of which one is inside, from a, in [0, 1].
     double crossing(const glm::ivec3& a, const glm::ivec3& b) const {
         const double from = mField.at(a), to = mField.at(b);
         // Voxels are told apart by the mask: equal values there are another lumen's.
@@ -122,7 +122,7 @@ private:
         }
     }
 
-    // Around the edge from the cell's lowest corner along the axis.
+    // Adds the quad around the edge that leaves the cell's lowest corner along the axis.
     void addQuad(const glm::ivec3& cell, int axis, std::vector<Triangle>& triangles) const {
         glm::ivec3 next = cell;
         ++next[axis];

@@ -60,7 +60,7 @@ std::string placeWords(const MmPlace& p) {
     return fmt::format("{:.2f}, {:.2f}, {:.2f} mm to the left, back and head", p[0], p[1], p[2]);
 }
 
-// False where there is no finite number to say.
+// Returns false where there is no finite number to say.
 bool addNumber(Group& group, const DSRCodedEntryValue& name, const std::optional<double>& value,
                Units::EnumType unit) {
     if (!value || !std::isfinite(*value)) return false;

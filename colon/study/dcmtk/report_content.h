@@ -11,7 +11,7 @@ namespace stereonav {
 // Throws Error naming what could not be said.
 void check(const OFCondition& done, const char* what);
 
-// Into a new document. Throws Error.
+// Adds the content to a new document. Throws Error.
 void addContent(const StructuredReport& report, DSRDocument& document);
 
 }  // namespace stereonav
