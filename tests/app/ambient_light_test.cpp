@@ -24,7 +24,7 @@ protected:
                              1000 - 100 * std::hypot(i - 15.5, j - 11.5, k - 11.5)});
         });
     }
-    // Smooth, so that a sample a rounding beside another shows much the same.
+    // A smooth transfer function, so that a sample a rounding beside another shows much the same.
     std::string glass() const {
         return input("glass.txt",
                      "reference_mm 1\n200 0.9 0.2 0.1 0\n400 0.9 0.6 0.1 0.02\n"

@@ -35,7 +35,7 @@ protected:
         change.ambient = scene.offered<SurfaceChoices>()->ambient;
         return changed(scene, change);
     }
-    // Seen from where the first scene is.
+    // Returns the scene's eyes, seen from where the first scene is.
     static EyePair pictureOf(Scene& scene, const Scene& from) {
         Lens lens = from.lens;
         lens.width = 96;

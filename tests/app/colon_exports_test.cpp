@@ -37,7 +37,8 @@ protected:
                     file += char(inside(1.2 * i - 18.6, 0.8 * j - 18, 1.5 * k - 36.75) ? 1 : 0);
         return input(name, file);
     }
-    // Along z, round at both ends, its axis from -kTubeHalf to kTubeHalf.
+    // Whether a place lies in a tube along z that is round at both ends; its axis goes from -kTubeHalf to
+    // kTubeHalf.
     static bool inTube(double x, double y, double z) {
         return std::hypot(x, y, z - std::clamp(z, -kTubeHalf, kTubeHalf)) < kTubeRadius;
     }
@@ -48,7 +49,7 @@ protected:
             return std::hypot(x - 3, y + 2, z - std::clamp(z, -kTubeHalf, kTubeHalf - 6)) < kTubeRadius;
         });
     }
-    // With a pocket towards x, 6 mm wide and deep, whose end no flight along the axis sees.
+    // Returns a tube with a pocket towards x, 6 mm wide and deep, whose end no flight along the axis sees.
     std::string pocketTube() const {
         return mask("pocket.nrrd", [](double x, double y, double z) {
             return inTube(x, y, z) || (x > 0 && x < 15 && std::hypot(y, z - 6) < 3);

@@ -17,7 +17,7 @@ protected:
         return nrrd("scan.nrrd", {120, 110, 120, 1, "short", ""},
                     [](int i, int j, int k) { return TubeBody::hu(glm::dvec3(i, j, k) * 0.001); });
     }
-    // From the tube's axis: towards the fluid, where heading is 0, or away from it.
+    // Returns a picture seen from the tube's axis: towards the fluid, where heading is 0, or away from it.
     Plane<PackedColor> rendered(const std::string& study, int heading, std::vector<std::string> more) const {
         std::vector<std::string> arguments{"render", study,   "--no-cache", "--size", "64x64", "--quiet",
                                            "--out",  "a.png", "--fov",      "40",     "--pose"};

@@ -31,7 +31,7 @@ inline void expectPrintable(const std::string& printed) {
     }
 }
 
-// And none of the lines is a stranger's.
+// Expects printable text of which no line is a stranger's.
 inline void expectTextAlone(const std::string& printed) {
     expectPrintable(printed);
     EXPECT_EQ(("\n" + printed).find("\nstereonav: forged"), std::string::npos) << printed;

@@ -37,7 +37,7 @@ protected:
     }
 };
 
-// Where the window's eyes come to rest at a pose: its own control, fed with its own frames.
+// Returns where the window's eyes come to rest at a pose: its own control, fed with its own frames.
 StereoSetting settledInWindow(const Scene& scene, const Pose& head) {
     ViewStereo stereo(scene);
     ViewFrame frame;

@@ -29,7 +29,7 @@ std::string lineAgainst(const Words& arguments) {
     return "";
 }
 
-// Something that the option takes.
+// Returns a value that the option takes.
 std::string sampleOf(const Option& option) {
     const ValueType& type = option.value;
     if (type.kind == ValueKind::Word) return type.words.front();

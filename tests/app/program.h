@@ -107,7 +107,7 @@ protected:
         ASSERT_FALSE(hasEnded(child)) << "it ended by itself";
     }
 
-    // Exit status 1, one line on stderr that holds every one of `words`, nothing on stdout, and
+    // Expects exit status 1, one line on stderr that holds every one of `words`, nothing on stdout, and
     // nothing left in `place`.
     void expectRefused(const std::vector<std::string>& arguments,
                        const std::vector<std::string>& words) const {

@@ -44,14 +44,14 @@ protected:
         setenv("XDG_CACHE_HOME", mCacheBefore.c_str(), 1);
         VolumeTest::TearDown();
     }
-    // More voxels, so that a lumen has a wall to look at.
+    // A study with more voxels, so that a lumen has a wall to look at.
     std::string tubeStudy() const { return maskedTube(); }
 
     static std::unique_ptr<Scene> sceneOf(const SettingTexts& settings) {
         Progress quiet;
         return loadScene(viewOptionsOf(settings).scene, {64, 48}, quiet);
     }
-    // Opened as a picture and as a view has it.
+    // Expects the scene to open as a picture and as a view has it.
     static void expectOpened(const SettingTexts& settings) {
         const ViewOptions options = viewOptionsOf(settings);
         SCOPED_TRACE(commandLineOf(settings));

@@ -17,7 +17,7 @@ protected:
         Words words;
         Words fields;
     };
-    // Near Krakow.
+    // Hills near Krakow.
     std::string placedHills() const {
         const std::string file = input("placed.asc",
                                        "ncols 3\nnrows 3\nxllcorner 20\nyllcorner 50\ncellsize 0.001\n"

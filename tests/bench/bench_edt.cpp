@@ -59,7 +59,7 @@ MaskVolume windingTube() {
     return mask;
 }
 
-// Empty where the file is not there or not of the expected size.
+// Returns an empty mask where the file is not there or not of the expected size.
 MaskVolume realMask() {
     const char* folder = std::getenv("STEREONAV_TEST_DATA");
     const std::filesystem::path file = std::filesystem::path(folder ? folder : "../shared/data") /

@@ -51,7 +51,7 @@ public:
         return {clock[clock.size() / 2], clock[0], *std::min_element(processor.begin(), processor.end())};
     }
     const std::vector<MediumPicture>& pictures() const { return mPictures; }
-    // Before a medium that was timed is destroyed.
+    // To be called before a medium that was timed is destroyed.
     void forget() {
         mGpu.reset();
         mMedium = nullptr;

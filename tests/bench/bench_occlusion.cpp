@@ -22,7 +22,7 @@ GreyVolume volumeOf(const char* name) {
     return paperVolume(PaperData(""), name, name).volume;
 }
 
-// Empty where the file is not there.
+// Returns an empty volume where the file is not there.
 GreyVolume foundVolume(const char* name) {
     return PaperData("").find(name).empty() ? GreyVolume() : volumeOf(name);
 }

@@ -43,7 +43,7 @@ double groundHeight(double x, double z) {
            25 * std::sin(x * 0.013) * std::sin(z * 0.011 + x * 0.002) + 6 * std::sin(x * 0.05 + z * 0.03);
 }
 
-// Level view from 120 m above a ground with hills, sky above.
+// A level view from 120 m above a ground with hills, sky above.
 EyeImage groundImage(const EyeView& view) {
     EyeImage image;
     image.resize(view.width, view.height, ViewDependence::Normal);

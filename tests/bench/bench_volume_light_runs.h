@@ -35,7 +35,7 @@ struct SweepPath {
     SweepRun run;  // empty: there is none here
 };
 
-// medium must outlive it.
+// medium must outlive the result.
 inline SweepPath cpuPath(const Medium& medium) {
     auto sweep = std::make_shared<MediumSweep>(medium);
     return {"CPU", [sweep](const MediumLook& look, const SweepSetting& setting, std::span<const EyeView> eyes,

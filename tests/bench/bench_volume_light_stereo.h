@@ -1,4 +1,5 @@
-// Two eyes from one sweep: what they cost and how much they differ from two sweeps; and the marks.
+// Two eyes from one sweep: what they cost and how much they differ from two sweeps; and the ratios of times
+// that are tracked from run to run.
 #pragma once
 
 #include <array>
@@ -12,7 +13,8 @@
 
 namespace stereonav::bench {
 
-// The slices as they lie for an eye that is turned to the subject's middle, under rays of the eye as it is.
+// Returns slices along an axis of one eye's own, which points at the subject's middle, with that eye's rays
+// of the shared sweep.
 inline SweepGeometry ownGeometry(const Medium& medium, const MediumLook& look, const SweepSetting& setting,
                                  const EyeView& eye, const SweepGeometry& shared, std::size_t number) {
     EyeView turned = eye;
@@ -26,7 +28,8 @@ inline SweepGeometry ownGeometry(const Medium& medium, const MediumLook& look, c
     return own;
 }
 
-// By the book, since the fast sweeps choose the axis themselves.
+// Prints what an axis of each eye's own would change. The plain sweep is used, since the fast ones choose the
+// axis themselves.
 inline void printOwnAxes(const MediumSubject& subject) {
     constexpr int kSize = 64;
     const Medium medium = subject.medium();
@@ -53,7 +56,7 @@ inline void printOwnAxes(const MediumSubject& subject) {
     }
 }
 
-// Both eyes at once, and each in a sweep of its own.
+// Prints what both eyes in one sweep cost, and each in a sweep of its own, and how these pictures differ.
 inline void printStereo(const MediumSubject& subject, int size, GpuSweepTimer& timer) {
     const Medium medium = subject.medium();
     const StereoViews stereo = stereoViewsOf(medium, size);
@@ -93,10 +96,10 @@ inline void printStereo(const MediumSubject& subject, int size, GpuSweepTimer& t
 struct MediumMarks {
     std::string subject;
     SweepTime unshaded, full, stereo;  // CPU
-    SweepTime shaders;                 // 1e300: no llvmpipe here
+    SweepTime shaders;                 // 1e300: llvmpipe does not draw here
 };
 
-// Least times of runs that take turns, so that what else the machine does touches all alike.
+// Returns the least times of runs that take turns, so that what else the machine does touches all alike.
 inline MediumMarks measureMarks(GpuSweepTimer& timer) {
     constexpr int kSize = 512, kTurns = 9;
     std::vector<MediumSubject> heads = headSubject(true);

@@ -123,7 +123,8 @@ inline MediumSubject waxSubject() {
             0};
 }
 
-// Empty where there are no real data. Surfaces stay where they are asked for: they cost gradients.
+// Returns an empty list where there are no real data. Surfaces stay where they are asked for: they cost
+// gradients.
 inline std::vector<MediumSubject> headSubject(bool surfaces) {
     const auto file = mediumData() / "ct" / "headsq" / "quarter.nhdr";
     if (!std::filesystem::exists(file)) return {};

@@ -14,7 +14,7 @@ public:
         std::ofstream("/proc/self/clear_refs") << "5";
         mBefore = megabytesOf("VmRSS:");
     }
-    // Above what was held at the beginning; megabytes of 10^6 bytes.
+    // Returns the peak above what was held at the beginning; megabytes of 10^6 bytes.
     double more() const { return megabytesOf("VmHWM:") - mBefore; }
 
 private:

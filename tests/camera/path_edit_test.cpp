@@ -35,7 +35,8 @@ double apart(const Pose& a, const Pose& b) {
     return glm::distance(a.position, b.position);
 }
 
-// Along a circle of 100 m, slow, fast and with a pause in the middle, turning with it.
+// Returns a pose on a flight along a circle of 100 m, slow, fast and with a pause in the middle, turning with
+// it.
 Pose unevenCircle(double t) {
     const double way = t < 4 ? 0.02 * t * t : t < 7 ? 0.32 : 0.32 + 0.3 * (t - 7);
     return poseFromAngles({100 * std::sin(way), 100 * std::cos(way), 5}, way + 1.5, -0.1, 0);

@@ -37,7 +37,7 @@ double lumenValueAt(const LumenField& lumen, const glm::dvec3& world) {
     return sum;
 }
 
-// Inside, evenly spaced, radii never beyond the nearest outside voxel's centre.
+// Expects points inside, evenly spaced, with radii never beyond the nearest outside voxel's centre.
 void expectSound(const LumenField& lumen, const Centreline& line, double spacing) {
     ASSERT_FALSE(line.points.empty());
     for (std::size_t n = 0; n < line.points.size(); ++n) {

@@ -79,7 +79,7 @@ TEST(ColonFlight, StraightFlightHasTheSpeedThatWasSet) {
     EXPECT_NEAR(glm::length(glm::dvec2(flight.pose().position.x, flight.pose().position.z)), 0, 1e-12);
 }
 
-// Where the same wishes lead in steps of some milliseconds.
+// Returns where the same wishes lead in steps of some milliseconds.
 glm::dvec3 flownIn(const AnalyticLumen& lumen, int mode, int milliseconds) {
     ColonFlight flight = flightIn(lumen);
     flight.setMode(mode);

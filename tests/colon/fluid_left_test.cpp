@@ -36,7 +36,8 @@ const GreyVolume& tubeScan() {
     return scan;
 }
 
-// Where a step from air to fluid, blurred by a Gaussian, has the wall's value: metres before the step.
+// Returns where a step from air to fluid, blurred by a Gaussian, has the wall's value: metres before the
+// step.
 double beforeTheStep(double wall) {
     const double share = (wall - kAirHu) / (kFluidHu - kAirHu);
     double low = -5, high = 0;  // of the normal distribution: share is below a half

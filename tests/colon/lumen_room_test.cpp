@@ -11,7 +11,7 @@
 namespace stereonav::test {
 namespace {
 
-// Free of the wall of a tube of 12 mm along x with a ball of 5 mm on it.
+// Returns the distance free of the wall of a tube of 12 mm along x with a ball of 5 mm on it.
 double freeInTube(const glm::dvec3& p, double upTo) {
     const double wall = 0.012 - std::hypot(p.y, p.z), ball = glm::distance(p, {0.02, 0.012, 0}) - 0.005;
     return std::min({wall, ball, upTo});

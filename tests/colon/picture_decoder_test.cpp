@@ -54,7 +54,7 @@ TEST(PictureDecoderAnswer, IsRefusedWhereOneDoesNot) {
     EXPECT_FALSE(pixelsOf(std::string(sizeof(PictureAnswer) - 1, '\0'), kAskedPixels));
 }
 
-// Through a helper that says it.
+// Returns the complaint about a picture whose helper answers so.
 std::string pixelComplaint(const std::string& said) {
     const test::LyingHelper liar("gdcm", said);
     PictureDecoder decoder;

@@ -27,7 +27,7 @@ StudyOptions resampling() {
     return options;
 }
 
-// In HU, linear in space (millimetres).
+// Returns HU that are linear in space (millimetres).
 double field(const glm::dvec3& mm) {
     return 10 * mm.x - 20 * mm.y + 5 * mm.z;
 }

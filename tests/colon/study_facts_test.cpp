@@ -13,7 +13,7 @@
 namespace stereonav {
 namespace {
 
-// Large enough for a thread of its own.
+// A study large enough for a thread of its own.
 RawStudy zerosOf64Megabytes() {
     RawStudy raw;
     raw.type = SampleType::UInt8;

@@ -74,7 +74,7 @@ Sheet sheetOf(int side, double step, double thick, const glm::dquat& turn, const
     return sheet;
 }
 
-// So that normals point to all of the axes, and between them.
+// Returns rotations by which normals point along all of the axes, and between them.
 std::vector<glm::dquat> attitudes() {
     const auto about = [](const glm::dvec3& axis, double angle) {
         return glm::angleAxis(angle, glm::normalize(axis));
@@ -204,7 +204,7 @@ const LumenWall& plate() {
     return wall;
 }
 
-// On the plate's lower face (-1) or upper one (1), off its edges.
+// Whether a vertex is on the plate's lower face (-1) or upper one (1), off its edges.
 bool isOnFace(const WallMesh& mesh, std::size_t v, int face) {
     const glm::vec3& p = mesh.places[v];
     return std::abs(p.z - face * kPlateHalf) < 1e-4 && p.x < kPlateEdge - 0.001 &&

@@ -8,10 +8,10 @@
 
 namespace stereonav::test {
 
-// Between instruction sets, both eyes cast in full.
+// How near instruction sets are to each other, both eyes cast in full.
 Nearness betweenSets(const Row& row);
 
-// Plain kernels beside the oracle, both eyes in full.
+// How near plain kernels are to the oracle, both eyes in full.
 Nearness besideOracle(const Row& row);
 // A medium whose surfaces are shaded at places and between them; the oracle shades each sample.
 bool isShadedBetweenPlaces(const Row& row);
@@ -21,10 +21,11 @@ Nearness besideEachSample(const Row& row);
 // is that of 64x1 pixels, 178 degrees across, whose near plane cuts the wall.
 bool isSeenOtherwiseByOracle(const Row& row);
 
-// Rays at edges, beside whole pictures cast through the same places.
+// How near rays at edges are to whole pictures cast through the same places.
 Nearness besidePlainEdges(const Row& row);
 
-// Right eyes beside one cast in full, by the same instruction set; nothing where the method is to be wrong.
+// How far right eyes are from one cast in full, by the same instruction set; none where the method is to be
+// wrong.
 std::optional<Range> rangeOfRight(const Row& row);
 // Pixels many times as tall as they are wide: rays added at an edge see what the pixel's own ray and its
 // neighbours are far from, and whether two pixels beside a contrast are an edge falls out differently in a

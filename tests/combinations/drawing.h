@@ -23,7 +23,7 @@ public:
     Drawing(const Drawing&) = delete;
     Drawing& operator=(const Drawing&) = delete;
 
-    // At the scene's start pose, as the options say.
+    // Draws both eyes at the scene's start pose, as the options say.
     Eyes eyes();
     // What rays are added to pixels at edges, of both eyes of eyes().
     const EdgeSetting& edges() const { return mEdges; }

@@ -51,7 +51,7 @@ struct FactorLevels {
     const char* name;
     std::vector<std::string> levels;  // the first: nothing is said
 };
-// In the order of the enumeration.
+// Returns the factors in the order of their enumeration.
 const std::vector<FactorLevels>& factorTable();
 
 // A combination that is not drawn.

@@ -18,10 +18,10 @@ struct OraclePicture {
     const glm::dvec3& at(int x, int y) const { return light[static_cast<std::size_t>(y) * width + x]; }
 };
 
-// By plain casters; none for terrains, media and light that is traced. view: one of the scene's eyes.
+// Casts by plain casters; none for terrains, media and light that is traced. view: one of the scene's eyes.
 std::optional<OraclePicture> castByOracle(const Scene& scene, const EyeView& view);
 
-// By the plain sweep, a picture for each eye; none where rays are cast. Eyes are swept together.
+// Sweeps by the plain sweep, a picture for each eye; none where rays are cast. Eyes are swept together.
 std::vector<OraclePicture> sweptByOracle(const Scene& scene, const std::vector<EyeView>& eyes);
 
 // Returns the picture in the form of an eye's. Colours that are no numbers are named in `problem`.

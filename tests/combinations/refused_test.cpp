@@ -24,7 +24,7 @@ std::vector<Tuple> waysOf(const Clause& clause) {
     return ways;
 }
 
-// So few of the ways that each level of each part is among them.
+// Returns some of the ways: few, but each level of each part is among them.
 std::vector<Tuple> someOf(const std::vector<Tuple>& ways) {
     std::vector<Tuple> some;
     std::set<std::pair<int, int>> seen;

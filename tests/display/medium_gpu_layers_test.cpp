@@ -1,4 +1,4 @@
-// Layers over height fields in GLSL against the model by the book: noise, holes, colours of their own.
+// Layers over height fields in GLSL against the plain model: noise, holes, colours of their own.
 #include "tests/display/medium_gpu_subject.h"
 
 namespace stereonav::gpu_test {

@@ -1,5 +1,5 @@
 // The sweep in GLSL keeps programs, targets and textures from frame to frame: whatever was asked for before,
-// a frame is that of the model by the book.
+// a frame is that of the plain model.
 #include "tests/display/medium_gpu_subject.h"
 #include "tests/medium/asked_sweeps.h"
 

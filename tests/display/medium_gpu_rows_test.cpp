@@ -1,6 +1,6 @@
 // The sweep in GLSL at its extremes, as rows of the stability table: optical depths from a millionth to a
-// million, pictures of one pixel, one row and one column, eyes in one place and far apart, against the model
-// by the book.
+// million, pictures of one pixel, one row and one column, eyes in one place and far apart, against the plain
+// model.
 #include <gmock/gmock.h>
 
 #include <algorithm>

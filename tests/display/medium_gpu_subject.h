@@ -1,5 +1,5 @@
-// Small media, views and looks for the tests of the sweep in GLSL, and how it is held against the model by
-// the book. Needs no display.
+// Small media, views and looks for the tests of the sweep in GLSL, and how it is held against the plain
+// model. Needs no display.
 #pragma once
 
 #include <gmock/gmock.h>

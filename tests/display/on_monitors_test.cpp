@@ -326,7 +326,7 @@ protected:
         std::filesystem::create_directories(mFolder);
     }
     void TearDown() override { std::filesystem::remove_all(mFolder); }
-    // On a server of two monitors; its output is in the log. 77: there is none.
+    // Runs a command on a server of two monitors; its output is in the log. 77: there is no server.
     int run(const std::string& command) const {
         const int status =
             std::system(("'" STEREONAV_SOURCE_DIR "/tests/display/two_monitors.sh' '" + mFolder.string() +

@@ -83,7 +83,7 @@ public:
         return std::make_shared<const StraightFlat>();
     }
 
-    // Another place of the wall in each pixel.
+    // Makes a picture with another place of the wall in each pixel.
     std::shared_ptr<const FlatPicture> makePanorama(Progress& progress) const override {
         ++panoramas;
         try {

@@ -23,7 +23,7 @@ namespace {
 constexpr double kSpread = 0.6;  // noise is uniform in +- kSpread: of variance kSpread^2 / 3
 constexpr int kOrder = 2;
 
-// In [-1, 1), of a texel, a sample and a channel: no two alike.
+// Returns a number in [-1, 1) for a texel, a sample and a channel: no two alike.
 double noise(const glm::ivec3& t, int sample, int channel) {
     std::uint64_t x = static_cast<std::uint64_t>(((t.x * 64 + t.y) * 64 + t.z)) << 32 |
                       static_cast<std::uint64_t>(sample * 16 + channel);

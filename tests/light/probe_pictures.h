@@ -42,7 +42,7 @@ inline LightProbe randomProbe(int width, int height, unsigned seed) {
     return LightProbe(width, height, std::move(pixels), "random");
 }
 
-// Empty where there is no real data.
+// Returns an empty path where there is no real data.
 inline std::filesystem::path realProbe(const char* name) {
     const char* set = std::getenv("STEREONAV_TEST_DATA");
     const std::filesystem::path folder =

@@ -21,7 +21,7 @@ GreyVolume sheetAcross(int axis, double thick) {
                        [=](const glm::dvec3& v) { return 0.5 * thick - std::abs(v[axis] - kMiddle); });
 }
 
-// On one face or the other of the sheet, next to its middle.
+// Returns a texel on one face or the other of the sheet, next to its middle.
 glm::ivec3 texelOn(int axis, int side) {
     glm::ivec3 texel(kMiddle);
     texel[axis] += 2 * side;

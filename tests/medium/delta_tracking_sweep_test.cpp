@@ -1,5 +1,5 @@
-// Paths and the model by the book, which share nothing but the medium, must meet where both are right: direct
-// light in many thin slabs.
+// Paths and the plain model, which share nothing but the medium, must meet where both are right: direct light
+// in many thin slabs.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// The model by the book against closed forms: what it says is docs/volume_light.md.
+// The plain model against closed forms: what it says is docs/volume_light.md.
 #include "tests/oracle/plain_sweep.h"
 
 #include <random>

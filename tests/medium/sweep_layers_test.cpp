@@ -41,7 +41,7 @@ HeightLayer hills(int width, int height, bool flat, bool uniform) {
     return layer;
 }
 
-// With colours of its own, finer than its samples and uneven along the axes.
+// Returns the layer with colours of its own, finer than its samples and uneven along the axes.
 HeightLayer paintedHills(HeightLayer layer) {
     const int width = 3 * layer.levels[0].width(), height = 2 * layer.levels[0].height();
     Plane<PackedColor> picture(width, height);

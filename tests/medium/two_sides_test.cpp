@@ -48,7 +48,7 @@ Medium lensOf(bool fallsOutwards, float surface) {
                   MediumTransfer(points, 0.1, "test"));
 }
 
-// From above (1) or below (-1), y upwards, so that columns are mirrored.
+// Returns a view from above (1) or below (-1), with y upwards, so that columns are mirrored.
 EyeView lensView(int side) {
     EyeView view = viewFrom({0, 0, side * 5.0}, {0, 0, 0}, 0.25, kSidesPicture, kSidesPicture);
     view.up = {0, 1, 0};

@@ -68,7 +68,7 @@ EyeImage imageOf(const MeshRenderer& renderer, const EyeView& view) {
     return image;
 }
 
-// Where the ray through a pixel enters a box, as a view depth; infinite where it misses it.
+// Returns where the ray through a pixel enters a box, as a view depth; infinite where it misses it.
 double slabDepth(const EyeView& view, int x, int y, const glm::dvec3& low, const glm::dvec3& high) {
     const glm::dvec3 direction = view.rayDirection(x + 0.5, y + 0.5);
     double from = -std::numeric_limits<double>::infinity(), to = -from;

@@ -24,7 +24,7 @@ Plane<PackedColor> slope(int width, int height) {
     return picture;
 }
 
-// Brighter by `levels` in columns 40 .. 47 of rows 20 .. 27.
+// A picture that is brighter by `levels` in columns 40 .. 47 of rows 20 .. 27.
 Plane<PackedColor> withPatch(int levels) {
     Plane<PackedColor> picture = slope(96, 64);
     for (int y = 20; y < 28; ++y)

@@ -16,7 +16,7 @@ namespace {
 constexpr int kWidth = 24, kHeight = 3;
 constexpr float kFar = 10, kNear = 2;
 
-// At the far depth columns are those of the left eye, at the near one they are 4 to the left.
+// Returns eyes for which columns of the far depth are the left eye's, and of the near depth 4 further left.
 StereoViews eyes() {
     StereoViews views;
     views.parallaxScale = 10;
@@ -41,7 +41,7 @@ Plane<T> filled(T value) {
     return plane;
 }
 
-// Near in columns x0 .. x1 - 1.
+// Depths that are near in columns x0 .. x1 - 1.
 Plane<float> pillar(int x0, int x1) {
     Plane<float> depths = filled(kFar);
     for (int y = 0; y < kHeight; ++y)

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kUndecided = 0.5;
 
-// Where all values lie at `place`.
+// Returns the openness where all values lie at `place`.
 double step(double value, double place) {
     return value == place ? kUndecided : value < place ? 0.0 : 1.0;
 }

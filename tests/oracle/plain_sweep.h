@@ -1,5 +1,5 @@
-// The model of docs/volume_light.md by the book: one thread of thought, double precision, no skipping. The
-// oracle of the kernels and shaders.
+// The plain model: that of docs/volume_light.md in one thread and double precision, without leaving anything
+// out. Kernels and shaders are tested against it.
 #pragma once
 
 #include <span>

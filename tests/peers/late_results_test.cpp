@@ -51,7 +51,7 @@ class LateResults : public testing::Test {
 protected:
     LateResults() { mDesk.start(); }
 
-    // From the other process; returns when the desk has dealt with it.
+    // Sends from the other process; returns when the desk has dealt with it.
     void send(PeerKind kind, PeerBytes bytes) {
         const int before = mLink.dealtWith;
         mOther.send(0, kind, std::move(bytes));

@@ -21,7 +21,7 @@ constexpr std::size_t kTexels = 60;
 constexpr std::size_t kTexels = 600;
 #endif
 
-// Empty where the data is absent.
+// Returns an empty volume where the data is absent.
 GreyVolume readReal(const char* name) {
     const char* folder = std::getenv("STEREONAV_TEST_DATA");
     const std::filesystem::path file =

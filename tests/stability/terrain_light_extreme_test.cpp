@@ -19,7 +19,7 @@ TerrainLight bake(const Heightfield& ground, const TerrainLightSettings& setting
     return bakeTerrainLight(ground, settings, quiet);
 }
 
-// Irradiance / pi under a sky of radiance 1, of all samples.
+// Returns irradiance / pi of all samples, under a sky of radiance 1.
 std::vector<double> constantSky(const TerrainLight& light) {
     std::vector<double> all;
     for (std::size_t k = 0; k < light.grid.count(); ++k)

@@ -23,7 +23,7 @@ void contrastRow(const ContrastRow&);
 }
 namespace {
 
-// By the definition, one pixel at a time.
+// Returns the contrast by its definition, one pixel at a time.
 int contrastOf(const Plane<std::uint32_t>& color, const Plane<std::uint8_t>& holes, int x, int y) {
     int largest = 0;
     for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {

@@ -44,7 +44,7 @@ void expectSamePlace(const DemGrid& got, const DemGrid& whole) {
     EXPECT_EQ(got.source.transform, whole.source.transform);
 }
 
-// By runs of 1, 7 and all rows; a second time where the file turned out to need it.
+// Reads runs of 1, 7 and all rows; a second time where the file turned out to need it.
 void expectAsReadAtOnce(const std::filesystem::path& file) {
     const DemGrid whole = readGround(file);
     for (const int run : {1, 7, whole.height}) {

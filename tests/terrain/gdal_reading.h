@@ -40,7 +40,7 @@ public:
                 GDALCreateGenImgProjTransformer2(mDataset.get(), nullptr, const_cast<char**>(options)));
     }
 
-    // Unscaled by the band's scale and offset, NaN where its mask says so.
+    // Returns a sample not scaled by the band's scale and offset, NaN where its mask says so.
     double at(int column, int row) const { return mValues[static_cast<std::size_t>(row) * width + column]; }
 
     // (0.5, 0.5) is the centre of the first pixel.

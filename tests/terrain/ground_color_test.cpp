@@ -61,7 +61,8 @@ double codeOf(int c, int r, int band) {
     return band == 0 ? 10 + 5 * c : band == 1 ? 20 + 9 * r : 200;
 }
 
-// Twice as fine as flatPlace(), with 7 more pixels west and 3 more north, 5 and 2 more east and south.
+// A picture twice as fine as flatPlace(), with 7 more pixels west and 3 more north, 5 and 2 more east and
+// south.
 RasterSpec widerPicture() {
     RasterSpec spec = pictureSpec(7 + 40 + 5, 3 + 20 + 2);
     spec.transform = {500000 - 7 * 15.0, 15, 0, 5000000 + 3 * 15.0, 0, -15};

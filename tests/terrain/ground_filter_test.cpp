@@ -19,7 +19,7 @@ const TerrainScene& scene() {
     return kScene;
 }
 
-// From high above, so that a pixel is some texels wide.
+// Returns a view from so high that a pixel is some texels wide.
 EyeView viewFromAbove() {
     return makeEyeView(poseFromAngles({-454, -1074, 3000}, 0.4, -1.2, 0), {64, 48, 0.4, 1.0, 0.1});
 }

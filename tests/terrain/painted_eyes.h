@@ -22,7 +22,7 @@ inline bool bends(const Plane<float>& depth, int x, int y) {
     return false;
 }
 
-// Green as a byte, not rounded.
+// Returns the green channel as a byte, not rounded.
 inline double greyAt(const EyeImage& image, int x, int y) {
     return 255.0 * srgbFromLinear(unpackColor(image.color.at(x, y)).y);
 }

@@ -52,7 +52,7 @@ protected:
         }
         return "";
     }
-    // With a good terrain in front, so that `line` 1 of `content` is line 3 of the file.
+    // Returns the error of `content` after a good terrain, so that its line 1 is line 3 of the file.
     std::string errorAfterTerrain(const std::string& content) const {
         return errorOf("[terrain]\nbuiltin = true\n" + content);
     }

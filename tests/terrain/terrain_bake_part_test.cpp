@@ -33,7 +33,7 @@ protected:
         fs::remove_all(mFolder);
     }
 
-    // Stopped once so much is done; the fraction of the first report that is not 0.
+    // Bakes, and stops once so much is done. Returns the fraction of the first report that is not 0.
     double bakeUntil(double end) const {
         double first = 0;
         Progress* itself = nullptr;

@@ -201,7 +201,8 @@ ChanceField whiteOf(const Noise& noise, int width, int height) {
     return field;
 }
 
-// In cells of the lattice that share no corner. Slopes have sixteen directions: cells are alike now and then.
+// Returns noise in cells of the lattice that share no corner. Slopes have sixteen directions: cells are alike
+// now and then.
 ChanceField gradientsOf(const Noise& noise, int width, int height) {
     ChanceField field(width, height);
     for (int j = 0; j < height; ++j)

@@ -114,9 +114,10 @@ TEST(TerrainLight, AStepTakesAwayTheClosedFormShare) {
 // long surfaces: F = (sin a1 - sin a0) / 2, angles from the normal.
 struct Valley {
     double tilt, half;  // radians, metres
-    // From the opposite rim to the own slope's tangent upwards.
+    // The share of the sky that lies between the opposite rim and the upward tangent of the own slope.
     double skyShare(double x) const { return 0.5 * (1 - slopeTo(x, half)); }
-    // From the point at x to the opposite side's strip from u to v (distances from the axis).
+    // The share, seen from the point at x, of the opposite side's strip from u to v (distances from the
+    // axis).
     double stripShare(double x, double u, double v) const { return 0.5 * (slopeTo(x, v) - slopeTo(x, u)); }
     double slopeTo(double x, double u) const {
         const double c = std::cos(tilt), s = std::sin(tilt), t = std::tan(tilt);

@@ -55,7 +55,7 @@ protected:
         file.tiles = tiles;
         return file;
     }
-    // Made again each time.
+    // Empties the cache, so that all is made again.
     void dropCache() const {
         fs::remove_all(mFolder / "cache");
         fs::create_directories(mFolder / "cache");

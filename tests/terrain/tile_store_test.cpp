@@ -38,7 +38,7 @@ TileSource sourceOf(const std::vector<float>& heights, const glm::ivec2& size, i
             }};
 }
 
-// Also where they are no numbers.
+// Compares bits, so that values which are no numbers count too.
 bool sameBits(const std::vector<float>& a, const std::vector<float>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }

@@ -1,4 +1,4 @@
-// Recordings are in a file of their own from their first second on, however they end.
+// A recording is in a file of its own from its first second on, however it ends.
 #include "app/view/flight_recording.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kTurn = 1.0 / 32;  // seconds: exact
+constexpr double kTurn = 1.0 / 32;  // seconds, whose sums are exact
 
 Pose poseAt(double seconds) {
     return poseFromAngles({10 * seconds, 0, 5}, 0, 0, 0);
@@ -108,7 +108,8 @@ TEST_F(FlightRecordingTest, NeverTakesThePlaceOfAFile) {
     EXPECT_EQ(readTextFile(file(3)), "of yesterday, too");
 }
 
-// A recording's file that is opened meanwhile is an input, which is not overwritten.
+// A recording's file that is opened meanwhile is an input, and can not be written. Here a folder takes its
+// place.
 TEST_F(FlightRecordingTest, GoesIntoAnotherFileWhereItsOwnCanNotBeWritten) {
     FlightRecording recording(mFolder / "");
     begin(recording);

@@ -1,4 +1,5 @@
-// A resting medium: more slices until that changes nothing, then the mean of frames with slices elsewhere.
+// A medium at rest is refined by more slices until these change nothing, then by the mean of frames whose
+// slices lie elsewhere.
 #include "app/view/rest_refiner.h"
 
 #include <gtest/gtest.h>

@@ -97,7 +97,8 @@ EyeImage emptyImage(const VolumeRenderer& renderer, const EyeView& view) {
     return image;
 }
 
-// Whole and as scattered pixels, on every set; at most `most` of 1023 off.
+// Expects the plain caster's picture, whole and as scattered pixels, on every instruction set; at most `most`
+// of 1023 off.
 void expectAsPlain(const VolumeScene& scene, const glm::ivec2& size, int most) {
     const EyeView view = viewOf(scene.field.frame, size);
     Plane<PackedColor> wanted(size.x, size.y);

@@ -49,7 +49,7 @@ void expectSameCells(const SurfaceCells& blocks, const SurfaceCells& once) {
     EXPECT_EQ(std::memcmp(blocks.bricks.data(), once.bricks.data(), once.bricks.size() * 4), 0);
 }
 
-// Their cells have no codes.
+// Counts far bricks, and expects their cells to have no codes.
 void countFarBricks(const SurfaceCells& blocks, std::size_t& far) {
     for (std::size_t n = 0; n < blocks.layout.count(); n += 4096) {
         if (blocks.farCodes[BrickLayout::farIndex(n)] == 0) continue;

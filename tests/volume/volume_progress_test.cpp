@@ -14,7 +14,7 @@ namespace {
 
 using test::expectWholeProgress;
 
-// Longer than a block along each axis.
+// A volume longer than a block along each axis.
 GreyVolume longVolume() {
     return test::greyVolume(test::slantedFrame({40, 30, 300}), [](const glm::dvec3& v) {
         return 600 - 60 * glm::distance(v, glm::dvec3(20, 15, 40));

@@ -326,7 +326,7 @@ TEST(VolumeRenderer, CompositesAsThePlainCompositor) {
     }
 }
 
-// Smooth, from nothing to all, and different along each axis.
+// Values that are smooth, go from nothing to all, and differ along each axis.
 std::shared_ptr<Volume<std::uint8_t>> waves(const VolumeFrame& frame) {
     auto volume = std::make_shared<Volume<std::uint8_t>>(frame);
     for (int k = 0; k < frame.size.z; ++k)

@@ -39,7 +39,7 @@ public:
         XSync(mDisplay, False);
     }
 
-    // False where the window takes no drops, refuses this one, or says nothing for long.
+    // Returns false where the window takes no drops, refuses this one, or says nothing for long.
     bool drop(const std::string& uris) {
         XSetSelectionOwner(mDisplay, atom("XdndSelection"), mOwn, CurrentTime);
         constexpr long kVersion = 5;
@@ -77,9 +77,9 @@ public:
         return true;
     }
 
-    // Until none of the program's threads works, and the window has used what came of their work. A thread
-    // that works runs or wants to, however busy the machine is; those that look for something now and then do
-    // so more often than this one counts. False as for turns().
+    // Waits until none of the program's threads works, and the window has used what came of their work. A
+    // thread that works runs or wants to, however busy the machine is; those that look for something now and
+    // then do so more often than this one counts. False as for turns().
     bool rest(const std::string& process) {
         constexpr int kQuiet = 10;
         constexpr std::chrono::milliseconds kBetween{40};
@@ -100,7 +100,7 @@ public:
         return false;
     }
 
-    // False where nobody has copied anything.
+    // Returns false where nobody has copied anything.
     bool copied() {
         XConvertSelection(mDisplay, atom("CLIPBOARD"), atom("UTF8_STRING"), atom("TEXT_TO_PRINT"), mOwn,
                           CurrentTime);
@@ -168,7 +168,7 @@ private:
         }
         return false;
     }
-    // False once it took too long, or the window is gone.
+    // Returns false once it took too long, or the window is gone.
     bool next(XEvent& event) const {
         while (XPending(mDisplay) == 0) {
             if (std::chrono::steady_clock::now() > mEnd) return false;
