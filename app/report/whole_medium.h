@@ -14,7 +14,7 @@ struct WholeMedium {
     Pose pose;
     Lens lens;
     double distance = 0;  // metres from the eye to the middle
-    glm::dvec3 light;     // its direction
+    glm::dvec3 light;     // direction of the light
 };
 
 inline WholeMedium wholeMedium(const Medium& medium, int size) {

@@ -9,7 +9,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kFewThreads = 3;      // so few are all used for casting, and the window's thread warps
+constexpr int kFewThreads = 3;      // with no more, all cast, and the window's thread warps
 constexpr double kShare = 0.7;      // largest share of the time for showing pictures
 constexpr double kSlowest = 0.026;  // seconds between pictures: slower ones are seen one by one
 constexpr double kWeight = 0.1;     // weight of the newest cost in the mean

@@ -61,7 +61,7 @@ SceneFile describeTerrain(const SceneOptions& options) {
     if (options.light.kind == LightChoice::Kind::File) scene.light = options.light.file;
     if (options.sun) scene.look.sunAzimuth = options.sun->azimuth;
     if (options.sun) scene.look.sunElevation = options.sun->elevation;
-    if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;  // which the eyes follow
+    if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;  // the eyes follow it
     if (options.fov_deg) scene.verticalFov = *options.fov_deg * kRadians;
     scene.colorsAlone = asMedium(options);
     refuseWithoutEffect(options, scene);
