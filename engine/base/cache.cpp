@@ -128,7 +128,7 @@ void noteSource(const fs::path& file, const fs::path& source) {
     }
 }
 
-// What vanishes meanwhile, by another process, is left out.
+// Lists what is kept; what another process removes meanwhile is left out.
 std::vector<Kept> allKept(const fs::path& folder) {
     std::vector<Kept> all;
     for (const fs::path& file : filesIn(folder)) {

@@ -21,7 +21,7 @@ namespace stereonav {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kMostLinks = 40;  // as Linux: more go round in circles
+constexpr int kMostLinks = 40;  // the limit of Linux: more go round in circles
 constexpr std::size_t kBlock = 1 << 20;
 constexpr std::size_t kLongestStem = 200;  // bytes, so that a temporary's name is not too long
 constexpr const char* kCheckPlace = "check that the folder exists and has room and write permission";
@@ -32,7 +32,7 @@ Error unwritable(const fs::path& path, int reason) {
             kCheckPlace};
 }
 
-// What bytes are written into, since it can not be replaced by a file.
+// Whether bytes are written into the file itself, since no file can take its place.
 bool isStream(const fs::path& path) {
     std::error_code code;
     const fs::file_type type = fs::status(path, code).type();
@@ -40,7 +40,7 @@ bool isStream(const fs::path& path) {
            type == fs::file_type::socket;
 }
 
-// What a chain of links ends at, which need not be there.
+// Returns the end of a chain of links, which need not be there.
 fs::path endOfLinks(const fs::path& path) {
     std::error_code code;
     fs::path at = path;

@@ -78,7 +78,7 @@ HelperLimits limitsForPicture(std::uint64_t pixels, std::uint64_t packed, std::u
     constexpr std::chrono::seconds kWork(20);
     constexpr std::uint64_t kPixelsPerSecond = 250'000;  // a tenth of what slow codecs do on slow machines
     constexpr std::chrono::minutes kMore(1);
-    constexpr int kShare = 4;  // that many run on its processor
+    constexpr int kShare = 4;  // helpers that may share a processor
     HelperLimits limits;
     limits.answer = answer;
     limits.memory = kAlways + kBytesPerPixel * pixels + kCopies * packed;

@@ -40,7 +40,7 @@ double numberIn(const fs::path& file) {
     return in >> value ? value : kUnlimited;
 }
 
-// What one group leaves; files that it has in memory are given back when asked for.
+// Returns the memory that one group leaves; files that it has in memory are given back when asked for.
 double leftOf(const fs::path& group, const char* limit, const char* used, const char* files) {
     const double most = numberIn(group / limit), now = numberIn(group / used);
     if (most == kUnlimited || now == kUnlimited) return kUnlimited;

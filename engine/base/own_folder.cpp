@@ -17,7 +17,7 @@ namespace {
 
 constexpr mode_t kOthers = S_IRWXG | S_IRWXO;
 
-// What makes it no folder of ours; "" where it is one, or there is none.
+// Returns what makes it no folder of ours; "" where it is one, or there is none.
 std::string strangeness(const fs::path& folder) {
     struct stat is {};
     if (lstat(folder.c_str(), &is) != 0) return "";

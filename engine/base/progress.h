@@ -43,7 +43,7 @@ public:
         if (mListener) mListener(fraction, what);
     }
 
-    // What a person should know of the result, one line: what was guessed, or left aside.
+    // Notes what a person should know of the result, one line: what was guessed, or left aside.
     void note(const std::string& note) {
         if (mReader) mReader(note);
     }

@@ -229,7 +229,7 @@ struct Interface::State {
         }
         return true;
     }
-    // What fits into one turn.
+    // Feeds as many of the events as fit into one turn.
     void feelEvents() {
         ImGuiIO& io = ImGui::GetIO();
         bool pressedSome = false;

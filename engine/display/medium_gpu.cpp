@@ -117,7 +117,7 @@ struct MediumGpu::State {
     const SweepGeometry* geometry = nullptr;
     const Programs* used = nullptr;
     bool lights = false;
-    int turn = 0;  // which of the light's two buffers is read
+    int turn = 0;  // number of the light's buffer that is read, 0 or 1
     PixelRect
         touched;  // of the light's buffer: what may differ from 1, or, unless it is blurred, between the two
     double spread = 0;  // of the blur: its offset over the root of the way, root of metres

@@ -21,7 +21,7 @@ public:
 
 private:
     GlTexture mTexture;               // RGB32F
-    std::vector<glm::vec3> mEntries;  // those that were set, as in PhaseFunction
+    std::vector<glm::vec3> mEntries;  // the entries that were set, as in PhaseFunction
 };
 
 // Baked light as light times weight in rgb, the weight in a: what a trilinear filter adds up is the weighted

@@ -94,7 +94,8 @@ public:
     virtual void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) = 0;
     // Makes one eye, into frame.left.
     virtual void makeOne(const EyeView& view, double time, EyePair& frame) = 0;
-    // What makes the right eye alone; null where methods make both eyes together, or one each its own way.
+    // Returns what makes the right eye alone; null where methods make both eyes together, or one each its own
+    // way.
     virtual RightFromLeft* rightFromLeft() { return nullptr; }
 
     // Returns by measuring which method is worth its time on frames like these (all of one size, at least

@@ -122,7 +122,7 @@ std::uint32_t directoryBytes(const std::vector<Field>& fields) {
 constexpr std::string_view kTiffStart{"MM\0*\0\0\0\x08", 8};
 constexpr std::uint32_t kFirstDirectory = 8;
 
-// What the Multi-Picture Format asks of each of its pictures (Exif 2.3, 4.6).
+// Returns the segment that the Multi-Picture Format asks of each of its pictures (Exif 2.3, 4.6).
 Bytes exifSegment(int width, int height) {
     const std::vector<Field> own{field(0x9000, "0230"),
                                  field(0x9101, std::string_view("\1\2\3\0", 4)),  // Y, Cb, Cr

@@ -11,7 +11,7 @@ struct TextureData {
     std::int32_t offset[16] = {};                          // texels to a level's first one
     int levels = 0, width = 0, height = 0;                 // width and height of level 0
     float scaleX = 1, scaleY = 1, shiftX = 0, shiftY = 0;  // texel = place * scale + shift
-    float texelsPerMetre = 1;                              // those of level 0
+    float texelsPerMetre = 1;                              // texels of level 0
 };
 
 }  // namespace stereonav

@@ -222,12 +222,12 @@ inline void warpTile(const LateBand& band, int tile) {
     }
 }
 
-// What is not known, 0 or NaN, is not nearer.
+// Returns the nearer depth; one that is not known, 0 or NaN, is not nearer.
 inline F nearerOf(F z, F other) {
     return select((other > F(0.0f)) & (other < z), other, z);
 }
 
-// What is not known is as far as the farther of what is known beside it.
+// Fills depths that are not known with the farther of those known beside them.
 inline void fillUnknown(const std::uint8_t* known, float* inverse, int width) {
     for (int x = 0; x < width;) {
         if (known[x]) {

@@ -21,7 +21,7 @@ public:
     // Builds the tree. Positions are kept about the middle of the mesh and rounded to floats, as Embree has
     // them. Throws Error naming `name`, Cancelled.
     MeshCaster(TriangleMesh mesh, const std::string& name, Progress& progress);
-    MeshCaster(TriangleMesh mesh, const std::string& name);  // that nobody waits for
+    MeshCaster(TriangleMesh mesh, const std::string& name);  // reports no progress
     MeshCaster(MeshCaster&&) noexcept;
     MeshCaster& operator=(MeshCaster&&) noexcept;
     ~MeshCaster();

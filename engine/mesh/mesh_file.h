@@ -15,6 +15,6 @@ constexpr std::size_t kMostMeshParts = 1'000'000;
 
 // Throws Error naming the file and the mesh or accessor, Cancelled; at least one triangle is returned.
 TriangleMesh readMesh(const std::filesystem::path& file, Progress& progress);
-TriangleMesh readMesh(const std::filesystem::path& file);  // that nobody waits for
+TriangleMesh readMesh(const std::filesystem::path& file);  // reports no progress
 
 }  // namespace stereonav

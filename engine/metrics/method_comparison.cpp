@@ -116,7 +116,7 @@ private:
         mTruth.right = castTruth(views.right, time, 2, progress);
     }
 
-    // What errors are counted in: the right eye, or both.
+    // Returns the picture that errors are counted in: the right eye, or both, one above the other.
     Plane<PackedColor> judged(const EyePair& frame) const {
         return mRightFromLeft ? frame.right.color : oneAboveTheOther(frame.left.color, frame.right.color);
     }
@@ -189,7 +189,7 @@ private:
         return mDefault.holeMask;
     }
 
-    // What a viewer feels.
+    // Adds the figures of what a viewer feels.
     void addFelt(Runner& runner, const Plane<std::uint8_t>& edges, MethodFigures& figures) const {
         const EyePair& exact = mExact.frame;
         const Plane<PackedColor> truth = mRightFromLeft ? mTruth.right : judged(exact);

@@ -11,7 +11,7 @@ namespace stereonav {
 
 struct SurfaceDifference {
     long long surfacePixels = 0;  // pixels that show the scene in the full cast
-    long long holePixels = 0;     // those of them that were cast again, or left open
+    long long holePixels = 0;     // compared pixels that were cast again, or left open
     // "The ratio between the number of hole pixels and the warped ones", of pixels that show the scene.
     // NaN where none of them is warped.
     double holesOfWarped_percent = 0;

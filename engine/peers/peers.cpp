@@ -18,8 +18,8 @@
 namespace stereonav {
 namespace {
 
-constexpr double kFailing_s = 10;  // that one waits for the first to tell of its failure
-constexpr double kStopping_s = 1;  // that one which was stopped leaves the first for what is done
+constexpr double kFailing_s = 10;  // seconds that a process waits for the first to tell of its failure
+constexpr double kStopping_s = 1;  // seconds that a stopped process leaves the first for what is done
 
 void putPlace(ByteWriter& writer, const ProcessPlace& place) {
     writer.putText(place.machine).put(place.cores);

@@ -78,7 +78,7 @@ private:
     int mRank = 0, mCount = 1, mThreads = 0;
     bool mSame = true;
     int mPhase = 0;               // of serve()
-    std::deque<PeerBytes> mTold;  // that came before it was asked for
+    std::deque<PeerBytes> mTold;  // what came before it was asked for
 };
 
 // The peers of this process, which is alone until joinRun() has found otherwise.

@@ -41,7 +41,7 @@ private:
     };
     void run();
     void handle(PeerMessage message);
-    void answer();          // those who wait; with the lock
+    void answer();          // answers those who wait; with the lock
     bool mayBegin() const;  // a piece; with the lock
     void wait(std::unique_lock<std::mutex>& lock);
     bool takeOne(std::unique_lock<std::mutex>& lock);
@@ -60,7 +60,7 @@ private:
     bool mOpen = false;  // the last of them
     std::optional<std::string> mFailure;
     double mFailed_s = 0;
-    int mLeft = 0;  // others that are done
+    int mLeft = 0;  // other processes that are done
 
     // The work at hand.
     const PieceWork* mWork = nullptr;

@@ -206,7 +206,7 @@ public:
 // How what surrounds a volume's voxels lights them and takes their opacity (app/scene/volume/ambient.h).
 struct AmbientChoice {
     bool lit = false;           // ambient light in place of the lamp's
-    std::string method;         // that estimates openness, as --ambient-method; "": gaussian
+    std::string method;         // way of estimating openness, as --ambient-method; "": gaussian
     double radius = 0;          // metres, of ambient light
     std::string modulate;       // opacity by this: variance, gradient; "": not modulated
     double modulateRadius = 0;  // metres

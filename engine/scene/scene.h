@@ -26,13 +26,13 @@ public:
     Scene& operator=(const Scene&) = delete;
     virtual ~Scene() = default;
 
-    std::string name;  // as it was asked for
+    std::string name;  // the name that it was asked for by
     Lens lens;         // width and height are the caller's to set
     StereoSetting stereo;
     bool eyesGiven = false;  // by an option or a scene's file: the window leaves them as they are
     Pose startPose;
     RecordedPath path;                   // the scene's own flight; empty where there is none
-    SimdTarget simd = SimdTarget::Auto;  // that its frames are made with
+    SimdTarget simd = SimdTarget::Auto;  // the instruction set that its frames are made with
 
     StereoViews viewsAt(const Pose& head) const { return makeStereoViews(head, lens, stereo); }
 
@@ -42,8 +42,8 @@ public:
     virtual std::unique_ptr<Flight> makeFlight() const = 0;
     // Whether a recorded flight may be played here. Throws Error naming `file`.
     virtual void check(const RecordedPath& /*path*/, const std::string& /*file*/) const {}
-    // What there is to say of it, a group ("terrain", "medium") for each thing that it is made of. May make a
-    // frame.
+    // Returns what there is to say of it, a group ("terrain", "medium") for each thing that it is made of.
+    // May make a frame.
     virtual Facts describe() const { return {}; }
     // Why its light stands still, for who asks for another; "" where TurningLight is offered.
     virtual std::string whyLightStays() const { return ""; }

@@ -26,7 +26,7 @@ struct UnseenPart {
     double area = 0;           // square metres
     glm::dvec3 place{0.0};     // world, metres: on it, next to its middle
     double along = 0;          // metres along the way through
-    std::optional<Pose> view;  // that shows it; none where there is no room for an eye
+    std::optional<Pose> view;  // a view that shows it; none where there is no room for an eye
 };
 
 // What was seen of it so far. Used by one thread at a time, also while frames are made; the scene outlives

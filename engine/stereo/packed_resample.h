@@ -22,7 +22,7 @@ inline int scaledProduct(int difference, int weight) {
 
 // Weights of four taps, in units of 1 / kWeightOne.
 struct CubicWeights {
-    int before, second, after;  // those of taps 0, 2 and 3; tap 1 has the rest
+    int before, second, after;  // weights of taps 0, 2 and 3; tap 1 has the rest
 };
 
 // Returns Catmull-Rom's weights at t in [0, 1] between taps 1 and 2.

@@ -45,7 +45,7 @@ STEREONAV_INLINE I lerpColors(I first, I second, F t) {
 }
 
 struct CubicHalves {
-    I before, second, after;  // those of taps 0, 2 and 3; tap 1 has the rest
+    I before, second, after;  // weights of taps 0, 2 and 3; tap 1 has the rest
 };
 
 // Returns Catmull-Rom's weights at t in [0, 1] between taps 1 and 2.

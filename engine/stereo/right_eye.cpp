@@ -29,7 +29,7 @@ constexpr int kRowsOfWarpTask = 8;  // rows of a warp task: some ten microsecond
 // one of a full cast (colon, 500x400), which no surface that warped well makes up for then.
 constexpr double kMostHoles = 0.6;
 
-// What a highlight needs: base colour between the two linked pixels (or of the nearest one), and the
+// Warps what a highlight needs: base colour between the two linked pixels (or of the nearest one), and the
 // normal of the nearer end.
 void warpHighlight(const WarpJob& job, const WarpScratch& scratch, int y) {
     const PackedColor* leftBase = job.left.baseColor.row(y);
@@ -142,7 +142,7 @@ void warpRow(const EyeRenderer& renderer, const WarpJob& job, ResampleFunction r
         startHoles(job, y);
 }
 
-// What can be shaded again: images without the planes for it are warped as they are.
+// Returns what can be shaded again: images without the planes for it are warped as they are.
 ViewDependence dependenceOf(const EyeRenderer& renderer, const EyeImage& left) {
     const ViewDependence dependence = renderer.viewDependence();
     if (dependence == ViewDependence::Depths)

@@ -51,7 +51,7 @@ struct RightEyeTimings {
     double warp_ms = 0, fill_ms = 0;  // DepthSplat: splatting, and casting every pixel
     // Pixels cast again, of width * height. DepthSplat: those cast without knowing where to start.
     long long holePixels = 0;
-    long long refinedPixels = 0;  // those of them that were warped before
+    long long refinedPixels = 0;  // pixels cast again that had been warped before
     double boundPsnr_db = 0;      // expected, where there is a calibration; 95 of 100 frames are better
     double right_ms() const { return warp_ms + fill_ms; }
 };

@@ -14,7 +14,7 @@ namespace stereonav {
 
 // Scratch memory that one worker needs for a row.
 struct WarpScratch {
-    std::vector<float> column, inverse, accumulators;  // those of ResampleRow and SplatRow
+    std::vector<float> column, inverse, accumulators;  // rows for ResampleRow and SplatRow
     std::vector<std::int32_t> source;
 
     // Resizes for rows of so many pixels; accumulators are there where `splats`.
@@ -38,7 +38,7 @@ struct WarpJob {
     // The rows' shift (pixels) and scale (pixels * metres): ResampleRow.
     float shift() const { return static_cast<float>(views.shiftAtInfinity); }
     float scale() const { return static_cast<float>(views.parallaxScale); }
-    // What moves from eye to eye: colours, or the normals from which colours follow.
+    // Whether normals, from which colours follow, are moved from eye to eye in place of colours.
     bool movesNormals() const { return dependence == ViewDependence::Normal; }
     const Plane<std::uint32_t>& from() const { return movesNormals() ? left.normal : left.color; }
     Plane<std::uint32_t>& to() const { return movesNormals() ? right.normal : right.color; }

@@ -71,7 +71,7 @@ struct PaintRow {
     std::uint8_t* holes;
     int width;
     float shift, scale;
-    std::int32_t* source;  // as in SplatRow
+    std::int32_t* source;  // like SplatRow::source
 };
 
 }  // namespace stereonav

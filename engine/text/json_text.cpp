@@ -10,7 +10,7 @@
 namespace stereonav {
 namespace {
 
-// What lies beyond U+FFFF is written as two halves.
+// Returns the escaped letter; what lies beyond U+FFFF is a surrogate pair.
 std::string escapedLetter(char32_t letter) {
     constexpr char32_t kBeyond = 0x10000;
     if (letter < kBeyond) return fmt::format("\\u{:04x}", static_cast<unsigned>(letter));

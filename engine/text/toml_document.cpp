@@ -147,7 +147,7 @@ struct TomlDocument::State {
         return it == entries.end() ? nullptr : &it->second;
     }
 
-    // What is wrong with a key that nobody asked for, and what may have been meant.
+    // Returns what is wrong with a key that nobody asked for, and what may have been meant.
     std::string unknownText(const std::string& key, const std::string& sectionName) const {
         const std::string where = sectionName.empty() ? "" : fmt::format(" in [{}]", sectionName);
         if (key.size() > kLongestKey) return fmt::format("\"{}...\"{}", key.substr(0, kLongestKey), where);

@@ -137,7 +137,8 @@ private:
             }
     }
 
-    // What lies next to the first and the last of a range is all seeds, unless it is beyond the volume.
+    // Whether what lies next to the first voxel of a range, or to the last, is a seed: always unless it is
+    // beyond the volume.
     bool seedsBelow(const Range& range) const { return mOutsideIsSeed || range.begin > 0; }
     bool seedsAbove(const Range& range, int axis) const {
         return mOutsideIsSeed || range.end < mMask.frame.size[axis];

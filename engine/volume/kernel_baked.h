@@ -10,7 +10,7 @@ namespace stereonav::STEREONAV_ISA {
 // kMostExposure, and what is divided by is at least kLeastKnown.
 struct BakedLight {
     F red, green, blue;  // linear RGB: irradiance / pi times the exposure, of the texels that are known
-    F known;             // their weight, 0..1; less than kLeastKnown counts as 0, kWhollyKnown as 1
+    F known;  // weight of the known texels, 0..1; less than kLeastKnown counts as 0, kWhollyKnown as 1
 };
 constexpr float kWhollyKnown = 0.999f;  // weight
 

@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    // What is not in the region was not written.
+    // Whether a cell ends leaps: it is active, or not in the region, where codes were not written.
     bool endsLeaps(std::uint8_t code) const {
         return code == kActiveYet || (code == 0 && mSetting.region != nullptr);
     }

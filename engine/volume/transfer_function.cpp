@@ -23,7 +23,7 @@ bool isShare(double x) {
     return x >= 0 && x <= 1;  // false for NaN
 }
 
-// What is wrong with the point that follows `previous` (null: none), "" when nothing.
+// Returns what is wrong with the point that follows `previous` (null: none), "" when nothing.
 std::string problemOf(const TransferPoint& point, const TransferPoint* previous) {
     if (!std::isfinite(point.value)) return fmt::format("expected a finite value, got {}", point.value);
     for (int c = 0; c < 3; ++c)

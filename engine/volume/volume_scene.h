@@ -9,7 +9,7 @@ namespace stereonav {
 
 struct VolumeScene {
     GreyVolume field;    // the surface lies where its trilinear value reaches cells.isovalue
-    SurfaceCells cells;  // those of `field`
+    SurfaceCells cells;  // cells of `field`
     VolumeLook look;
 };
 

@@ -11,7 +11,7 @@ namespace stereonav {
 
 struct ImageRequest {
     PictureFormat format = PictureFormat::Png;
-    std::int32_t width = 0, height = 0;  // as the file's head has them
+    std::int32_t width = 0, height = 0;  // pixels, by the file's header
 };
 struct ImageAnswer {
     std::int32_t width = 0, height = 0;  // the other way round where the file says that it lies on its side

@@ -61,7 +61,8 @@ std::string unpackOrRefuse(std::string_view request) {
     }
 }
 
-// What libraries find out, or load, when they are first used, they do before no file can be opened any more.
+// Makes libraries find out, or load, what they need at their first use, before no file can be opened any
+// more.
 void useOnce() {
     const cv::Mat image(16, 16, CV_8UC3, cv::Scalar(1, 2, 3));
     std::vector<unsigned char> bytes;

@@ -59,7 +59,7 @@ struct LazyBake::Brick {
     glm::ivec3 first{0};
     // Under the pick mutex.
     int level = 0;
-    std::uint64_t choice = 0;  // that `level` refers to; 0: none
+    std::uint64_t choice = 0;  // the choice that `level` refers to; 0: none
     bool busy = false;
     // What follows belongs to whoever is busy with it.
     std::uint64_t chosen = 0;  // the choice that `wanted` is of
@@ -141,7 +141,7 @@ void LazyBake::setChoice(const TexelChoice& choice) {
     change(nullptr, std::make_shared<const TexelChooser>(mVolume, mTo.frame, choice));
 }
 
-// What is null stays.
+// Changes what is given; what is null stays.
 void LazyBake::change(const std::shared_ptr<const std::vector<std::uint32_t>>& bricks,
                       const std::shared_ptr<const TexelChooser>& chooser) {
     std::shared_ptr<const std::vector<std::uint32_t>> before;  // freed after the mutex

@@ -46,8 +46,8 @@ public:
     PathField field(int rung) const;
     PathField all() const { return fieldAt(0); }
     std::int32_t offset(int rung) const;
-    std::size_t bytesHeld() const;        // those of the fields built so far
-    std::size_t bytesToCome() const;      // those of fields that rungOf() may still ask for
+    std::size_t bytesHeld() const;        // bytes of the fields built so far
+    std::size_t bytesToCome() const;      // bytes of fields that rungOf() may still ask for
     int shift() const { return mShift; }  // blocks have 2^shift cells a side
 
 private:

@@ -34,7 +34,7 @@ struct PathProbe {
     const float* columns = nullptr;  // chance of columns within their row, width + 1 a row
     const float* edges = nullptr;    // cosine at the upper edge of each row, height + 1
     std::int32_t width = 0, height = 0;
-    std::int32_t rowSteps = 0, columnSteps = 0;  // those of a binary search
+    std::int32_t rowSteps = 0, columnSteps = 0;  // steps of a binary search
 };
 
 // A point light.

@@ -256,9 +256,9 @@ private:
         r.octant = (octant.x & one) | shiftLeft<1>(octant.y & one) | shiftLeft<2>(octant.z & one);
     }
 
-    // What the walking lanes find where they are: those in a full octant walk no more. The others know the
-    // planes of the box that they may leave at once. Apart from walkOn, so that all packets wait for memory
-    // together.
+    // Looks up what the walking lanes find where they are: those in a full octant walk no more. The others
+    // know the planes of the box that they may leave at once. Apart from walkOn, so that all packets wait for
+    // memory together.
     STEREONAV_INLINE void lookUp(Rays3& r) const {
         const I none(0), one(1), word = gatherHalves(mField.blocks, r.block, r.walking), code = word & I(255);
         const M leaps = none < code;

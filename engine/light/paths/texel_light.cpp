@@ -163,7 +163,7 @@ struct TexelLighter::State {
     // Texels with a surface, in the order of their fields, which so are read while they are near.
     struct Batch {
         std::vector<PathStart> starts;
-        std::vector<std::size_t> texels;  // their numbers in the span
+        std::vector<std::size_t> texels;  // numbers of texels in the span
     };
     // A batch of texels or points. First: first sample of one; negative: leave it out.
     template <typename Place, typename First>

@@ -104,8 +104,8 @@ private:
     Distribution mLuminance, mX, mY;
 };
 
-// What of the sun's light arrives, across its rays (klx where it is illuminance): Rayleigh's and Angstrom's
-// scattering along the air mass.
+// Returns the part of the sun's light that arrives, across its rays (klx where it is illuminance): Rayleigh's
+// and Angstrom's scattering along the air mass.
 glm::dvec3 sunlight(double cosZenith, double turbidity) {
     const double zenith_deg = std::acos(cosZenith) * 180 / kPi;
     const double airMass = 1 / (cosZenith + 0.15 * std::pow(93.885 - zenith_deg, -1.253));
@@ -146,7 +146,7 @@ struct Panorama {
         const int column = std::min(2 * height - 1, static_cast<int>((azimuth / kPi + 1) * height));
         at(column, row) += light / solidAngle(row);
     }
-    // What falls on a horizontal surface from above.
+    // Returns the light that falls on a horizontal surface from above.
     glm::dvec3 irradiance() {
         glm::dvec3 sum(0.0);
         for (int row = 0; row < height / 2; ++row)

@@ -117,7 +117,7 @@ private:
     std::vector<std::string_view> mWords;
 };
 
-// What points and regions have in common; false where the word is not one of these.
+// Reads what points and regions have in common; false where the word is not one of these.
 bool readCommon(Line& line, std::string_view word, Reading& reading) {
     if (word == "transport") {
         reading.transport = line.color(word);

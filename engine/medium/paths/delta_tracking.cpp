@@ -32,7 +32,7 @@ public:
 
     struct Arrival {
         glm::dvec3 direction;  // the way it travels
-        double distance;       // that it came, metres; infinite for parallel light
+        double distance;       // metres that the light travelled; infinite for parallel light
         glm::vec3 radiance;    // R of V4 of docs/volume_light.md
     };
     Arrival at(const glm::dvec3& place) const {

@@ -24,7 +24,7 @@ struct TrackingSetting {
 };
 
 struct TrackedPicture {
-    Plane<glm::vec4> light;  // as MediumPicture::light
+    Plane<glm::vec4> light;  // the same as MediumPicture::light
     // Linear RGB squared: variance of the mean of each pixel's samples; infinite for one sample.
     Plane<glm::vec3> variance;
 };

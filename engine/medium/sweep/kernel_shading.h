@@ -20,7 +20,7 @@ struct ShadingPatch {
 // A slab's shades at the places of a patch.
 struct ShadedPlaces {
     float length[ShadingPatch::kPlaces];   // the gradient's length
-    float weighed[ShadingPatch::kPlaces];  // that times what Blinn-Phong makes of it
+    float weighed[ShadingPatch::kPlaces];  // that length times what Blinn-Phong makes of it
 };
 
 // Places of the half of a tile that is being walked, found when the first sample of a slab asks for them.
@@ -167,7 +167,7 @@ private:
     bool mMeasured = false;
     int mTop = -1;
     std::uint32_t mRays = 0, mShaded[2] = {};  // bits of patches; of slabs, by patch
-    double mLargestStep[2];                    // that of half a tile's patch, and of its halves
+    double mLargestStep[2];                    // largest step of half a tile's patch, and of its halves
     ShadingPatch mPatches[3];
     ShadedPlaces mPlaces[2][SweepChunk::kMost];
 };

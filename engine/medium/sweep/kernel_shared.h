@@ -30,7 +30,7 @@ STEREONAV_INLINE SharedPlace sharedPlace(const SharedRows& rows, int x, int row)
     const std::int64_t packets = rows.columns / 4;
     return {rows.numbers + (row / (kLanes / 4) * packets + x / 4) * kSharedPacket};
 }
-constexpr float kNotLooked = -1.0f;  // as an opacity
+constexpr float kNotLooked = -1.0f;  // an opacity that marks what was not looked at
 
 STEREONAV_INLINE void keepSighting(const SharedPlace& at, int n, const Sighting& s) {
     float* to = at.first + n * kSharedSlab;

@@ -39,7 +39,7 @@ private:
     // One eye's tiles.
     struct Eye {
         int across = 0, down = 0;
-        std::vector<float> states;  // as EyeTile::state
+        std::vector<float> states;  // like EyeTile::state
         std::vector<std::uint8_t> fresh, done;
         std::vector<SweepBeam> beams;      // of the quarters of each tile
         std::vector<std::uint32_t> slabs;  // of a chunk, where quarters may meet something

@@ -237,7 +237,8 @@ glm::dvec3 cornerOf(const WorldBox& box, int n) {
     return {n & 1 ? box.high.x : box.low.x, n & 2 ? box.high.y : box.low.y, n & 4 ? box.high.z : box.low.z};
 }
 
-// What the box covers, seen along the light; of a lamp with a part of the box behind it: the whole cone.
+// Returns the window that the box covers, seen along the light; of a lamp with a part of the box behind it:
+// the whole cone.
 Window windowOf(const RayFan& fan, const WorldBox& box, const glm::dvec3& anchor, double most) {
     Window window;
     for (int n = 0; n < 8; ++n) {
