@@ -25,7 +25,7 @@ struct GroundData {
     // miss.
     double (*exactHit)(const void* context, const double* origin, const double* direction, double fall,
                        double tMin, int* cell, double* position) = nullptr;
-    const void* context = nullptr;  // that exactHit is given
+    const void* context = nullptr;  // what exactHit is given
 };
 
 // A SkyMap: an octahedral map of PackedColor.

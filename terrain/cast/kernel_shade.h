@@ -76,7 +76,7 @@ STEREONAV_INLINE ColorHalves fogged(const FogData& fog, ColorHalves c, F through
     return {red | shiftLeft<16>(blue), green};
 }
 
-// What air_formula.h asks of numbers. airExp: e^-x within 3e-7, for x from -12 to 80; beyond as there.
+// Numbers as air_formula.h asks for them. airExp: e^-x within 3e-7, for x from -12 to 80; beyond as there.
 STEREONAV_INLINE F airExp(F x) {
     const F y = clamp(x, F(-12.0f), F(80.0f)) * F(-1.44269504f);
     const I whole = floorToInt(y + F(0.5f));

@@ -156,7 +156,7 @@ void RingScenes::show(Set set, std::vector<RingBox> boxes) {
     mBoxes = std::move(boxes);
 }
 
-// What one of the eyes has left of the set is not cast: rays start in the finest ring that is.
+// Shows only the rings that both eyes are in: rays start in the finest of these.
 void RingScenes::showAround(const Looking& from) {
     std::vector<RingBox> held;
     for (const auto& ring : mSet.rings->rings) held.push_back(ring->box);

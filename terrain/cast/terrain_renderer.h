@@ -92,7 +92,7 @@ private:
     // Whether a picture keeps what shading again needs. Its base colours are without the fog then, which each
     // eye sees through its own distances.
     bool keepsBase(const EyeImage& image) const { return viewDependent() && !image.normal.empty(); }
-    // What the kernels leave out: landmarks, normals, highlights and the fog before them.
+    // Casts what the kernels leave out: landmarks, normals, highlights and the fog before them.
     void castSparse(const EyeView& view, const CasterView& caster, std::span<const PixelIndex> pixels,
                     const std::function<float(PixelIndex)>& startOf, EyeImage& image) const;
     void finish(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const;

@@ -183,7 +183,7 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
     return sum;
 }
 
-// What the samples around pull at each missing one, with the guess in place.
+// Returns how strongly the samples around pull at each missing one, with the guess in place.
 std::vector<double> residualOf(const std::vector<std::size_t>& missing, const std::vector<float>& heights,
                                int width, int height, const glm::dvec2& spacing) {
     const double x = 1 / (spacing.x * spacing.x), y = 1 / (spacing.y * spacing.y), most = std::max(x, y);

@@ -64,8 +64,8 @@ double phaseOfHaze(double cosine) {
            ((2 + g * g) * std::pow(1 + g * g - 2 * g * cosine, 1.5));
 }
 
-// What of sunlight on a level surface arrives below a layer that absorbs nothing: two-stream (Eddington's),
-// of a depth that is scaled by what is not scattered forward.
+// Returns the share of sunlight on a level surface that arrives below a layer that absorbs nothing:
+// two-stream (Eddington's), of a depth that is scaled by what is not scattered forward.
 glm::dvec3 twoStream(const glm::dvec3& scaledDepth, double sine) {
     const double up = std::max(sine, 0.0);
     return ((1 + 1.5 * up) + (1 - 1.5 * up) * glm::exp(-scaledDepth / std::max(up, 0.02))) /

@@ -14,7 +14,7 @@ STEREONAV_INLINE float clampShare(float x) {
     return low < 1.0f ? low : 1.0f;
 }
 
-// What comes straight from the sun: n.s, times the share of its disc above the horizon.
+// Sets `sun` to the light straight from it: n.s, times the share of its disc above the horizon.
 STEREONAV_INLINE void directSun(const RelightRow& row, int first, int count, float* sun) {
     const float *nx = row.normal[0] + first, *ny = row.normal[1] + first, *nz = row.normal[2] + first;
     for (int i = 0; i < count; ++i) {

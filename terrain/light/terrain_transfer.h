@@ -24,7 +24,7 @@ public:
         double dx, dy;       // d
         double along;        // n.d
         double bottom, top;  // sines of the ground that is seen; the sky is above top
-        double ground;       // its share of a constant light from everywhere
+        double ground;       // the ground's share of a constant light from everywhere
     };
 
     explicit SkyWedges(int azimuths);

@@ -90,8 +90,9 @@ tinygltf::Primitive primitiveOf(tinygltf::Model& model, const Heightfield& groun
     return primitive;
 }
 
-// What is put together at once: the numbers, the model's buffer, which has grown, and the file twice; of the
-// picture its rows, filtered and compressed ones. As text (.gltf) three bytes take four letters.
+// Checks memory for what is put together at once: the numbers, the model's buffer, which has grown, and the
+// file twice; of the picture its rows, filtered and compressed ones. As text (.gltf) three bytes take four
+// letters.
 void checkFileMemory(const std::filesystem::path& file, double texels, const TerrainMesh& mesh) {
     constexpr double kVertex = 8 * sizeof(float), kTriangle = 3 * sizeof(std::uint32_t), kTexel = 12;
     const double numbers = kVertex * static_cast<double>(mesh.vertices.size()) +

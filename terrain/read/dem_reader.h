@@ -34,7 +34,7 @@ struct DemGrid {
     double bodyRadius = 0;
 
     // What the file left to be found out, in words; "" where there is nothing to say.
-    std::string band;                // which of several bands
+    std::string band;                // the band that was read, of several
     std::string heightUnit;          // where heights were not plain metres
     std::string missingValue;        // what marks missing samples
     std::vector<std::string> notes;  // what else was guessed or left aside, a line each, with the file's name

@@ -52,7 +52,7 @@ struct SceneFile {
     std::filesystem::path file;  // the TOML file, or the DEM when there is none
     bool builtIn = false;        // the generated terrain
     std::uint64_t seed = 1;      // of the generated terrain
-    int builtInSize = 513;       // its samples a side
+    int builtInSize = 513;       // samples a side of the built-in ground
     std::filesystem::path dem;
     double verticalScale = 1.0;  // factor on heights, > 0
     GroundTiles tiles = GroundTiles::Auto;

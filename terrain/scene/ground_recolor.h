@@ -19,10 +19,10 @@ struct BuiltInOrigin {
 
 // What colours are made of, beside the ground.
 struct GroundColorSource {
-    TerrainLook look;                       // as the scene was loaded
+    TerrainLook look;                       // the look that the scene was loaded with
     bool alone = false;                     // without the sun's light: whoever shows them lights them
     double verticalScale = 1;               // of the heights: so many times those of the file
-    GroundPaint paint = GroundPaint::None;  // that the scene was loaded with
+    GroundPaint paint = GroundPaint::None;  // the paint that the scene was loaded with
     std::optional<BuiltInOrigin> builtIn;
     TintPlace tint;
 };

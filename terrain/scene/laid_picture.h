@@ -36,7 +36,7 @@ public:
     // where the file can not be read any more, or would not fit into memory.
     std::optional<Pixels> over(const Heightfield& ground, const GroundTextureSize& size) const;
 
-    // What was guessed of its colours, a line each.
+    // Returns what was guessed of its colours, a line each.
     const std::vector<std::string>& notes() const { return mTone.notes; }
     // "image winter.jpg 457x499 over the same extent"
     std::string describe() const;

@@ -35,7 +35,7 @@ struct TerrainReport {
     std::string verticalDatum;  // of the source's heights, "" where it names none
     // What was found out of the file, in words; "" where there is nothing to say.
     std::string placedBy;          // control points
-    std::string band;              // which of several
+    std::string band;              // the band, of several
     std::string heightUnit;        // where heights were not plain metres
     std::string missingValue;      // what marks missing samples
     long long sourceSamples = 0;   // in the file; 0: there is none
@@ -109,7 +109,7 @@ struct TerrainScene {
     Lens lens;               // width and height are the caller's to set
     // The share of the ground's curvature that light follows, 0 to 1; none over level ground.
     std::optional<double> refraction;
-    Body body;               // that the ground lies on
+    Body body;               // the body that the ground lies on
     double clearance = 2.0;  // metres kept above the ground
     TerrainReport report;
 };

@@ -111,7 +111,7 @@ std::shared_ptr<const TileStore> storeThere(const StorePlan& plan) {
     }
 }
 
-// What is there, or made now.
+// Returns the store that is there, or makes it now.
 std::shared_ptr<const TileStore> storeOrMade(const std::filesystem::path& dem, DemRows& rows,
                                              const StorePlan& plan, Progress& progress) {
     progress.report(0, kMaking);

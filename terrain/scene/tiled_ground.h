@@ -26,7 +26,7 @@ DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& pr
 
 // The levels alone, for who needs no scene; tiles are made where they are not there yet.
 struct GroundInTiles {
-    DemGrid place;  // as readDem() gives it, without heights
+    DemGrid place;  // what readDem() gives, without heights
     std::shared_ptr<const GroundLevels> levels;
 };
 // Throws as readTiledGround().

@@ -23,7 +23,7 @@ STEREONAV_INLINE F knownOf(F height) {
 STEREONAV_INLINE F heightBetween(F low, F middle, F high, F at) {
     return select(at <= F(1.0f), mulAdd(at, middle - low, low), mulAdd(at - F(1.0f), high - middle, middle));
 }
-// What the top of a bent piece may lie over its ends.
+// Returns how much the top of a bent piece may lie over its ends.
 STEREONAV_INLINE F topOver(F bend, F share) {
     return max(F(0.0f), bend * share * share * F(-0.25f));
 }

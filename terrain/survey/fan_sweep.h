@@ -115,7 +115,7 @@ private:
     const Heightfield& mHeights;
     const FanGround mGround;
     double mFrom, mTo;          // tangents, rows a column
-    bool mOpenFrom, mClosedTo;  // which of two fans, or parts, a ray between them belongs to
+    bool mOpenFrom, mClosedTo;  // whether mFrom is left out, and mTo is part of the fan
     // Metres over the eye, and from row to row, the most in the columns so far.
     float mTallest = 0, mSteepest = 0;
     // Metres a column: no slope up to the first column is above it.

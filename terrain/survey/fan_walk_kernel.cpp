@@ -31,7 +31,7 @@ STEREONAV_INLINE F heightIn(const Corners& c, F at) {
     return select(at <= F(1.0f), mulAdd(at, c.middle - c.low, c.low),
                   mulAdd(at - F(1.0f), c.high - c.middle, c.middle));
 }
-// What the top of a bent piece may lie over its ends.
+// Returns how much the top of a bent piece may lie over its ends.
 STEREONAV_INLINE F bulgeOver(F bend, F share) {
     return max(F(0.0f), bend * share * share * F(-0.25f));
 }

@@ -14,8 +14,8 @@ namespace {
 
 using Corners = std::vector<glm::dvec2>;  // grid
 
-// What lies on one side of a column or row (Sutherland and Hodgman 1974). Of a polygon with dents edges on
-// the line are gone over twice, there and back, which cancels in what is summed over it.
+// Clips a polygon to one side of a column or row (Sutherland and Hodgman 1974). Where the polygon has dents,
+// edges on the line are gone over twice, there and back, which cancels in what is summed over it.
 Corners clipped(const Corners& corners, int axis, double line, bool above) {
     Corners inside;
     for (std::size_t n = 0; n < corners.size(); ++n) {

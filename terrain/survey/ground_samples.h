@@ -73,7 +73,7 @@ public:
         const float height = mHeights ? mHeights[static_cast<std::size_t>(at.y) * mPitch + at.x] : stored(at);
         return mScale == 1 ? height : static_cast<float>(height / mScale);
     }
-    double heightAt(const glm::dvec2& world) const;  // as Heightfield::heightAt()
+    double heightAt(const glm::dvec2& world) const;  // the same as Heightfield::heightAt()
 
     // Returns every second sample from (firstX, firstY) on, in a world whose origin lies `shift` metres from
     // this one's. This ground has four samples or more each way.

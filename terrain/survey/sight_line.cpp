@@ -132,7 +132,7 @@ private:
     bool mStarted = false;
 };
 
-// What rounding makes of heights and of their differences.
+// Returns a bound of the rounding of heights and of their differences.
 double roundingOf(double tallest, const Line& line) {
     constexpr double kRoundings = 64;
     return kRoundings * std::numeric_limits<double>::epsilon() *

@@ -59,7 +59,7 @@ bool allBetween(const Codes& codes, TileCode meant, double low, double high) {
     });
 }
 
-// What is missing by one code or another: without it edges of holes would count as steps.
+// Removes samples that one code or another marks as missing, since edges of holes would count as steps.
 Codes withoutMissing(Codes codes) {
     const bool zeroIsMissing = allBetween(codes, TileCode::TerrainRgb, kLowest, kHighest);
     for (int& code : codes.values)

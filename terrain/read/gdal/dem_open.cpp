@@ -128,7 +128,7 @@ FolderChoice filesOfOneGround(const std::filesystem::path& folder, const GdalMes
     return choice;
 }
 
-// What the numbers of all files mean, said again of what they were mixed to: a virtual raster leaves it out.
+// Gives the mixed dataset what the numbers of all files mean: a virtual raster leaves it out.
 void meanAsTheFiles(GDALDataset& made, const FolderFile& file, const GdalMessages& messages) {
     const GdalDataset dataset = openRaster(file.file, messages, kExpected, kAdvice);
     GDALRasterBand& from = *dataset->GetRasterBand(file.band.number);

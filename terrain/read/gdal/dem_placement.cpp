@@ -46,8 +46,8 @@ std::string systemName(const std::string& wkt) {
     return made;
 }
 
-// What its heights are counted from: the vertical part of its reference system, or the ellipsoid of one with
-// three axes.
+// Returns what its heights are counted from: the vertical part of its reference system, or the ellipsoid of
+// one with three axes.
 std::string verticalDatumOf(GDALDataset& dataset) {
     const OGRSpatialReference* system = dataset.GetSpatialRef();
     if (!system) system = dataset.GetGCPSpatialRef();

@@ -42,7 +42,8 @@ std::vector<float> readAll(HeightSamples& samples, GdalMessages& messages, const
     return heights;
 }
 
-// What stands for missing samples of a folder is the reader's own, not a value that somebody named.
+// Returns the band. In a folder the reader itself chooses what stands for missing samples, so no value is
+// named.
 HeightBand bandAsNamed(GDALDataset& dataset, const std::filesystem::path& file) {
     HeightBand band = heightBandOf(dataset, file);
     std::error_code failed;

@@ -27,7 +27,7 @@ public:
     HeightSamples(GDALDataset& dataset, const std::filesystem::path& file);
 
     const HeightBand& band() const { return mBand; }
-    // What marks missing samples, in words.
+    // Returns in words what marks missing samples.
     const std::string& missing() const { return mMissing; }
     int width() const { return mWidth; }
     int height() const { return mHeight; }
@@ -70,7 +70,7 @@ struct DemSamples {
     std::vector<float>
         heights;  // metres times the vertical scale, in the raster's own row order, NaN where missing
     // What the file left to be found out, in words for a person; "" where there is nothing to say.
-    std::string band;     // which of several bands
+    std::string band;     // the band that is read, of several
     std::string unit;     // of the heights, where they are not plain metres
     std::string missing;  // what marks missing samples
 };

@@ -49,8 +49,8 @@ bool oneCoversTheOther(const FilePlan& a, const FilePlan& b) {
            both > 0;
 }
 
-// What speaks for the first because it is the smoother: slope, aspect, roughness and shade change from sample
-// to sample as the steps of heights do, and counts and noise anyhow.
+// Returns a weight for the first where it is the smoother, against it where it is the rougher: slope, aspect,
+// roughness and shade change from sample to sample as the steps of heights do, and counts and noise anyhow.
 double smoother(const HeightEvidence& a, const HeightEvidence& b) {
     constexpr double kMuch = 2.5, kWeight = 3;
     if (!(a.rough > 0 && b.rough > 0)) return 0;

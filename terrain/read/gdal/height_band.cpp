@@ -23,7 +23,7 @@ std::string unitOf(GDALRasterBand& band) {
     return band.GetUnitType() ? band.GetUnitType() : "";
 }
 
-// What it is called that speaks of heights; "" else.
+// Returns the name of the band that speaks of heights; "" where none does.
 std::string nameOfHeights(GDALRasterBand& band) {
     if (const char* text = band.GetDescription(); text && speaksOfHeights(text)) return text;
     for (const char* key : {"standard_name", "long_name", "NETCDF_VARNAME", "NAME", "DESCRIPTION"})
@@ -81,7 +81,7 @@ void chooseBand(GDALDataset& dataset, const std::filesystem::path& file, HeightB
 struct HeightAxis {
     bool down = false;
     double metres = 1;
-    std::string unit;  // its name
+    std::string unit;  // name of the unit
 };
 
 // Compound systems, systems of three axes, and those of heights alone: the last axis that goes up or down.

@@ -70,7 +70,7 @@ void skipAttributes(HeaderReader& header) {
     }
 }
 
-// What it would be if it were larger than any file.
+// Returns the product, kMostBytes where it would be larger than any file.
 std::uint64_t times(std::uint64_t a, std::uint64_t b) {
     return b != 0 && a > kMostBytes / b ? kMostBytes : a * b;
 }

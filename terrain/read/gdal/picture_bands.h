@@ -30,7 +30,7 @@ PictureBands pictureBandsOf(GDALDataset& dataset, const std::filesystem::path& f
 // be read.
 PictureTone pictureToneOf(GDALDataset& dataset, const PictureBands& bands, const std::filesystem::path& file);
 
-// What its bits hold, whatever the pixels.
+// Returns the range that its bits hold, whatever the pixels.
 PictureTone wholeToneOf(GDALRasterBand& band);
 
 }  // namespace stereonav

@@ -176,7 +176,7 @@ void checkMetadata(const std::string& file) {
     checkNodes(root.get(), file, 0);
 }
 
-// What stands after `key` is a definition; "": the whole text is.
+// Checks the definition that follows `key`; "": the whole text.
 void checkText(const std::string& file, const char* key) {
     constexpr std::size_t kMost = 1 << 20;  // bytes; drivers read less of it
     if (!isReadable(file)) return;

@@ -24,8 +24,8 @@ bool onEarth(const Georeference& raster);
 // Metres: the mean radius (2a + b) / 3 of the ellipsoid that it is tied to; 0 where it is tied to none.
 double bodyRadiusOf(const Georeference& raster);
 
-// What x grows by once around the body, in the system's units: 360 degrees, or of maps that are a strip
-// without ends (web Mercator, plate carree) their length; 0 of others.
+// Returns what x grows by once around the body, in the system's units: 360 degrees, or of maps that are a
+// strip without ends (web Mercator, plate carree) their length; 0 of others.
 double fullTurnOf(const OGRSpatialReference& system);
 
 // Whether a projected raster lies over the north or the south pole.

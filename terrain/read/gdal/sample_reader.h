@@ -36,7 +36,7 @@ public:
         return x >= -kSlack && y >= -kSlack && x <= mWidth - 1 + kSlack && y <= mHeight - 1 + kSlack;
     }
 
-    // What between() may ask for at places inside, x and y from low to high.
+    // Returns the window that between() may ask for at places inside, x and y from low to high.
     SampleWindow around(const glm::dvec2& low, const glm::dvec2& high) const {
         const auto first = [](double x, int count) {
             return std::max(static_cast<int>(std::clamp(x - 0.5, 0.0, count - 2.0)) - 1, 0);
