@@ -99,7 +99,7 @@ Points centredAll(const LumenProbe& probe, const Points& points, double spacing)
 // How a sequence goes on beyond its ends.
 enum class Beyond {
     Turned,    // turned about the end: ends of a line and their directions stay where they are
-    Mirrored,  // as for displacements: the ends are smoothed like the rest
+    Mirrored,  // for displacements: the ends are smoothed like the rest
 };
 
 glm::dvec3 valueBeyond(const Points& values, std::ptrdiff_t i, Beyond beyond) {

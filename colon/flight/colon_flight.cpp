@@ -110,7 +110,8 @@ bool ColonFlight::State::turnPiece(const FlightView& next) {
 
 // --- moving
 
-// What is left of a move beside the wall, and the push. Slows what goes towards the wall down.
+// Returns what is left of a move beside the wall, and the push. Slows the part of it that goes towards the
+// wall.
 glm::dvec3 ColonFlight::State::besideWall(const glm::dvec3& by, double range, bool pushes, double h) {
     const double length = glm::length(by);
     const glm::dvec3 right = view.right();

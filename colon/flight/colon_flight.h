@@ -73,7 +73,7 @@ public:
     std::optional<int> lineMode() const override;
     double alongNear(const glm::dvec3& place) const override;
     bool goesBack() const override;
-    static constexpr double kRoundSeconds = 1.2;  // that turning round takes
+    static constexpr double kRoundSeconds = 1.2;  // time that turning round takes
     bool turnRound() override;                    // while guided
     // Returns the clearance that is kept here, metres: the setting's, or less around a narrow part of the
     // centreline.

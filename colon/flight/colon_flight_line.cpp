@@ -70,7 +70,8 @@ void FlightLine::addPieces(const glm::dvec3& to, double freeThere, const FreeDis
     }
 }
 
-// What holds half way to the neighbours too: free distance, the clearance allowed there, the room left.
+// Measures free distance, the clearance allowed there and the room left, such that they hold half way to the
+// neighbours too.
 void FlightLine::measure(std::size_t k, double clearance, double half) {
     Place& place = mPlaces[k];
     const double before = k > 0 && !mPlaces[k - 1].endsSegment ? place.along - mPlaces[k - 1].along : 0.0;

@@ -77,7 +77,7 @@ private:
     mutable glm::dvec3 mKnownPoint{0.0};                                 // world, metres
     mutable double mKnownFree = 0;                                       // metres
     double mCell = 1;                                                    // metres
-    std::unordered_map<std::uint64_t, std::vector<NarrowPlace>> mCells;  // those that matter in a cell
+    std::unordered_map<std::uint64_t, std::vector<NarrowPlace>> mCells;  // places that matter, by cell
 };
 
 }  // namespace stereonav

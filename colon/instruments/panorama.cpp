@@ -17,7 +17,7 @@ namespace {
 constexpr double kWholeTurn = 2 * std::numbers::pi;
 constexpr double kFarthest = 0.2;           // metres that a ray goes
 constexpr double kNearLine = 0.09;          // metres of a place from eyes that may see it
-constexpr int kRays = 16, kFrameStep = 20;  // that the mean radius is taken from; frames between them
+constexpr int kRays = 16, kFrameStep = 20;  // rays that the mean radius is taken from; frames between these
 constexpr int kLongMark = 10;               // pixels
 constexpr int kWidest = 32768;
 constexpr int kOneTask = 512;  // vertices

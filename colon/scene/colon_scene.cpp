@@ -217,7 +217,7 @@ void refuseTurned(const ColonOptions& options) {
                     "leave it out: a colon follows the patient's axes; or add --isosurface");
 }
 
-// What only the search for a colon asks for, of a volume in which there is nothing to search.
+// Refuses options that only the search for a colon takes, for a volume in which there is nothing to search.
 void refuseOfColons(const ColonOptions& options) {
     const auto refuse = [](bool given, const char* option) {
         if (given)

@@ -48,7 +48,7 @@ struct ColonScene {
     // found, HU. The cache keeps no values far from the lumen, but these two.
     ValueSpan valuesFound;
     // The lumen of a colon; empty for a volume seen from outside.
-    LumenField lumen;  // its `field` is moved into volume.field
+    LumenField lumen;  // without `field`, which is moved into volume.field
     Centreline centreline;
     std::vector<Polyp> polyps;
 

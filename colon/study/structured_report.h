@@ -16,7 +16,7 @@ using MmPlace = std::array<double, 3>;  // to the patient's left, back and head,
 // Figures that are not finite numbers are left out.
 struct ReportedFinding {
     std::string label;  // "1"
-    std::string uid;    // that follows it from report to report
+    std::string uid;    // tracking UID: the same in every report
     bool polyp = true;  // measured as a polyp; else a place where none was found
     MmPlace place_mm{};
     double fromRectum_mm = 0;

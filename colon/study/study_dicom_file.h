@@ -17,7 +17,7 @@ namespace stereonav {
 
 struct DicomItem;
 struct DicomValue {
-    std::string bytes;             // as they stand in the file
+    std::string bytes;             // the bytes as they stand in the file
     std::vector<DicomItem> items;  // of a sequence
 };
 // The elements that a study is read from, by group * 65536 + element; others are walked over.

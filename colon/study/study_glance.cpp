@@ -13,8 +13,8 @@ namespace stereonav {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFiles = 100'000;  // that are counted
-constexpr std::size_t kMostLooks = 16;       // that are opened
+constexpr std::size_t kMostFiles = 100'000;  // files that are counted
+constexpr std::size_t kMostLooks = 16;       // files that are opened
 
 // Files below the root of a disc that may be slices, by their names.
 std::vector<fs::path> filesAt(const fs::path& place, Progress& progress) {

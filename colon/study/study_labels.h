@@ -18,7 +18,7 @@ struct RawStudy;
 struct NamedLabel {
     std::string name, id;
     std::uint64_t layer = 0;
-    std::int64_t value = 1;  // its number in the voxels of that layer
+    std::int64_t value = 1;  // the label's number in the voxels of that layer
 };
 
 // Several numbers a voxel, one a layer.
@@ -39,8 +39,9 @@ std::optional<std::int64_t> labelNumber(const std::string& label);
 
 // Whether keys of a header are about labels.
 bool namesLabels(const HeaderFields& fields);
-// What a header's keys "Segment0_Name" and the like say, in the order of their numbers. A key that says
-// nothing of a layer: the first one, or, where none does, its own. Throws Error over numbers that are none.
+// Returns what a header's keys "Segment0_Name" and the like say, in the order of their numbers. A key that
+// says nothing of a layer: the first one, or, where none does, its own. Throws Error over numbers that are
+// none.
 std::vector<NamedLabel> namedLabelsOf(const std::string& file, const HeaderFields& fields,
                                       std::uint64_t layers);
 

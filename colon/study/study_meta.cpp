@@ -17,7 +17,7 @@ namespace stereonav {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int kMostMetaAxes = 10;  // that MetaIO knows
+constexpr int kMostMetaAxes = 10;  // axes that MetaIO knows
 
 struct MetaText {
     fs::path file;

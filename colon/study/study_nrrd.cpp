@@ -18,7 +18,7 @@ namespace stereonav {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostAxes = 16;  // that teem knows
+constexpr std::size_t kMostAxes = 16;  // axes that teem knows
 
 struct NrrdField {
     std::string value;

@@ -131,7 +131,7 @@ void takeMask(RawStudy& raw, double sample, MaskVolume& mask) {
     });
 }
 
-// What the file stores for a label, which is among the facts' distinct values.
+// Returns what the file stores for a label, which is among the facts' distinct values.
 double sampleOf(double label, const ValueFacts& facts, const ValueFacts& stored, const RawStudy& raw) {
     const auto at = std::lower_bound(facts.distinct.begin(), facts.distinct.end(), label);
     const auto n = static_cast<std::size_t>(at - facts.distinct.begin());
