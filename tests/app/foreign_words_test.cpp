@@ -45,7 +45,7 @@ protected:
         EXPECT_EQ(outcome.out, "");
         EXPECT_EQ(outcome.err.find("json.exception"), std::string::npos) << outcome.err;
     }
-    // What is read has these names instead, and what is written too.
+    // Gives what is read these names instead, and what is written too.
     Words withForeignNames(const std::string& command, Words words) const {
         words.insert(words.begin(), command);
         for (std::size_t n = 1; n < words.size(); ++n) {

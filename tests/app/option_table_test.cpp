@@ -54,7 +54,7 @@ Words given(const Option& option) {
     return {option.name(), sampleOf(option)};
 }
 
-// What a command needs beside.
+// Returns the words that a command needs beside.
 Words neededBy(const Command& command) {
     Words words;
     for (const Option& option : optionTable())

@@ -76,7 +76,7 @@ protected:
                 contentOf(mFolder / "stderr")};
     }
 
-    // What became of it after it was told to end: however busy the machine is, it does.
+    // Returns what became of it after it was told to end: however busy the machine is, it does.
     Outcome awaitStopped(pid_t child) const {
         EXPECT_TRUE(waitFor([&] { return hasEnded(child); })) << "it was told to end, and goes on";
         if (!hasEnded(child)) kill(child, SIGKILL);

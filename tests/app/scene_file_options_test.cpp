@@ -34,7 +34,7 @@ protected:
         }
         return "";
     }
-    // What `render` writes.
+    // Returns what `render` writes.
     std::string picture(Words words) const {
         words.insert(words.begin(), "render");
         words.insert(words.end(), {"--out", "p.png", "--size", "64x48"});
@@ -176,7 +176,7 @@ TEST_F(SceneFileOptionsTest, ThePageIsThatOfTheTable) {
         EXPECT_NE(optionPage().find("`" + option.name()), std::string::npos) << option.name();
 }
 
-// What roff makes of a page's lines, without their filling and fonts.
+// Returns what roff makes of a page's lines, without their filling and fonts.
 std::string readAsText(std::string page) {
     const auto replaceAll = [&](const std::string& what, const std::string& by) {
         for (std::size_t at = page.find(what); at != std::string::npos; at = page.find(what, at + by.size()))

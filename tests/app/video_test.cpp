@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 class Video : public VolumeTest {
 protected:
-    // What a command prints on standard output.
+    // Returns what a command prints on standard output.
     std::string printedBy(const std::string& command) const {
         std::FILE* pipe = popen(("cd '" + place().string() + "' && " + command).c_str(), "r");
         if (!pipe) return "";

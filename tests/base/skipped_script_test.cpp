@@ -15,7 +15,7 @@ struct Said {
     std::string text;
 };
 
-// What the script says of a file with this content.
+// Returns what the script says of a file with this content.
 Said skippedIn(const std::string& content) {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("stereonav-skipped-" + std::to_string(getpid()));

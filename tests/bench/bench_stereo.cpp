@@ -133,7 +133,8 @@ void rows(benchmark::State& state, ResampleFunction kernel, bool cubic, bool sur
         benchmark::Counter(1e-6 * 1280 * 180, benchmark::Counter::kIsIterationInvariantRate);
 }
 
-// What a picture's parallax costs: of the ground, and of depths without any order, which no picture has.
+// Measures what a picture's parallax costs: of the ground, and of depths without any order, which no picture
+// has.
 void parallax(benchmark::State& state, SimdTarget target, bool noise, int threads) {
     setThreadCount(threads);
     const StereoViews views = viewsOf(1280, 720);

@@ -163,7 +163,7 @@ MaskVolume readRealMask() {
 
 constexpr int kLevel = 200;  // of the mask's rows: fluid lies behind
 
-// What of the lumen lies behind the level; the largest part of it is filled.
+// Returns the parts of the lumen that lie behind the level; the largest of them is filled.
 Pieces lowParts(const MaskVolume& mask) {
     Pieces low;
     const VoxelRuns all = runsOf(mask);

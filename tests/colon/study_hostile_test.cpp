@@ -147,7 +147,7 @@ constexpr std::size_t kPictureBytes = 2 * kColumns * kRows;
 
 class DeflatedDicom : public testing::Test {
 protected:
-    // What is wrong with the file of this data set; "" where nothing is.
+    // Returns what is wrong with the file of this data set; "" where nothing is.
     std::string damageOf(const std::string& set) const {
         writeBytes(mFolder / "a.dcm", dicomFile(DicomSyntax::Deflated, set));
         return DicomFile(mFolder / "a.dcm").damage();

@@ -25,7 +25,7 @@ public:
 
     // Draws both eyes at the scene's start pose, as the options say.
     Eyes eyes();
-    // What rays are added to pixels at edges, of both eyes of eyes().
+    // Returns what rays are added to pixels at edges, of both eyes of eyes().
     const EdgeSetting& edges() const { return mEdges; }
     // Each pixel of the right eye cast, by one ray; of a medium each eye swept with samples of its own, by
     // the slices that the method has: one sweep for both eyes leans between them.
@@ -39,7 +39,8 @@ public:
     // Returns whether the method for a medium has one sweep for both eyes.
     bool sweepsTogether() const;
 
-    // What sweeps gave before it was packed: pixels of which a channel is no number, or infinite.
+    // Returns how many pixels of what sweeps gave, before it was packed, have a channel that is no number, or
+    // infinite.
     long long notFinite() const { return mNotFinite; }
 
     const Scene& scene() const { return *mScene; }

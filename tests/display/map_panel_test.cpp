@@ -102,7 +102,7 @@ protected:
         mSide = 0;
         ASSERT_TRUE(test::waitFor([&] { return layOut(), mSide > 0; }));
     }
-    // What the panel shows once its map is there.
+    // Returns what the panel shows once its map is there.
     std::vector<unsigned char> drawn() {
         awaitMap();
         layOut();

@@ -40,7 +40,7 @@ protected:
     // Every command that writes, and some that only read.
     std::vector<FaultCase> cases() const;
 
-    // What the command leaves in the place, which is empty before: content by name.
+    // Returns what the command leaves in the place, which is empty before: content by name.
     std::map<std::string, std::string> madeBy(const std::vector<std::string>& arguments) const;
 
     // most: faults that are tried of each kind, spread over the calls; asserts for each.

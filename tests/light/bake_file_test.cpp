@@ -63,7 +63,7 @@ protected:
     void TearDown() override { fs::remove_all(mFolder); }
     fs::path file() const { return mFolder / "a.bake"; }
     void write(const std::string& bytes) const { std::ofstream(file(), std::ios::binary) << bytes; }
-    // What is wrong with these bytes; "" for nothing.
+    // Returns what is wrong with these bytes; "" for nothing.
     std::string problemOf(const std::string& bytes) const {
         write(bytes);
         std::string problem;

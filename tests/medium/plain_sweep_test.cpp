@@ -36,7 +36,8 @@ glm::dvec4 sweepSlab(const Medium& medium, const MediumLook& look, double eyeCos
 double mean(double z) {
     return z == 0 ? 1 : -std::expm1(-z) / z;
 }
-// What a whole slab of optical depths x, y sends back, or on: by hand from the integral.
+// Returns the share of light that a whole slab of optical depths x, y sends back, or on: by hand from the
+// integral.
 double shareOf(double x, double y, bool forward) {
     if (forward) return x * mean(x + y);
     return y > x ? x * std::exp(-x) * mean(y - x) : x * std::exp(-y) * mean(x - y);

@@ -84,7 +84,7 @@ PlainPaths::PointSight PlainPaths::sightOf(const PointLight& light, const Vertex
     return {direction, distance, std::max(glm::dot(direction, at.normal), 0.0) / (kPi * d * d)};
 }
 
-// What a white surface sends out by the point lights, which cast hard shadows.
+// Returns the light that a white surface sends out by the point lights, which cast hard shadows.
 glm::dvec3 PlainPaths::pointLights(double isovalue, const Vertex& at) const {
     glm::dvec3 sum(0.0);
     for (const PointLight& light : mSetup.lights) {

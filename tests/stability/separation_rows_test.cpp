@@ -95,7 +95,8 @@ struct Range {
     bool holds(double depth) const { return depth >= least * 0.995 && depth <= most * 1.005; }
 };
 
-// What double precision, one ray at a time, sees within `reach` pixels of a place of the right picture.
+// Returns what double precision, one ray at a time, sees within `reach` pixels of a place of the right
+// picture.
 Range seenAround(const OpaqueStage& stage, const EyeView& view, double x, double y, double reach) {
     Range range;
     for (int k = -2; k <= 2; ++k) range.add(stage.castPlainly(view, x + reach * k / 2, y));

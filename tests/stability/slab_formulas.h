@@ -14,8 +14,8 @@ inline double meanOfExp(double z) {
     return z == 0 ? 1 : -std::expm1(-z) / z;
 }
 
-// What a slab of optical depths x (eye) and y (light) sends to the eye of a light of 1, from the integral of
-// exp(-t) over both ways (docs/volume_light.md, V5 and V6 for a single slab).
+// Returns what a slab of optical depths x (eye) and y (light) sends to the eye of a light of 1, from the
+// integral of exp(-t) over both ways (docs/volume_light.md, V5 and V6 for a single slab).
 inline double shareOf(double x, double y, bool forward) {
     if (forward) return x * meanOfExp(x + y);
     return x * std::exp(-std::min(x, y)) * meanOfExp(std::abs(x - y));

@@ -31,7 +31,7 @@ std::string escaped(const std::string& bytes) {
     return text;
 }
 
-// What the two doors of the program let through.
+// Returns what a printing function of the program lets through.
 std::string printed(void (*print)(std::FILE*, std::string_view), const std::string& text) {
     char* bytes = nullptr;
     std::size_t size = 0;

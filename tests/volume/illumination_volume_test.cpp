@@ -18,7 +18,7 @@ using Lookup = IlluminationVolume::Lookup;
 constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 constexpr Lookup kLookups[] = {Lookup::Nearest, Lookup::Trilinear, Lookup::Tricubic};
 
-// What the bits of a half stand for, from the definition of the format.
+// Returns what the bits of a half stand for, from the definition of the format.
 double halfValue(int bits) {
     const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
     return exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25);

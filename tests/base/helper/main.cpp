@@ -22,7 +22,7 @@
 
 namespace {
 
-// What each way out of the process gives: 0 or more where it is open.
+// Returns what each way out of the process gives: 0 or more where it is open.
 long tryWay(const std::string& way) {
     static char program[] = "/bin/true", *arguments[] = {program, nullptr};
     struct stat status {};
