@@ -34,7 +34,7 @@ struct Stop {
 };
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
-// In memory that a signal handler may read: fixed, and a slot is set once its name is whole.
+// A path in memory that a signal handler may read: fixed, and a slot is set once its name is whole.
 struct Slot {
     std::atomic<int> state = 0;
     std::array<char, PATH_MAX> path;

@@ -191,7 +191,7 @@ double durationAt(const std::vector<Step>& steps, double speed) {
     return sum;
 }
 
-// At which the whole takes so long: it takes less the faster.
+// Returns the speed at which the whole takes so long: the faster, the less time.
 double speedForDuration(const std::vector<Step>& steps, double length, double duration) {
     double slow = length / duration, fast = slow;
     while (durationAt(steps, fast) > duration && fast < 1e9 * slow) fast *= 2;

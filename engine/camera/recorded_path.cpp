@@ -20,7 +20,8 @@ bool isFinite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// By components: overflow and underflow of the squares are treated as not finite and as zero.
+// Returns the length by components: overflow and underflow of the squares are treated as not finite and as
+// zero.
 double length(const glm::dquat& q) {
     return std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
 }

@@ -42,7 +42,7 @@ void uploadTable(const MediumTable& table, int firstLayer, int rows) {
     }
 }
 
-// Where mip levels lie in one texture: the finest, and right of it the others, one above another. Gives its
+// Places mip levels in one texture: the finest, and right of it the others, one above another. Returns its
 // size.
 glm::ivec2 placeLevels(const std::vector<glm::ivec2>& sizes, std::vector<glm::ivec4>& levels) {
     glm::ivec2 size(0), at(0);

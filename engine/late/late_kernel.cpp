@@ -124,9 +124,9 @@ struct Found {
     M uncovered;
 };
 
-// From near to far: a ray meets what is seen where it was before it a step ago and is behind it now, unless
-// the depth jumped between. One that gets behind at a jump passes behind what stands there; where it comes
-// out again it goes on, else it shows the place before the jump.
+// Follows rays from near to far: a ray meets what is seen where it was before it a step ago and is behind it
+// now, unless the depth jumped between. One that gets behind at a jump passes behind what stands there; where
+// it comes out again it goes on, else it shows the place before the jump.
 STEREONAV_INLINE Found followed(const LateSource& source, const LatePlan& plan, const Rays& rays) {
     const float step = (plan.nearest - plan.farthest) / static_cast<float>(plan.steps);
     const F slack(1e-6f + 1e-3f * plan.nearest), most(kSurfaceRise * step);

@@ -8,10 +8,10 @@
 namespace stereonav {
 namespace {
 
-// After an end was wished: until what others still have is done without. mpirun kills a second after it has
-// asked to stop, and what came in is to be written before.
+// Time from a wish for an end until what others still have is done without. mpirun kills a second after it
+// has asked to stop, and what came in is to be written before.
 constexpr double kLastResults_s = 0.3;
-// From another process's failure until the run ends without this one's own thread, which may sit in a
+// Time from another process's failure until the run ends without this one's own thread, which may sit in a
 // library.
 constexpr double kListening_s = 5;
 constexpr auto kLook = std::chrono::milliseconds(20);  // for a wish to stop, while nothing comes

@@ -26,9 +26,9 @@ public:
 class MatchingLine {
 public:
     virtual ~MatchingLine() = default;
-    // With another scene's way. Throws Error, naming it, where that has none.
+    // Matches the line with that of another scene. Throws Error that names it where it has none.
     virtual std::shared_ptr<const LineMatch> matchWith(const Scene& other) const = 0;
-    // On the way, looking along it, as upright as can be; back: towards its start.
+    // Returns a pose on the line, looking along it, as upright as can be; back: towards its start.
     virtual Pose poseOnLine(double along, bool back) const = 0;
 };
 

@@ -39,7 +39,7 @@ public:
     virtual void cancel() = 0;
     virtual std::string takeProblem() = 0;  // since the last call; "": none
 
-    // Before a frame, by the thread that makes it: paints what is there by now.
+    // Called before a frame, by the thread that makes it: paints what is there by now.
     virtual void takeUp() = 0;
 };
 

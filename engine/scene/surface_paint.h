@@ -14,11 +14,11 @@ namespace stereonav {
 // A capability (capabilities.h). Changed by the thread that makes frames, or before it starts.
 class SurfacePaint {
 public:
-    // One over the other, in this order.
+    // Sets the painters, which lie one over the other in this order.
     void set(std::vector<std::shared_ptr<const EyePainter>> painters) { mPainters = std::move(painters); }
     void add(std::shared_ptr<const EyePainter> painter) { mPainters.push_back(std::move(painter)); }
     const std::vector<std::shared_ptr<const EyePainter>>& painters() const { return mPainters; }
-    // Over all of them, while one flies; null: nothing.
+    // Sets a painter that comes over all others while one flies; null: none.
     void setOver(std::shared_ptr<const EyePainter> painter) { mOver = std::move(painter); }
     bool empty() const { return mPainters.empty() && !mOver; }
     void paint(const EyeView& view, EyeImage& image) const {

@@ -46,7 +46,7 @@ public:
 class WallToSee {
 public:
     virtual ~WallToSee() = default;
-    // On any thread. Throws Error (memory; a number out of range), Cancelled.
+    // Called on any thread. Throws Error (memory; a number out of range), Cancelled.
     virtual std::unique_ptr<WallSeen> begin(const WallLooking& looking, Progress& progress) const = 0;
     // The scene's own flight, or the way back. On any thread; may take seconds.
     virtual std::vector<Pose> ownFlight(bool back) const = 0;

@@ -151,7 +151,7 @@ private:
         return box;
     }
 
-    // From the home cell always to the neighbour with the least code, which leads near to the nearest
+    // Goes from the home cell always to the neighbour with the least code, which leads near to the nearest
     // surface: some is no further than that.
     void descend() {
         glm::ivec3 cell = mHome;
@@ -206,7 +206,7 @@ private:
         }
     }
 
-    // From the point to the nearest point of a cell, or of a block of them.
+    // Returns the squared distance from the point to the nearest point of a cell, or of a block of them.
     double squaredTo(const glm::ivec3& cell, int size = 1) const {
         const glm::dvec3 low = glm::dvec3(cell) * mSpacing;
         const glm::dvec3 away = mPoint - glm::clamp(mPoint, low, low + static_cast<double>(size) * mSpacing);

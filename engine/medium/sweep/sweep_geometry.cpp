@@ -154,8 +154,8 @@ std::vector<double> evenOrGraded(double low, double high, bool forward, const Sw
     return faces;
 }
 
-// And the planes of eyes and lamp where these lie inside: so each slab is wholly before or wholly behind
-// them.
+// Returns the faces of the slabs, among them the planes of eyes and lamp where these lie inside: so each slab
+// is wholly before or wholly behind them.
 std::vector<double> facesOf(const WorldBox& box, const SweepGeometry& g, const SweepSetting& setting,
                             const std::vector<double>& planes, double eye) {
     const double middle = glm::dot(g.axis, box.center() - g.anchor);

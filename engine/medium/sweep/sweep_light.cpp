@@ -291,7 +291,7 @@ float* SweepLightBuffers::columnsOf(int inChunk, int x0, int y0) {
            static_cast<std::size_t>(inChunk) * kLightSide * kLightSide;
 }
 
-// Those where something may be, and those to which light may spread that is needed later.
+// Chooses tiles where something may be, and those to which light may spread that is needed later.
 void SweepLightBuffers::chooseTiles(const SweepGeometry& geometry, int slab, int reach) {
     std::vector<std::uint8_t>& spread = mChanged;
     spread.assign(tiles(), 0);
