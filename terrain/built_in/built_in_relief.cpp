@@ -85,7 +85,7 @@ float bilinear(const std::vector<float>& plane, int size, float x, float y) {
     return (south[0] * (1 - u) + south[1] * u) * (1 - v) + (north[0] * (1 - u) + north[1] * u) * v;
 }
 
-// Before the first level: the base level everywhere.
+// Sets heights before the first level: the base level everywhere.
 void startHeights(Landscape& land, std::uint64_t seed) {
     const Noise base(mixedSeed(seed, 4));
     const float step = 1.0f / static_cast<float>(land.size - 1);

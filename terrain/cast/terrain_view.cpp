@@ -56,8 +56,8 @@ void setDirections(CasterView& v, const EyeView& view, const glm::dvec2& spacing
     v.verticalColumns = std::hypot(perStep.x, perStep.y) <= 1e-13 * std::abs(perStep.z);
 }
 
-// From around the head to around the eye: (d + e)^2 - d^2 = 2 d e + e^2, where e leads from the head to the
-// eye.
+// Turns the bend around the head into that around the eye: (d + e)^2 - d^2 = 2 d e + e^2, where e leads from
+// the head to the eye.
 void bendAroundEye(CasterView& v, const EyeView& view, const glm::dvec2& spacing) {
     const glm::dvec2 e(view.eye - view.head);
     const auto turn = [&](double(&way)[3]) {

@@ -87,7 +87,8 @@ private:
     double mOver = 0;       // metres from the eyes' heights to the nearest of the ground's
 };
 
-// Around the span, in steps of several blocks: a box stays the same for a while as the eye moves.
+// Returns a box around the span, in steps of several blocks: a box stays the same for a while as the eye
+// moves.
 RingBox boxAround(const GroundLevels& levels, int level, const Span& span) {
     constexpr int kStep = 4 * kBlock;
     const int cell = kStep << level;

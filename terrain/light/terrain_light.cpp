@@ -233,7 +233,7 @@ private:
         }
     }
 
-    // From the first process to the others: bytes that all of them have memory for.
+    // Passes blocks from the first process to the others: bytes that all of them have memory for.
     void pass(const BakeBlocks& blocks) {
         constexpr std::size_t kAtOnce = 64 << 20;
         for (const std::span<std::byte> block : blocks)

@@ -26,7 +26,7 @@ private:
     std::uint64_t mState;
 };
 
-// Around a unit axis: `cosine` along it, `turn` about it.
+// Returns a direction around a unit axis: `cosine` along it, `turn` about it.
 glm::dvec3 around(const glm::dvec3& axis, double cosine, double turn) {
     const glm::dvec3 beside = std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(beside, axis)), v = glm::cross(axis, u);

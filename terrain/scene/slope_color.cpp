@@ -40,7 +40,7 @@ glm::vec3 linearOf(std::uint32_t srgb) {
     return {channel(16), channel(8), channel(0)};
 }
 
-// Bilinear between the samples' own, as normals are.
+// Gradients, bilinear between those of the samples, as normals are.
 class Gradients {
 public:
     Gradients(const Heightfield& ground, bool horn) : mGradients(ground.width(), ground.height()) {

@@ -65,7 +65,7 @@ private:
             for (int row = 0; row < mHeight; row += mStep) readRow(row);
         return true;
     }
-    // After some patience: the first rows wait for more than a row.
+    // Whether rows take too long; asked after some patience, since the first rows wait for more than a row.
     bool isSlow(double passed_ms, int count) const {
         constexpr double kPatience_ms = 400;
         const double rows = (mHeight - 1.0) / kFewest + 1;

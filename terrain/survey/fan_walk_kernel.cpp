@@ -48,7 +48,8 @@ STEREONAV_INLINE M besideHole(const float* near, const float* far, I row, F f0, 
     return (under & ~(sum <= sum)) | (lanes & (high > F(2.0f - kBeside)));
 }
 
-// From column k to the one before it, or to the eye, which lies in column 0's cells.
+// Tests the piece of a line from column k to the one before it, or to the eye, which lies in column 0's
+// cells.
 template <bool kToEye>
 STEREONAV_INLINE Verdict piece(const WalkRows& rows, const Lines& lines, int k, M lanes) {
     const WalkColumn& far = rows.columns[k];

@@ -9,8 +9,8 @@
 
 namespace stereonav {
 
-// Told now and then what share of the work is done, 0 to 1, on the thread that asked; what it throws ends the
-// work.
+// Called now and then with the share of the work that is done, 0 to 1, on the thread that asked; what it
+// throws ends the work.
 using ShareDone = std::function<void(double share)>;
 
 // Figures of an area.

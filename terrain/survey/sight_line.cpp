@@ -68,7 +68,7 @@ Rise riseInCell(const Ground& ground, const Line& line, int i, int j, double fro
     return rise;
 }
 
-// In the place of a HeightPyramid: every cell may be higher than any line.
+// Stands in the place of a HeightPyramid: every cell may be higher than any line.
 struct NoMaxima {
     static int levelCount() { return 1; }
     static double at(int, int, int) { return kInfinite; }

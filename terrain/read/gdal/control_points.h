@@ -20,8 +20,8 @@ namespace stereonav {
 // otherwise. Throws Error for fewer than three points, for points on one line or without a reference system.
 void placeByControlPoints(GDALDataset& dataset, const std::filesystem::path& file, Georeference& place);
 
-// Between a raster's pixels and its reference coordinates, by its transform or its control points. To one
-// thread.
+// Maps a raster's pixels to its reference coordinates and back, by its transform or its control points. For
+// one thread.
 class PixelPlacement {
     struct Destroy {
         void operator()(void* transformer) const;

@@ -70,9 +70,9 @@ std::string planWkt(const OGRSpatialReference& system);
 struct RasterLimits {
     long long side = 0, samples = 0;
 };
-// Read at once: 1 GiB of heights; as much again for the pyramid and colour.
+// Limits of what is read at once: 1 GiB of heights; as much again for the pyramid and colour.
 constexpr RasterLimits kReadAtOnce = {kMostDemSide, kMostDemSamples};
-// Read a run of rows at a time.
+// Limits of what is read a run of rows at a time.
 constexpr RasterLimits kReadByRows = {1ll << 20, 1ll << 40};
 
 // Throws Error unless both sides are 1 or more, and within the limits.

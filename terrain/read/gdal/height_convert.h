@@ -13,7 +13,7 @@ namespace stereonav {
 
 // The value that often stands for missing samples where a file names none.
 constexpr double kCustomaryMissing = -9999;
-// By how much all heights lie over it where it does.
+// How far all heights lie above it where they do.
 constexpr double kFarBelowAll_m = 1000;
 
 // A tally of the heights that are there, in metres. Counting some of them twice changes no answer that is
@@ -28,8 +28,8 @@ struct HeightTally {
     void count(double metres, float kept);
 };
 
-// In the type that it is stored in where that is as good as double precision: int16 and float32 without
-// scale, offset and mask, which most files are.
+// Converts heights in the type that they are stored in where that is as good as double precision: int16 and
+// float32 without scale, offset and mask, which most files are.
 class HeightConversion {
 public:
     HeightConversion(GDALDataType stored, const HeightBand& band);

@@ -24,7 +24,7 @@ void refuseAddress(const char* name) {
                      .what());
 }
 
-// In the place of a file system that leads elsewhere: the network, standard input, other programs.
+// Takes the place of a file system that leads elsewhere: the network, standard input, other programs.
 class NoFiles final : public VSIFilesystemHandler {
 public:
     VSIVirtualHandle* Open(const char* name, const char*, bool, CSLConstList) override {

@@ -82,7 +82,8 @@ bool holdsReference(const std::string& called) {
            EQUAL(called.c_str(), "Projection");
 }
 
-// Those that may hold an operation of PROJ: what a transformer of a virtual raster is given.
+// Whether an element or option so called may hold an operation of PROJ: what a transformer of a virtual
+// raster is given.
 bool holdsOperation(const std::string& called) {
     return EQUAL(called.c_str(), "CoordinateOperation") || EQUAL(called.c_str(), "Option");
 }

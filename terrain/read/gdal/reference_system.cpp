@@ -33,7 +33,7 @@ OGRSpatialReference referenceSystem(const std::string& wkt) {
     return system;
 }
 
-// From one reference system to another; the identity when either is unknown or both are the same.
+// Transforms from one reference system to another; the identity when either is unknown or both are the same.
 class ReferenceTransform {
 public:
     ReferenceTransform(const std::string& fromWkt, const std::string& toWkt,
