@@ -386,7 +386,8 @@ double BuiltInAnatomy::polypsAt(const glm::dvec3& p, double along) const {
 // mm: from here on the wall is so far that nothing of it is seen; its shape adds or takes 1.5 mm at most.
 constexpr double kFarAway = 6;
 
-// Between two points: places by a cubic through them with their tangents, the rest in proportion.
+// Returns a point between two of the axis: its place by a cubic through them with their tangents, the rest in
+// proportion.
 AxisPoint BuiltInAnatomy::axisAt(double along) const {
     const int n = std::clamp(static_cast<int>(along), 0, static_cast<int>(mAxis.size()) - 2);
     const AxisPoint &a = mAxis[n], &b = mAxis[n + 1];
@@ -404,8 +405,8 @@ AxisPoint BuiltInAnatomy::axisAt(double along) const {
     return point;
 }
 
-// Where along the axis the ball of its radius is nearest: the wall is the envelope of these balls. Newton's
-// method from the nearest point; steps are short, so that what is next to each other stays so.
+// Returns where along the axis the ball of its radius is nearest: the wall is the envelope of these balls.
+// Newton's method from the nearest point; steps are short, so that what is next to each other stays so.
 double BuiltInAnatomy::footOf(const glm::dvec3& p, int nearest) const {
     const int last = static_cast<int>(mAxis.size()) - 1;
     double along = nearest;

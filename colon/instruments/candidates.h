@@ -25,8 +25,8 @@ struct Candidate {
     double score = 0;
 };
 
-// Returns candidates, the highest scores first; of each head one. The same on any number of threads.
-// progress: told of it, if any. Throws Cancelled.
+// Returns candidates, the highest scores first; of each head one. The result does not depend on the number of
+// threads. progress: reports go to it, null for none. Throws Cancelled.
 std::vector<Candidate> polypCandidates(const WallMesh& mesh, const WallNeighbours& neighbours,
                                        const CandidateSetting& setting, Progress* progress = nullptr);
 

@@ -49,8 +49,8 @@ public:
     Coverage(const WallMesh& mesh, const WallNeighbours& neighbours, const LineOfSight& sight,
              const CoverageSetting& setting);
 
-    // Adds what is seen from these, by the setting's field of view. The same on any number of threads, and in
-    // any order. Throws Cancelled.
+    // Adds what is seen from these, by the setting's field of view. The result depends neither on the number
+    // of threads nor on the order. Throws Cancelled.
     void look(std::span<const Pose> poses, Progress& progress);
     // Adds what is in these pictures.
     void look(std::span<const EyeView> eyes, Progress& progress);

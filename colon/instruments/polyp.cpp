@@ -68,8 +68,9 @@ public:
         return head;
     }
 
-    // Without tails of a vertex or two, as noise makes them on stalks: what has neighbours of the head alone,
-    // as far as it hangs together with the tip, and its neighbours. A head too small for that stays as it is.
+    // Returns the head without tails of a vertex or two, as noise makes them on stalks: what has neighbours
+    // of the head alone, as far as it hangs together with the tip, and its neighbours. A head too small for
+    // that stays as it is.
     std::vector<std::uint32_t> withoutTails(const std::vector<std::uint32_t>& head, std::uint32_t tip) const {
         const auto within = [&](std::uint32_t v) { return std::binary_search(head.begin(), head.end(), v); };
         const auto neighboursOfVertex = [&](std::uint32_t v) {
@@ -128,7 +129,8 @@ PolypWidth widestOf(const std::vector<glm::dvec3>& places) {
     return widest;
 }
 
-// Those of many places that may be an end of the widest: the furthest ones in directions all around.
+// Returns those of many places that may be an end of the widest distance: the furthest ones in directions all
+// around.
 std::vector<glm::dvec3> extremesOf(const std::vector<glm::dvec3>& places) {
     constexpr int kDirections = 400;
     std::vector<glm::dvec3> ends;

@@ -37,8 +37,8 @@ class UnfoldedWall {
 public:
     static constexpr std::uint32_t kNone = 0xFFFFFFFF;  // no vertex
 
-    // mesh and neighbours must outlive the object. Column 0 is the rectum's end. The same on any
-    // number of threads. Throws Error (no wall, no line, too large a picture), Cancelled.
+    // mesh and neighbours must outlive the object. Column 0 is the rectum's end. The result does not depend
+    // on the number of threads. Throws Error (no wall, no line, too large a picture), Cancelled.
     UnfoldedWall(const WallMesh& mesh, const WallNeighbours& neighbours, const Centreline& line,
                  const LineOfSight& sight, const UnfoldSetting& setting, Progress& progress);
 

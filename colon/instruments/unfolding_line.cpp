@@ -58,9 +58,10 @@ glm::dvec3 wayOut(const std::vector<glm::dvec3>& places, bool atEnd) {
     return glm::normalize(way + glm::dvec3(0, 0, 1e-12));
 }
 
-// By neighbour, as WallNeighbours has them: half the cotangents of the angles opposite to each edge, which is
-// the Laplacian of linear elements (Pinkall and Polthier, "Computing discrete minimal surfaces and their
-// conjugates", Experimental Mathematics 2 (1993)). Negative and very large ones, of slivers, are cut off.
+// Returns by neighbour, in the order of WallNeighbours, half the cotangents of the angles opposite to each
+// edge, which is the Laplacian of linear elements (Pinkall and Polthier, "Computing discrete minimal surfaces
+// and their conjugates", Experimental Mathematics 2 (1993)). Negative and very large ones, of slivers, are
+// cut off.
 std::vector<float> cotangents(const WallMesh& mesh, const WallNeighbours& neighbours) {
     std::vector<float> weights(neighbours.neighbours.size(), 0.0f);
     const auto add = [&](std::uint32_t from, std::uint32_t to, float weight) {

@@ -39,7 +39,8 @@ private:
 
 // Returns the f that minimises the sum of (f - value)^2 over the known vertices and `length`^2 |grad f|^2
 // over the wall, for three values at once; length: metres. A screened Poisson equation in linear elements, by
-// Jacobi's rule. Vertices that are not known take what is next to them. The same on any number of threads.
+// Jacobi's rule. Vertices that are not known take what is next to them. The result does not depend on the
+// number of threads.
 std::vector<glm::vec3> smoothOverWall(const WallMesh& mesh, const WallNeighbours& neighbours,
                                       std::vector<glm::vec3> values, std::vector<std::uint8_t> known,
                                       double length);

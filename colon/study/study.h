@@ -79,9 +79,9 @@ StudyGlance glanceAtStudy(const std::filesystem::path& path, Progress& progress)
 // one"; "" where none do. A bounded part of what is there is looked at.
 std::string studyFoldersAdvice(const std::filesystem::path& folder);
 
-// True where readStudy would try: a folder with DICOM files or a DICOMDIR, or a name ending in .nrrd .nhdr
-// .nii .nii.gz .mha .mhd .dcm .ima; also what begins as DICOM or is a NIfTI pair, and samples of a header
-// beside them, which it refuses by naming that. No more is read than the folder's list and headers.
+// Returns true where readStudy would try: a folder with DICOM files or a DICOMDIR, or a name ending in .nrrd
+// .nhdr .nii .nii.gz .mha .mhd .dcm .ima; also what begins as DICOM or is a NIfTI pair, and samples of a
+// header beside them, which it refuses by naming that. No more is read than the folder's list and headers.
 bool looksLikeStudy(const std::filesystem::path& path);
 
 // Returns the study's key without decoding its voxels, for looking into the cache first. Throws Error.

@@ -65,7 +65,8 @@ void checkSampleFiles(const std::filesystem::path& file, const VolumeHeader& hea
 void readSamples(const std::filesystem::path& file, const VolumeHeader& header, unsigned char* to,
                  Progress& progress, const std::function<void(std::uint64_t bytes)>& come);
 
-// True where the file's name is one of a pair of .hdr and .img (each also with .gz) whose header is NIfTI's.
+// Returns true where the file's name is one of a pair of .hdr and .img (each also with .gz) whose header is
+// NIfTI's.
 bool isNiftiPair(const std::filesystem::path& file);  // study_nifti.cpp
 // Returns the sizes of a volume: all but those of 1 beyond the third. Throws Error unless they are three.
 std::vector<std::uint64_t> threeSizes(const std::filesystem::path& file,

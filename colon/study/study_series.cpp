@@ -33,7 +33,8 @@ std::vector<double> valuesOf(const DicomSlice& slice, PictureDecoder& decoder) {
     return values;
 }
 
-// With square pixels: rows are taken again, or left out, where they lie further apart or nearer than columns.
+// Returns a picture with square pixels: rows are taken again, or left out, where they lie further apart or
+// nearer than columns.
 Plane<PackedColor> pictureOf(const DicomSlice& slice, PictureDecoder& decoder) {
     constexpr double kMostStretch = 16;
     const std::vector<double> values = valuesOf(slice, decoder);

@@ -58,7 +58,7 @@ protected:
     unsigned char* input() { return mInput.data() + mGiven; }
     std::size_t inputCount() const { return mHeld - mGiven; }
     void take(std::size_t count) { mGiven += count; }
-    // At the end of one stream: true where another one follows that begins with `first`.
+    // Called at the end of one stream: returns true where another one follows that begins with `first`.
     bool another(unsigned char first) {
         if (mGiven == mHeld) fill();
         mAtEnd = mGiven == mHeld || mInput[mGiven] != first;

@@ -28,7 +28,7 @@ struct Curvatures {
 Curvatures curvaturesAt(const WallMesh& mesh, const WallNeighbours& neighbours, std::uint32_t vertex,
                         double radius);
 
-// Returns the curvatures at all vertices, in parallel; the same on any number of threads.
+// Returns the curvatures at all vertices, in parallel; they do not depend on the number of threads.
 std::vector<Curvatures> wallCurvatures(const WallMesh& mesh, const WallNeighbours& neighbours, double radius);
 
 // Returns the vertices within `radius` metres of a vertex that are joined to it within that; the vertex

@@ -30,8 +30,8 @@ struct WallMesh {
 // its shorter diagonal, joins the four cells around each such edge (Gibson, "Constrained elastic surface
 // nets", MICCAI 1998; without her relaxation: the places come from grey values). Flat walls are exact; round
 // ones are cut off by about an eighth of a voxel's square over the radius. The wall is open where the lumen
-// meets the volume's faces. The same on any number of threads. Throws Error where there is not enough memory,
-// Cancelled.
+// meets the volume's faces. The result does not depend on the number of threads. Throws Error where there is
+// not enough memory, Cancelled.
 WallMesh wallMesh(const GreyVolume& field, const SurfaceCells& cells, const MaskVolume& lumen,
                   Progress& progress);
 

@@ -18,8 +18,8 @@ namespace {
 
 constexpr const char* kUtf8 = "ISO_IR 192";
 
-// From the study's characters to those of the report. What its own character set does not explain becomes
-// question marks: broken heads are common, and a report should not fail over one.
+// Turns the study's characters into those of the report. What its own character set does not explain becomes
+// question marks: broken headers are common, and a report should not fail over one.
 class Characters {
 public:
     explicit Characters(const std::string& from)
