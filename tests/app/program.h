@@ -95,7 +95,7 @@ protected:
                 return std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1;
         return false;
     }
-    // Until it handles SIGINT, and has used so much processor time: it is in the middle of its work.
+    // Waits until it handles SIGINT, and has used so much processor time: it is in the middle of its work.
     static void awaitWork(pid_t child, double seconds) {
         const auto used = [&] {
             clockid_t clock{};

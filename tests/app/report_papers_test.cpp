@@ -24,7 +24,7 @@ protected:
     }
     Json json() const { return Json::parse(contentOf(place() / "page/report.json")); }
 
-    // By "table/row/column".
+    // Returns the rows by "table/row/column".
     std::map<std::string, Json> rowsOf(const std::string& parts, std::vector<std::string> more = {}) const {
         more.insert(more.end(), {"--parts", parts});
         const Outcome outcome = papers(more);

@@ -64,7 +64,8 @@ protected:
         return grid("ground.asc", 500, 500, 30.0, [](int i, int j) { return 100 + (i * 37 + j * 91) % 50; });
     }
 
-    // With all that a machine of today takes in a minute: 36 million heights, 134 million voxels.
+    // Returns jobs with all that a machine of today takes in a minute: 36 million heights, 134 million
+    // voxels.
     std::vector<Job> largeJobs() const {
         const std::string scene = largeGround(), mask = largeVolume("mask.nrrd", true),
                           grey = largeVolume("grey.nrrd", false);

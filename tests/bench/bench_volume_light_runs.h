@@ -52,7 +52,7 @@ inline SweepPath cpuPath(const Medium& medium) {
             }};
 }
 
-// By the shaders, on what draws here: a GPU or Mesa's software rasteriser. One medium at a time.
+// Sweeps by the shaders, on what draws here: a GPU or Mesa's software rasteriser. One medium at a time.
 inline SweepPath shaderPath(const Medium& medium, GpuSweepTimer& timer) {
     if (!timer.available()) return {"shaders", {}};
     const std::shared_ptr<GpuSweepTimer> held(&timer, [](GpuSweepTimer* t) { t->forget(); });

@@ -24,7 +24,7 @@
 namespace stereonav::test {
 namespace {
 
-// Those that a file names, a line each, as failures say them.
+// Returns the rows that a file names, a line each, as failures say them.
 std::vector<Row> rowsOfFile(const std::string& file) {
     std::ifstream in(file);
     std::vector<Row> rows;

@@ -13,7 +13,7 @@ namespace stereonav::test {
 using LevelSet = std::uint32_t;
 using Row = std::vector<int>;  // the level of each factor
 
-// Not allowed: all of these factors at levels of these sets at once.
+// A combination that is not allowed: all of these factors at levels of these sets at once.
 struct Clause {
     struct Part {
         int factor;

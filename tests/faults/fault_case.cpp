@@ -10,7 +10,7 @@ namespace {
 
 const std::string kOld = "what was there before";
 
-// In the environment of the program alone, not of this test, while it lives.
+// Sets variables in the environment of the program alone, not of this test, while it lives.
 class Environment {
 public:
     Environment(const std::vector<std::pair<std::string, std::string>>& values) {

@@ -37,7 +37,7 @@ Picture filled(int width, int height, PackedColor color) {
     return p;
 }
 
-// From sRGB bytes, and back to them: what a user sees.
+// Turns sRGB bytes, which a user sees, into packed colours, and back.
 PackedColor packed(int r, int g, int b) {
     const auto& t = packedFromSrgbByte();
     return static_cast<PackedColor>(t[r] | t[g] << 10 | t[b] << 20);

@@ -46,7 +46,7 @@ struct LightBuffer {
     T texel(const std::vector<T>& plane, int x, int y) const {
         return x >= 0 && y >= 0 && x < width && y < height ? plane[index(x, y)] : atStart(plane, x, y);
     }
-    // Bilinear, at continuous coordinates.
+    // Returns a bilinear value at continuous coordinates.
     template <typename T>
     T read(const std::vector<T>& plane, double x, double y) const {
         x = std::clamp(x, -0.5, width + 0.5);

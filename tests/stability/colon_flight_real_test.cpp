@@ -38,7 +38,7 @@ struct Anatomy {
     DistanceVolume distance;
     Centreline line;
 
-    // Trilinear, in stored numbers: below the isovalue is inside.
+    // Returns the trilinear value in stored numbers: below the isovalue is inside.
     double valueAt(const glm::dvec3& world) const {
         const glm::dvec3 voxel = lumen.field.frame.voxelFromWorld(world);
         const glm::ivec3 corner(glm::floor(voxel));

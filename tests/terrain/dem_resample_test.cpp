@@ -16,7 +16,7 @@ using test::RasterSpec;
 using test::TempFolder;
 using test::writeRaster;
 
-// From places on the grid to pixels of the file, by the library's own transform.
+// Turns places on the grid into pixels of the file, by the library's own transform.
 class ToSource {
 public:
     explicit ToSource(const DemGrid& dem) : mDem(dem) {

@@ -90,7 +90,7 @@ inline void fillRaster(GDALDataset& dataset, const RasterSpec& spec) {
         }
 }
 
-// Through the in-memory driver, so that formats which can only be copied to (PNG, JPEG) work too.
+// Writes through the in-memory driver, so that formats which can only be copied to (PNG, JPEG) work too.
 inline std::filesystem::path writeRaster(const std::filesystem::path& file, const RasterSpec& spec) {
     GDALAllRegister();
     auto* manager = GetGDALDriverManager();

@@ -45,8 +45,8 @@ VolumeScene sceneOfSheet(double wide, double lowest, double highest) {
     return scene;
 }
 
-// From above (1) or below (-1), y upwards: what is seen at column x from above is seen at the mirrored one
-// from below.
+// Returns a view from above (1) or below (-1), y upwards: what is seen at column x from above is seen at the
+// mirrored one from below.
 EyeView sheetView(int side, const glm::dvec2& aside = {0.002, -0.001}) {
     EyeView view;
     view.eye = view.head = {aside.x, aside.y, side * kFrom};
