@@ -94,7 +94,7 @@ struct TerrainScene {
     static constexpr double kTiledShare = 0.5;
     TerrainLook look;                        // fog, specular, sun
     std::unique_ptr<LandmarkSet> landmarks;  // null when there are none
-    // Null without baked light. What is lit by it is `color`, which changes when the sun moves.
+    // The baked light, null without any. What is lit by it is `color`, which changes when the sun moves.
     std::unique_ptr<TerrainIllumination> illumination;
     // Where `color` is the tint under the plain sun, or paint in its place: what the tint is made of, beside
     // ground and look.

@@ -104,7 +104,8 @@ TEST_F(TerrainOptions, TheBuiltInTerrainsSunIsTheUsualOne) {
     EXPECT_LE(most, 1) << "half a thousandth of a degree from it";
 }
 
-// So small a ground is thin beside its samples, and what lies behind shines through: grey, on both colours.
+// A ground as small as this is thin beside its samples, and what lies behind shines through: grey, on both
+// colours.
 TEST_F(TerrainOptions, AMediumHasTheColourOfThePlace) {
     const std::vector<std::string> medium{"--image", photo(),    "--medium",     "ground",
                                           "--model", "emission", "--light-size", "16"};

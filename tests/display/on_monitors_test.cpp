@@ -219,7 +219,7 @@ TEST_F(OnMonitors, ParallaxIsToldAsItIsOnTheScreen) {
     ASSERT_TRUE(becomes([&] { return mWindow->place().width == 320; }));
     ViewOptions options;
     options.viewingDistance_mm = 1000;
-    // So wide that the window is a metre.
+    // The width at which the window is a metre wide.
     options.screenWidth_mm = 1000.0 * all[*monitorUnder(all, mWindow->place())].area.width / 320;
     ViewDisplay display(*mWindow, options);
     ViewFrame frame;

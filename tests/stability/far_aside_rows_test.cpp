@@ -91,7 +91,7 @@ TEST_P(FarAside, TranslucentPicturesEndWithinTheLightThereIs) {
 
 INSTANTIATE_TEST_SUITE_P(Factors, FarAside, testing::Values(10.0, 1e3, 1e5, 1e6));
 
-// So far aside that hardly a ray meets the volume any more.
+// Eyes as far aside as this: hardly a ray meets the volume any more.
 TEST(FarAsideEnds, WhateverTheSeparation) {
     for (const bool translucent : {false, true})
         for (const double factor : {1e8, 1e12, 1e30}) {

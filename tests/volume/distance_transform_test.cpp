@@ -185,7 +185,7 @@ TEST(DistanceTransform, UpToADistanceIsTheSame) {
     EXPECT_THROW(distanceToOutside(full, false, 1, SimdTarget::Auto, std::nan("")), Error);
 }
 
-// So large that squares are held for some lines at a time.
+// A mask as large as this: squares are held for some lines at a time.
 TEST(DistanceTransform, OfALargeMaskIsExact) {
     MaskVolume mask(VolumeFrame{{256, 150, 1040}});
     std::fill_n(mask.values.data(), mask.values.size(), std::uint8_t{1});

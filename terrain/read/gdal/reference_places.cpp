@@ -33,7 +33,8 @@ public:
 
 private:
     glm::dvec2 middle() const { return 0.5 * glm::dvec2(mGrid.width, mGrid.height); }
-    // Null: the two systems are one.
+    // Returns the place by the transform; null for two systems that are one. Empty where there is no such
+    // place.
     static std::optional<glm::dvec2> through(OGRCoordinateTransformation* transform, glm::dvec2 p) {
         const GdalMessages messages;  // of places that a projection does not have
         if (transform && !transform->Transform(1, &p.x, &p.y)) return std::nullopt;
