@@ -6,7 +6,7 @@
 // Optical depths are exact. In such air the depth towards the sun changes in proportion to the depth along
 // the ray where haze or molecules are alone, so the light of a piece of the ray is an exponential's integral,
 // too. Two pieces, parted where half of the light along the ray is left, and in each the mean mixture of
-// both. tests/terrain/atmosphere_test.cpp holds it against the plain integral (Atmosphere::plainAlong).
+// both. tests/terrain/atmosphere_test.cpp holds it against the plain integral.
 //
 // A template for vectors of kernels and for double: N has the operators of numbers, min, max, select, mulAdd,
 // abs, and airExp(x) = e^-x, airLog (rough: within 0.01), airReciprocal, airRsqrt.

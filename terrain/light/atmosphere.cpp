@@ -246,34 +246,6 @@ AirSeen Atmosphere::along(const glm::dvec3& eye, const glm::dvec3& direction, do
     return seen;
 }
 
-AirSeen Atmosphere::plainAlong(const glm::dvec3& eye, const glm::dvec3& direction, double t,
-                               int steps) const {
-    const double length = glm::length(direction), way = t * length, rise = direction.z / length;
-    const double cosine = glm::dot(direction, mToSun) / length;
-    const double molecules = phaseOfMolecules(cosine), haze = phaseOfHaze(cosine);
-    glm::dvec3 tau(0.0);
-    AirSeen seen;
-    for (int n = 0; n < steps; ++n) {
-        const double step = way / steps, height = eye.z - mAir.seaLevel + rise * step * (n + 0.5);
-        const glm::dvec2 density = densityAt(height);
-        const glm::dvec3 own = double(mAir.molecules) * density.x * kPowers;
-        const double grey = mAir.haze * density.y;
-        const glm::dvec3 depth = step * (own + grey);
-        for (int c = 0; c < 3; ++c) {
-            const double sun =
-                mAir.sunlight[c] *
-                std::exp(-(kPowers[c] * mAir.sunDepth[0] * density.x + mAir.sunDepth[1] * density.y));
-            const double source = sun * (own[c] * molecules + grey * kHazeAlbedo * haze) +
-                                  mAir.ambient[c] * (own[c] + grey * kHazeAlbedo);
-            if (own[c] + grey > 0)
-                seen.light[c] += std::exp(-tau[c]) * -std::expm1(-depth[c]) * source / (own[c] + grey);
-        }
-        tau += depth;
-    }
-    seen.through = glm::exp(-tau);
-    return seen;
-}
-
 glm::vec3 Atmosphere::sky(const glm::vec3& direction) const {
     const double cosine = glm::dot(glm::dvec3(direction), mToSun);
     const Elevation e = elevation(direction.z);

@@ -39,8 +39,6 @@ public:
 
     // Returns the air between an eye and eye + t * direction: world, metres; direction of any length but 0.
     AirSeen along(const glm::dvec3& eye, const glm::dvec3& direction, double t) const;
-    // Returns the same by adding up `steps` steps: for tests.
-    AirSeen plainAlong(const glm::dvec3& eye, const glm::dvec3& direction, double t, int steps) const;
 
     // Returns the light of the sky, linear, with the sun's disc, seen from the look's height over the round
     // Earth; below the horizon a level grey plain. direction: unit.

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "sweep_subjects.h"
+#include "tests/oracle/sweep_formulas.h"
 
 namespace stereonav {
 namespace {

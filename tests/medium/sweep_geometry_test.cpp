@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "sweep_scenes.h"
+#include "tests/oracle/sweep_formulas.h"
 
 namespace stereonav {
 namespace {

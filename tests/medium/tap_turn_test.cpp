@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/math/constants.h"
-#include "engine/medium/sweep/sweep_geometry.h"
+#include "tests/oracle/sweep_formulas.h"
 #include "tests/support/chance.h"
 
 namespace stereonav {

@@ -10,6 +10,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/volume/baked_data.h"
+#include "tests/oracle/sweep_formulas.h"
 
 namespace stereonav {
 namespace {

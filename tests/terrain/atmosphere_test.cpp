@@ -41,6 +41,38 @@ double shown(const AirSeen& air, int c) {
     return 255 * std::sqrt(std::clamp(air.light[c] + 0.3 * air.through[c], 0.0, 1.0));
 }
 
+// Returns what along() does, by adding up many steps.
+AirSeen plainAlong(const AirData& air, const glm::dvec3& eye, const glm::dvec3& direction, double way) {
+    constexpr int kSteps = 500;
+    constexpr double kHazeAlbedo = 0.9, kForward = 0.76;
+    const glm::dvec3 powers(1, kGreenOfRed, kBlueOfRed);
+    const double cosine = glm::dot(direction, glm::dvec3(air.toSun[0], air.toSun[1], air.toSun[2]));
+    const double both = 1 + cosine * cosine, g = kForward;
+    const double molecules = 3 / (16 * kPi) * both,
+                 haze = 3 / (8 * kPi) * (1 - g * g) * both /
+                        ((2 + g * g) * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+    glm::dvec3 tau(0.0);
+    AirSeen seen;
+    for (int n = 0; n < kSteps; ++n) {
+        const double step = way / kSteps, height = eye.z - air.seaLevel + direction.z * step * (n + 0.5);
+        const double thin = std::exp(-height / 8000), dense = std::exp(-height / 1200);
+        const glm::dvec3 own = double(air.molecules) * thin * powers;
+        const double grey = air.haze * dense;
+        for (int c = 0; c < 3; ++c) {
+            const double depth = step * (own[c] + grey);
+            const double sun =
+                air.sunlight[c] * std::exp(-(powers[c] * air.sunDepth[0] * thin + air.sunDepth[1] * dense));
+            const double source = sun * (own[c] * molecules + grey * kHazeAlbedo * haze) +
+                                  air.ambient[c] * (own[c] + grey * kHazeAlbedo);
+            if (own[c] + grey > 0)
+                seen.light[c] += std::exp(-tau[c]) * -std::expm1(-depth) * source / (own[c] + grey);
+            tau[c] += depth;
+        }
+    }
+    for (int c = 0; c < 3; ++c) seen.through[c] = std::exp(-tau[c]);
+    return seen;
+}
+
 struct Errors {
     double rms = 0, most = 0;
 };
@@ -54,7 +86,7 @@ Errors errorsOf(const Atmosphere& air) {
                 if (std::abs(sine) > 1) continue;
                 for (const double beside : {0.0, 1.0, 3.1}) {
                     const glm::dvec3 eye(0, 0, height), d = directionOf(sine, beside);
-                    const AirSeen fast = air.along(eye, d, way), plain = air.plainAlong(eye, d, way, 500);
+                    const AirSeen fast = air.along(eye, d, way), plain = plainAlong(air.data(), eye, d, way);
                     for (int c = 0; c < 3; ++c) {
                         const double apart = std::abs(shown(fast, c) - shown(plain, c));
                         errors.rms += apart * apart, ++count;

@@ -72,7 +72,8 @@ STEREONAV_INLINE I logicalRight(I a) {
 STEREONAV_INLINE I wholeNumber(std::uint32_t bitsOf) {
     return I(static_cast<int>(bitsOf));
 }
-// The angle of tapTurn(), radians.
+// The turn of the taps on a circle, radians, by a hash of texel and slab: tapTurn() of
+// tests/oracle/sweep_formulas.h.
 STEREONAV_INLINE F turnOf(I x, I y, int slab) {
     I h = (x * wholeNumber(0x8da6b343u)) ^ (y * wholeNumber(0xd8163841u)) ^
           wholeNumber(static_cast<std::uint32_t>(slab) * 0xcb1ab31fu);
@@ -94,7 +95,8 @@ STEREONAV_INLINE F readPlane(const SweepLight& light, const float* plane, F u, F
     return lerp(lerp(above.first, above.second, s), lerp(below.first, below.second, s), t);
 }
 
-// The lags of tapLags(), metres, to a texel to the right and to one below.
+// How much later, metres, the texels to the right and below meet a slab that leans (V11): tapLags() of
+// tests/oracle.
 struct Lags {
     F right, below;
 };

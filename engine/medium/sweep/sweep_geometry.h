@@ -82,33 +82,9 @@ SweepGeometry makeSweepGeometry(const Medium& medium, const MediumLook& look, co
 // Returns the offset of scattered light's taps over the root of the way (V9), root of metres.
 double blurOf(const Medium& medium, const SweepSetting& setting);
 
-// Returns how much later the next texel to the right, and the next below, meets the plane at t than the texel
-// at (x, y) does: in a slab that leans against the light's way, rays of the light are met after different
-// lengths (V11); metres, times `leaning`, even about the texel.
-glm::dvec2 tapLags(const SweepGeometry& geometry, double x, double y, double t);
-
 // Returns scattered light, 0 to 1, as it sets out, for the buffer and a ring of texels around it, rows of
 // light.width + 2 from (-1, -1) on: the part of a texel that lies within the lamp's cone. Empty where that is
 // 1 everywhere. The ring stays as it is, and what lies farther outside is like the nearest texel of it.
 std::vector<float> scatteredAtStart(const SweepGeometry& geometry);
-
-// How the light's buffer is blurred while it passes a slab (row K3 of docs/ledger.md): taps at `radius`
-// texels with together `share` of the weight, the rest for the texel itself. Where the offset is below a
-// texel the taps are the four neighbours with a share that spreads just as much (explicit diffusion: never
-// below the least nor above the most of its inputs); else they lie on a circle of the offset, turned by a
-// hash of texel and slab, read bilinearly.
-struct BlurTaps {
-    double radius = 1;  // texels, >= 1
-    double share = 0;   // 0..1
-};
-BlurTaps blurTaps(double offset_texels);
-// Returns the turn of the taps of a texel: radians in [0, pi / 2). Texels and slab as whole numbers.
-double tapTurn(int x, int y, int slab);
-
-// Returns (1 - exp(-x)) / x for x >= 0, 1 at 0.
-double meanTransmittance(double x);
-// Returns the share, 0 to 1, of light that enters a slab which it sends to the eye (docs/volume_light.md, eq.
-// V5 and V6): eyeDepth and lightDepth are optical depths of the slab along both rays.
-double slabShare(double eyeDepth, double lightDepth, bool forward);
 
 }  // namespace stereonav
