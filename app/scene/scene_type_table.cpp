@@ -51,8 +51,8 @@ bool isBuiltIn(const std::string& name) {
 
 const SceneType& sceneTypeNamed(const std::string& name) {
     constexpr const char* kAdvice =
-        "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png, or a folder of them), a CT "
-        "study (a folder of DICOM slices, .dcm, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), a mesh (.glb, "
+        "name a scene file (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png, or a folder of them), "
+        "a CT study (a folder of DICOM slices, .dcm, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd), a mesh (.glb, "
         ".gltf), colon, cloud, wax, or nothing for the built-in terrain";
     for (const SceneType* type : sceneTypes())
         if (std::find(type->builtIn.begin(), type->builtIn.end(), name) != type->builtIn.end()) return *type;

@@ -166,9 +166,8 @@ SceneFile sceneFileFromName(const std::string& name) {
     const bool isFolder = fs::is_directory(name, code);
     if (isFolder ? elevationFilesIn(name).empty() : !fs::exists(name, code))
         throw Error(name, "", isFolder ? "found a folder without elevation files" : "no such file",
-                    "name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png) or a folder of "
-                    "such, or nothing for the "
-                    "built-in terrain");
+                    "name a scene file (.toml), an elevation model (.tif, .hgt, .dem, .asc, .png) or a "
+                    "folder of such, or nothing for the built-in terrain");
     if (extension == ".toml") return readSceneFile(name);
     scene.file = scene.dem = name;
     return scene;

@@ -305,9 +305,10 @@ TEST_F(SceneFileTest, NamesOfScenes) {
         }
         return "";
     };
-    EXPECT_EQ(messageOf("no/such.tif"),
-              "no/such.tif: no such file; name a scene (.toml), an elevation model (.tif, .hgt, .dem, .asc, "
-              ".png) or a folder of such, or nothing for the built-in terrain");
+    EXPECT_EQ(
+        messageOf("no/such.tif"),
+        "no/such.tif: no such file; name a scene file (.toml), an elevation model (.tif, .hgt, .dem, .asc, "
+        ".png) or a folder of such, or nothing for the built-in terrain");
     EXPECT_THAT(messageOf("no/such.toml"), StartsWith("no/such.toml: no such file"));
     EXPECT_EQ(sceneFileFromName(mFolder.string()).dem, mFolder) << "its elevation files are one ground";
     fs::create_directory(mFolder / "none");
