@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/command/arguments.h"
+#include "app/options/bake_options.h"
 #include "app/options/command.h"
 #include "app/options/option_take.h"
 #include "engine/base/error.h"
