@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "app/options/command.h"
+
 namespace stereonav {
 namespace {
 
