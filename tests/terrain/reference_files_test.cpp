@@ -229,6 +229,7 @@ TEST_F(ReferenceFiles, OthersOpenNone) {
         for (const std::string& text :
              {trackWith(crs, ""), trackWith("", crs), "\xEF\xBB\xBF" + trackWith(crs, ""),
               "jsonp(" + trackWith(crs, "") + ")", trackWith("\"note\":NaN," + crs, ""),
+              trackWith("\"note\":NaN,\"pad\":\"" + std::string((1 << 20) - 75, 'a') + "\"," + crs, ""),
               trackWith("\"\\u0063" + crs.substr(2), "")})
             tracks.push_back(mFolder.text(fmt::format("track{}.geojson", tracks.size()), text));
     }

@@ -10,7 +10,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -191,6 +191,26 @@ void checkText(const std::string& file, const char* key) {
         refusePath(file, path);
 }
 
+// GDAL reads on where the text is not quite JSON. Returns whether a member "crs" may name a path: a letter is
+// written by its number, or what may be a path stands within 1 KB behind "crs".
+bool mayNamePath(const std::filesystem::path& file) {
+    constexpr std::size_t kNear = 1024, kChunk = 1 << 20;  // bytes
+    std::ifstream in(file, std::ios::binary);
+    std::string text;
+    while (in) {
+        if (text.size() > kNear) text.erase(0, text.size() - kNear);  // what stands at the seam is seen whole
+        const std::size_t kept = text.size();
+        text.resize(kept + kChunk);
+        in.read(text.data() + kept, static_cast<std::streamsize>(kChunk));
+        text.resize(kept + static_cast<std::size_t>(in.gcount()));
+        for (const char* letter : {"\\u004", "\\u005", "\\u006", "\\u007"})
+            if (text.find(letter) != std::string::npos) return true;
+        for (std::size_t at = text.find("crs"); at != std::string::npos; at = text.find("crs", at + 1))
+            if (isPath(std::string_view(text).substr(at, kNear))) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 std::string pathInReference(std::string_view definition) {
@@ -240,23 +260,14 @@ void checkReferencesBeside(const std::string& file) {
 
 void checkJsonReferences(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
-    if ((in >> std::ws).peek() == '<') return;  // GPX
-    const std::string text((std::istreambuf_iterator<char>(in)), {});
-    const std::size_t from = text.find('{');  // GDAL passes over what goes before
-    if (from == std::string::npos) return;
+    if ((in >> std::ws).peek() == '<') return;                    // GPX
+    in.ignore(std::numeric_limits<std::streamsize>::max(), '{');  // GDAL passes over what goes before
+    if (!in) return;
+    in.unget();
     JsonReferences references(file.string());
-    if (nlohmann::json::sax_parse(text.begin() + static_cast<std::ptrdiff_t>(from), text.end(), &references,
-                                  nlohmann::json::input_format_t::json, false, true))
-        return;
-    // GDAL reads on where the text is not quite JSON. Then what might be a path is enough.
-    constexpr std::size_t kNear = 1024;  // bytes
-    bool doubtful = false;
-    for (const char* letter : {"\\u004", "\\u005", "\\u006", "\\u007"})
-        doubtful |= text.find(letter) != std::string::npos;
-    for (std::size_t at = text.find("crs"); at != std::string::npos && !doubtful;
-         at = text.find("crs", at + 1))
-        doubtful = isPath(std::string_view(text).substr(at, kNear));
-    if (doubtful)
+    const bool valid =
+        nlohmann::json::sax_parse(in, &references, nlohmann::json::input_format_t::json, false, true);
+    if (!valid && mayNamePath(file))
         throw Error(file.string(), "",
                     "is no valid JSON, and names a reference system that can not be checked",
                     "write it again");
