@@ -26,12 +26,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kPlayFps = 25;  // default frame rate
 constexpr int kMostFrames = 1'000'000;
-
-double fpsOf(const PlayOptions& options) {
-    return options.fps.value_or(kPlayFps);
-}
 
 std::pair<int, int> frameSize(const PlayOptions& options) {
     return composedSize(options.mode, options.size.width, options.size.height);
@@ -76,7 +71,7 @@ void checkOptions(const PlayOptions& options) {
 
 std::vector<TimedPose> posesOf(const PlayOptions& options, const RecordedPath& path) {
     if (options.frames) return timedFrames(path, *options.frames);
-    const double fps = fpsOf(options);
+    const double fps = options.fps;
     if (path.duration() * fps > kMostFrames)
         throw Error(
             "--fps", "",
@@ -92,7 +87,7 @@ std::pair<std::size_t, std::size_t> partOf(const PlayOptions& options, std::size
     if (static_cast<std::size_t>(last) >= frames)
         throw Error("--frames", "",
                     fmt::format("the flight has frames 0 to {} at {:g} a second, got {}..{}", frames - 1,
-                                fpsOf(options), first, last),
+                                options.fps, first, last),
                     "end earlier");
     return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
 }
@@ -125,7 +120,7 @@ void tellOfFlight(CommandResult& result, const PlayOptions& options, const Flown
     if (options.part) result.add("first_frame", static_cast<std::int64_t>(flight.first));
     if (peersOfThisRun().count() > 1)
         result.add("processes", static_cast<std::int64_t>(peersOfThisRun().count()));
-    result.add("frames_per_second", fpsOf(options));
+    result.add("frames_per_second", options.fps);
     result.add("size", FactIntegers{options.size.width, options.size.height});
     result.add("mode", std::string(infoOf(options.mode).shortName));
     if (!options.out.empty()) result.add("folder", options.out);

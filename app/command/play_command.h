@@ -21,7 +21,7 @@ struct PlayOptions {
     OutputMode mode = OutputMode::SideBySide;
     std::string out;                          // folder for frame_00000.png ...; "" with --video or --hash
     std::string video;                        // .mp4, .avi or .mkv
-    std::optional<double> fps;                // empty: 25
+    double fps = 25;                          // frames a second of the path
     std::optional<int> frames;                // number of frames, evenly spaced; empty: the whole path at fps
     std::optional<std::pair<int, int>> part;  // first and last of the whole path's frames at fps, from 0
     bool hash = false;                        // print one content hash of all frames

@@ -48,8 +48,8 @@ FrameSink::FrameSink(const PlayOptions& options) : mOptions(options) {
     if (!options.out.empty()) makeOutputFolder(options.out);
     if (options.video.empty()) return;
     const auto [width, height] = composedSize(options.mode, options.size.width, options.size.height);
-    mVideo = std::make_unique<VideoFile>(options.video, options.fps.value_or(kPlayFps), width, height,
-                                         stereoTagOf(options.mode));
+    mVideo =
+        std::make_unique<VideoFile>(options.video, options.fps, width, height, stereoTagOf(options.mode));
 }
 
 void FrameSink::note(const FrameTimings& timings) {

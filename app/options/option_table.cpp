@@ -28,9 +28,9 @@ std::vector<Option> setOption() {
              .take = [](OptionTargets&, const OptionValue&) {}}};
 }
 
-constexpr std::array kSharedParts{sourceOptions,      studyOptions,      lookOptions,    paintOptions,
-                                  groundPaintOptions, volumeLookOptions, qualityOptions, mediumOptions,
-                                  pictureOptions,     setOption,         tellingOptions};
+constexpr std::array kSharedParts{sourceOptions, studyOptions,       isosurfaceOptions, lookOptions,
+                                  paintOptions,  groundPaintOptions, volumeLookOptions, qualityOptions,
+                                  mediumOptions, pictureOptions,     setOption,         tellingOptions};
 
 // Returns the bits of the commands that a row names directly or by a trait.
 CommandSet commandsWith(CommandSet asked) {

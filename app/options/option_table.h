@@ -90,6 +90,7 @@ constexpr const char* kSetKey = "set";  // gives any other option: --set fov=45
 // Parts of the table that commands share.
 std::vector<Option> sourceOptions();
 std::vector<Option> studyOptions();
+std::vector<Option> isosurfaceOptions();
 std::vector<Option> lookOptions();
 std::vector<Option> paintOptions();
 std::vector<Option> groundPaintOptions();

@@ -13,7 +13,7 @@ namespace {
 
 std::string sceneIn(TomlDocument& document, const std::filesystem::path& toml) {
     constexpr std::array kBuiltIn{"terrain", "colon", "cloud", "wax"};
-    const std::string scene = document.rootText("scene");
+    std::string scene = document.rootText("scene");
     if (scene.ends_with(".toml"))
         throw Error(toml.string(), "",
                     "\"scene\": expected a study or a built-in scene, got another scene file",

@@ -1,4 +1,6 @@
 // The option --paint: one for all types of scenes, each of which has its own words (paint_words.h).
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "app/options/number_text.h"
@@ -56,7 +58,7 @@ PaintAsked paintAskedOf(const std::string& text) {
 
 std::vector<PaintWord> paintWords() {
     std::vector<PaintWord> words = groundPaintWords();
-    for (PaintWord& word : colonPaintWords()) words.push_back(std::move(word));
+    std::ranges::copy(colonPaintWords(), std::back_inserter(words));
     return words;
 }
 

@@ -125,6 +125,13 @@ std::vector<Option> studyOptions() {
                     "leaves no place for what is baked", "name a file with --out"}},
          .panel = OptionPanel::Study,
          .take = [](OptionTargets& to, const OptionValue&) { to.scene->volume.cache = false; }},
+    };
+}
+
+std::vector<Option> isosurfaceOptions() {
+    using namespace command;
+    using namespace scene_type;
+    return {
         {.key = "isosurface",
          .value = flagValue(),
          .help = "show the volume from outside, without looking for a colon",

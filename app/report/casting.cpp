@@ -30,6 +30,7 @@ struct StepTruthOrder {
 
 std::vector<Plane<PackedColor>> stepTruths(ReportRun& run, const ReportScene& scene, int frames) {
     std::vector<UntimedPiece> pieces;
+    pieces.reserve(static_cast<std::size_t>(frames));
     for (int n = 0; n < frames; ++n)
         pieces.push_back(pieceOf(Untimed::StepTruth, StepTruthOrder{run.indexOf(scene), n, frames}));
     std::vector<Plane<PackedColor>> truths;

@@ -73,6 +73,7 @@ WayChart filteringChart(ReportRun& run, const ReportScene& scene) {
     const std::vector<Pose> poses = posesOf(loaded, frames);
     const auto count = static_cast<double>(poses.size());
     std::vector<FineView> views;
+    views.reserve(poses.size());
     for (const Pose& pose : poses) views.push_back({makeEyeView(pose, loaded.lens)});
     const std::vector<Plane<PackedColor>> truths = finestGround(run, scene, views, truthFactor);
     EyeImage image;

@@ -18,6 +18,7 @@ struct FineOrder {
 std::vector<Plane<PackedColor>> pictures(ReportRun& run, const ReportScene& scene,
                                          const std::vector<FineView>& views, int factor, bool finestGround) {
     std::vector<UntimedPiece> pieces;
+    pieces.reserve(views.size());
     for (const FineView& view : views)
         pieces.push_back(
             pieceOf(Untimed::FinePicture, FineOrder{run.indexOf(scene), view, factor, finestGround}));

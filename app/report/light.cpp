@@ -99,6 +99,7 @@ struct LightTruthOrder {
 void findTruth(ReportRun& run, LightSubject& subject, int bricks) {
     const int runs = run.pick(4, 8), samples = run.pick(512, 2048);
     std::vector<UntimedPiece> pieces;
+    pieces.reserve(static_cast<std::size_t>(runs));
     for (int n = 0; n < runs; ++n)
         pieces.push_back(pieceOf(Untimed::LightTruth, LightTruthOrder{subject.seed, bricks, n, samples}));
     std::vector<double> sum;
@@ -123,7 +124,7 @@ WayPoint irradiancePoint(ReportRun& run, const LightSubject& subject, bool naive
     double squares = 0, worst = 0;
     for (int n = 0; n < runs; ++n) {
         run.tell("light, irradiance");
-        const TexelLighter lighter = subject.lighter(naive, static_cast<std::uint64_t>(kFirstSeed + n));
+        const TexelLighter lighter = subject.lighter(naive, kFirstSeed + static_cast<std::uint64_t>(n));
         bakeIrradiance(subject, lighter, 1);  // finds the empty space that rays leap over
         const Baked baked = bakeIrradiance(subject, lighter, samples);
         const std::vector<double> light = lightOf(subject, baked);
@@ -171,7 +172,7 @@ WayChart transferChart(ReportRun& run, const LightSubject& subject) {
         for (int n = 0; n < runs; ++n) {
             run.tell("light, transfer");
             const MeasuredTransfer t = bakeTransfer(
-                subject, subject.lighter(false, static_cast<std::uint64_t>(kFirstSeed + n)), order, samples);
+                subject, subject.lighter(false, kFirstSeed + static_cast<std::uint64_t>(n)), order, samples);
             const std::vector<double> light = dotted(subject, t, order);
             squares += std::pow(relativeRms(light, subject.truth), 2) / runs;
             worst = std::max(worst, relativeWorst(light, subject.truth));

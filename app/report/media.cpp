@@ -24,6 +24,7 @@ struct PairWay {
 
 std::vector<PairWay> waysOf(ReportRun& run, const SweepSetting& own) {
     std::vector<PairWay> ways;
+    ways.reserve(kSweepMethods.size());
     for (const std::string_view method : kSweepMethods)
         ways.push_back(
             {std::string(method), fmt::format("{} slices", own.slices), method, own, method == kSweepMethod});

@@ -17,14 +17,14 @@ void addFigure(Report& report, ReportFigure figure) {
 void addChart(Report& report, ReportSection& section, WayChart chart) {
     using Kind = ReportFigure::Kind;
     for (const WayPoint& point : chart.points) {
-        const std::string id = fmt::format("{}/{}", chart.id, point.way.name);
-        addFigure(report, {id + "/time", chart.timeUnit, chart.setting, Kind::Time, point.way.time});
+        const std::string id = fmt::format("{}/{}/", chart.id, point.way.name);
+        addFigure(report, {id + "time", chart.timeUnit, chart.setting, Kind::Time, point.way.time});
         addFigure(report,
-                  {id + "/error", chart.errorUnit, chart.setting, Kind::Error, exactly(point.way.error)});
+                  {id + "error", chart.errorUnit, chart.setting, Kind::Error, exactly(point.way.error)});
         addFigure(report,
-                  {id + "/worst", chart.errorUnit, chart.setting, Kind::Other, exactly(point.worstError)});
+                  {id + "worst", chart.errorUnit, chart.setting, Kind::Other, exactly(point.worstError)});
         for (const auto& [name, value] : point.others)
-            addFigure(report, {id + "/" + name, "", chart.setting, Kind::Other, exactly(value)});
+            addFigure(report, {id + name, "", chart.setting, Kind::Other, exactly(value)});
     }
     section.blocks.emplace_back(std::move(chart));
 }

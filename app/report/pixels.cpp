@@ -140,9 +140,9 @@ public:
         mRun.tell("light, pictures");
         mScene.look.baked.light = bake.light;
         mScene.look.baked.lookup = lookup;
-        std::vector<double> ms;
+        std::vector<double> ms(static_cast<std::size_t>(repeats()));
         EyeImage image;
-        for (int n = 0; n < repeats(); ++n) ms.push_back(cast(image));
+        for (double& time_ms : ms) time_ms = cast(image);
         for (std::size_t n = 0; n < bake.relight_ms.size(); ++n) ms[n] += bake.relight_ms[n];
         mScene.look.baked = {};
         return pointOf(ms, lightLookedUp(*bake.light, lookup), bake.ms / 1000, bake.texels);

@@ -39,6 +39,7 @@ std::vector<Wish> wishesOf(ReportRun& run) {
 std::vector<Variant> variantsOf(ReportRun& run, const std::vector<NamedWarp>& warps,
                                 const MeasuredWarps& known) {
     std::vector<Variant> variants;
+    variants.reserve(warps.size());
     for (const NamedWarp& warp : warps)
         variants.push_back({warp.name, "as it is", warp.setting, &warp == &warps.front()});
     for (const Wish& w : wishesOf(run)) {

@@ -161,6 +161,7 @@ std::optional<FramePlan> planScene(const Scene& scene) {
         for (const int n : kOrder) poses.push_back(flight[std::min<std::size_t>(n, flight.size() - 1)]);
     }
     std::vector<StereoViews> views;
+    views.reserve(poses.size());
     for (const TimedPose& pose : poses)  // same eyes as render, play and compare
         views.push_back(makeStereoViews(pose.pose, scene.lens, NarrowedEyes(scene).at(pose.pose, pose.time)));
     return scene.frames().measure(views);

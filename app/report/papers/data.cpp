@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <glm/common.hpp>
 #include <memory>
+#include <numeric>
 
 #include "app/report/light.h"
 #include "app/report/subjects.h"
@@ -27,8 +28,8 @@ int fullestRun(const GreyVolume& volume, int axis, int extent, int bright) {
     int best = 0;
     std::size_t most = 0;
     for (int first = 0; first + extent <= volume.frame.size[axis]; ++first) {
-        std::size_t sum = 0;
-        for (int n = 0; n < extent; ++n) sum += counts[static_cast<std::size_t>(first + n)];
+        const std::size_t sum =
+            std::accumulate(counts.begin() + first, counts.begin() + first + extent, std::size_t{0});
         if (sum > most) most = sum, best = first;
     }
     return best;

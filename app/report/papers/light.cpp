@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <mutex>
@@ -137,8 +138,8 @@ using LightOf = std::function<std::vector<double>(int seed, const TexelPiece& pi
 NoiseSums noiseOf(const std::vector<TexelPiece>& pieces, double seconds, const LightOf& lightOf) {
     NoiseSums sums;
     std::mutex mutex;
-    std::vector<std::size_t> sizes;
-    for (const TexelPiece& piece : pieces) sizes.push_back(piece.size());
+    std::vector<std::size_t> sizes(pieces.size());
+    std::ranges::transform(pieces, sizes.begin(), &TexelPiece::size);
     bakeRate(sizes, seconds, 1, [&](std::size_t n) {
         const std::vector<double> a = lightOf(0, pieces[n]), b = lightOf(1, pieces[n]);
         const std::lock_guard<std::mutex> lock(mutex);
@@ -171,6 +172,7 @@ void addNoise(ReportRun& run, const PaperEngine& engine, const EngineView& view,
             std::vector<TexelSum> sums(piece.size());
             both[static_cast<std::size_t>(seed)]->addIrradiance(piece, samples, sums);
             std::vector<double> light;
+            light.reserve(sums.size());
             for (const TexelSum& sum : sums)
                 light.push_back(sum.samples > 0 ? luminance(glm::dvec3(sum.mean)) : -1);
             return light;
@@ -183,6 +185,7 @@ void addNoise(ReportRun& run, const PaperEngine& engine, const EngineView& view,
             std::vector<std::uint8_t> alive(piece.size());
             own[static_cast<std::size_t>(seed)]->addTransfer(piece, 0, samples, kPaperOrder, 1, sums, alive);
             std::vector<double> light;
+            light.reserve(piece.size());
             for (std::size_t n = 0; n < piece.size(); ++n) {
                 double sum = 0;
                 for (std::size_t k = 0; k < numbers; ++k)

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "colon/scene/isosurface_scene.h"
+#include "engine/light/skies/spherical_harmonics.h"
 #include "engine/light/transfer/bake_texels.h"
 #include "engine/light/transfer/seen_bricks.h"
 #include "engine/light/transfer/transfer_volume.h"
@@ -51,7 +52,7 @@ private:
 struct Transfer {
     TransferVolume volume;
     std::shared_ptr<IlluminationVolume> light;
-    std::vector<glm::vec3> sky = std::vector<glm::vec3>(kPaperOrder * kPaperOrder, glm::vec3(0.5f));
+    std::vector<glm::vec3> sky = std::vector<glm::vec3>(harmonicsCount(kPaperOrder), glm::vec3(0.5f));
 };
 
 // Returns transfer with arbitrary numbers: the time of the products does not depend on them.
@@ -65,7 +66,7 @@ Transfer madeTransfer(const VolumeScene& scene) {
                       std::make_shared<IlluminationVolume>(texels)};
     std::vector<float> numbers;
     for (std::size_t n = 0; n < bricks.size(); ++n) {
-        numbers.assign(static_cast<std::size_t>(countTexels(bricks[n].wanted) * kPaperOrder * kPaperOrder),
+        numbers.assign(static_cast<std::size_t>(countTexels(bricks[n].wanted)) * harmonicsCount(kPaperOrder),
                        0.1f);
         transfer.volume.setBrick(n, numbers);
     }

@@ -32,7 +32,7 @@ GroundPaintOptions contourOptions(const std::string& text) {
 
 std::string contourText(const SceneOptions& options) {
     if (options.ground.contoursAuto) return kAutoContours;
-    const std::string given = options.given.text("contours");
+    std::string given = options.given.text("contours");
     if (!given.empty() || !options.ground.contours_m) return given;
     return fmt::format("{:.6g}", *options.ground.contours_m);
 }
