@@ -153,16 +153,16 @@ void Bookmarks::write() {
 std::string Bookmarks::nameLike(const std::string& wanted) const {
     const std::string clean = keptText(wanted, kLongestName);
     const bool blank = std::all_of(clean.begin(), clean.end(), [](char c) { return c == ' '; });
-    const std::string stem = blank ? "place" : clean;
+    std::string stem = blank ? "place" : clean;
     if (!blank && !find(stem)) return stem;
     for (int k = blank ? 1 : 2;; ++k)
-        if (const std::string name = fmt::format("{} {}", stem, k); !find(name)) return name;
+        if (std::string name = fmt::format("{} {}", stem, k); !find(name)) return name;
 }
 
 fs::path Bookmarks::newThumbnail() const {
     std::error_code code;
     for (int k = 1;; ++k) {
-        const fs::path file = mFile.parent_path() / fmt::format("{}_{}.png", mFile.stem().string(), k);
+        fs::path file = mFile.parent_path() / fmt::format("{}_{}.png", mFile.stem().string(), k);
         const bool used = std::any_of(mList.begin(), mList.end(),
                                       [&](const Bookmark& mark) { return mark.thumbnail == file; });
         if (!used && !fs::exists(file, code)) return file;
@@ -194,7 +194,7 @@ std::string Bookmarks::rename(const std::string& name, const std::string& to) {
     if (found == mList.end()) return "";
     found->name.clear();  // the present name must not count as taken
     found->name = nameLike(to);
-    const std::string now = found->name;
+    std::string now = found->name;
     write();
     return now;
 }

@@ -60,7 +60,7 @@ RecordedPath FlightRecording::finish() {
 
 std::filesystem::path FlightRecording::keepRecorded(const RecordedPath& path) {
     settle();
-    const std::filesystem::path file = std::exchange(mFile, {});
+    std::filesystem::path file = std::exchange(mFile, {});
     if (!file.empty()) try {
             writePath(file, path);
             return file;

@@ -107,7 +107,9 @@ public:
             std::string& line = mLines[n];
             const std::size_t rest = endOfLine(n, *found);
             const std::string after = line.substr(rest);
-            line = line.substr(0, found->value) + " " + value + (after.empty() ? "" : " " + after);
+            line.resize(found->value);
+            line.append(" ").append(value);
+            if (!after.empty()) line.append(" ").append(after);
             return;
         }
         // after the last line with content

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "app/view/mode_steps.h"
 #include "engine/image/image_file.h"
@@ -41,14 +42,15 @@ void Screenshots::save(std::shared_ptr<const void> owner, const Plane<PackedColo
     std::filesystem::path file;
     do file = mFolder / fmt::format("stereonav_{:04}_{}.png", ++mNumber, infoOf(setting.mode).shortName);
     while (std::filesystem::exists(file));
-    mSaving.push_back(std::async(std::launch::async, [owner, &left, &right, setting, file]() -> std::string {
-        try {
-            writeColorImage(file, composeStereo(left, right, setting));
-            return "saved " + file.string();
-        } catch (const std::exception& error) {
-            return error.what();
-        }
-    }));
+    mSaving.push_back(std::async(std::launch::async,
+                                 [owner = std::move(owner), &left, &right, setting, file]() -> std::string {
+                                     try {
+                                         writeColorImage(file, composeStereo(left, right, setting));
+                                         return "saved " + file.string();
+                                     } catch (const std::exception& error) {
+                                         return error.what();
+                                     }
+                                 }));
 }
 
 }  // namespace stereonav

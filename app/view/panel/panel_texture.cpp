@@ -49,7 +49,9 @@ void PanelTexture::set(const Plane<PackedColor>& picture, bool smooth, int step)
 }
 
 void* PanelTexture::id() const {
-    return mTexture ? reinterpret_cast<void*>(static_cast<std::intptr_t>(mTexture->name())) : nullptr;
+    if (!mTexture) return nullptr;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): ImGui takes a texture's name as a pointer.
+    return reinterpret_cast<void*>(static_cast<std::intptr_t>(mTexture->name()));
 }
 
 }  // namespace stereonav

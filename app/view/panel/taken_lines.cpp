@@ -69,6 +69,7 @@ void drawTakenLines(ViewSession& session, MeasuredLine& line) {
     ImGui::BeginDisabled(flight.size() < 2);
     if (ImGui::Button("Take flight")) {
         std::vector<glm::dvec2> under;
+        under.reserve(flight.size());
         for (const PathSample& sample : flight) under.emplace_back(sample.pose.position);
         take(session, line, *terrain, under, false, "the flight");
     }
