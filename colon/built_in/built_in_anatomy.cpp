@@ -345,7 +345,7 @@ double BuiltInAnatomy::foldsAt(const AxisPoint& point, double along, const glm::
     const double shrink = std::max(1 - glm::dot(to, point.bend), 0.3);
     double flesh = 30;
     const auto [from, end] =
-        mNear[std::clamp(static_cast<int>(along + 0.5), 0, static_cast<int>(mAxis.size()) - 1)];
+        mNear[std::clamp(static_cast<int>(std::lround(along)), 0, static_cast<int>(mAxis.size()) - 1)];
     for (int n = from; n < end; ++n) {
         const Fold& fold = mFolds[n];
         const double c = cosine * fold.cosine + sine * fold.sine;

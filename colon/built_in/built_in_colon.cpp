@@ -34,7 +34,7 @@ struct EdgeProfile {
             share[n] = static_cast<float>(0.5 * std::erfc(-(n * 8.0 / kSteps - 4) / std::sqrt(2.0)));
     }
     double at(double mm) const {
-        const double x = std::clamp(mm * perMm + kSteps / 2, 0.0, kSteps - 1e-6);
+        const double x = std::clamp(mm * perMm + kSteps / 2.0, 0.0, kSteps - 1e-6);
         const int n = static_cast<int>(x);
         return share[n] + (x - n) * (share[n + 1] - share[n]);
     }

@@ -221,7 +221,7 @@ Points resampleEvenly(const LumenProbe& probe, const Points& points, double spac
     return even;
 }
 
-Points refineCentreline(const LumenProbe& probe, Points rough, const std::function<void()>& poll) {
+Points refineCentreline(const LumenProbe& probe, const Points& rough, const std::function<void()>& poll) {
     Points points = withoutEnds(probe, rough);  // and again once the line is smooth
     const double length = polylineLength(points);
     if (points.size() < 3 || !(length > 0)) return points;

@@ -12,7 +12,7 @@ namespace stereonav {
 // roughCentreline's voxels are. The ends are drawn back from the wall to where a sphere fits about as well as
 // further on, at most a quarter of the length each. Every point of the answer lies inside, and so do the
 // lines between them; one point or more. poll: called now and then; may throw.
-std::vector<glm::dvec3> refineCentreline(const LumenProbe& probe, std::vector<glm::dvec3> rough,
+std::vector<glm::dvec3> refineCentreline(const LumenProbe& probe, const std::vector<glm::dvec3>& rough,
                                          const std::function<void()>& poll);
 
 // Returns points evenly along a line, the ends kept; the distance is the nearest to `spacing` (metres, > 0)

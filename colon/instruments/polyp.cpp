@@ -100,6 +100,7 @@ public:
         std::sort(beyond.begin(), beyond.end());
         beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
         std::vector<glm::dvec3> outline;
+        outline.reserve(beyond.size());
         for (const std::uint32_t v : beyond) outline.emplace_back(mMesh.places[v]);
         return outline;
     }

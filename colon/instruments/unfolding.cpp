@@ -156,7 +156,7 @@ void UnfoldedWall::makeEqual() {
                 "use larger pixels");
     std::vector<std::vector<double>> byTurn(kTurns, std::vector<double>(mWidth, 0.0));
     for (std::size_t v = 0; v < mAlong.size(); ++v) {
-        const int column = std::clamp(static_cast<int>(columnAt(mAlong[v]) + 0.5), 0, mWidth - 1);
+        const int column = std::clamp(static_cast<int>(std::lround(columnAt(mAlong[v]))), 0, mWidth - 1);
         const int turn = std::clamp(static_cast<int>((mTurn[v] + kPi) / (2 * kPi) * kTurns), 0, kTurns - 1);
         byTurn[turn][column] += mMesh.areas[v];
     }

@@ -75,8 +75,8 @@ std::vector<float> UnfoldedWall::densities(int side) const {
     const double own = static_cast<double>(side) * side * mSetting.pixel * mSetting.pixel;
     for (std::uint32_t v = 0; v < mAlong.size(); ++v) {
         const glm::dvec2 p = pixelOf(v);
-        const int column = static_cast<int>(p.x + 0.5) / side,
-                  row = static_cast<int>(std::max(p.y + 0.5, 0.0)) / side;
+        const auto column = std::lround(std::max(p.x, 0.0)) / side,
+                   row = std::lround(std::max(p.y, 0.0)) / side;
         if (column < columns && row < rows)
             density[static_cast<std::size_t>(row) * columns + column] +=
                 static_cast<float>(mMesh.areas[v] / own);
