@@ -3,20 +3,20 @@
 // pixel, but that rows do not hand their depths on. Row 0 of all textures is on top, and so is that of what is drawn.
 // Out: the colour as it is packed in eyes; alpha 1 where nothing was seen before (uncovered).
 
-uniform sampler2D uColor;    // of the picture that was cast
+uniform sampler2D uColor;    // colours of the picture that was cast
 uniform sampler2D uInverse;  // 1 / metres of the same pixels; 0 is infinitely far
-uniform sampler2D uPlans;    // of each tile of the new picture: farthest, nearest, steps (LatePlan)
-uniform ivec2 uSize;         // of the picture that was cast
+uniform sampler2D uPlans;    // by tile of the new picture: farthest, nearest, steps (LatePlan)
+uniform ivec2 uSize;         // size of the picture that was cast
 uniform ivec2 uTile;         // pixels of a tile
 uniform vec3 uRows[3];       // LateMove
 uniform vec3 uShift;
 out vec4 color;
 
-const float kSurfaceRise = 1.5;  // as in late_kernel.cpp
+const float kSurfaceRise = 1.5;  // the same as in late_kernel.cpp
 const float kSame = 0.03;
 const int kTimes = 6;            // each leaves less than a third of the error
 
-vec2 infinite, along;  // of this pixel: the place of what is infinitely far, and of more than that for each 1 / metre
+vec2 infinite, along;  // this pixel's place in the cast picture: for infinite depth, and its change for each 1 / metre
 
 vec2 placeAt(float inverse) { return infinite + inverse * along; }
 
@@ -54,7 +54,7 @@ float followed(vec3 plan) {
     return -1.0 - before;
 }
 
-// Those of the four neighbours that lie on the surface give their colour; where none does, all.
+// Returns the mean colour of those of the four neighbours that lie on the surface, or of all four where none does.
 vec3 colorOf(vec2 place, float inverse, float reach) {
     vec2 at = clamp(place - 0.5, vec2(0.0), vec2(uSize - 1));
     ivec2 corner = min(ivec2(at), max(uSize - 2, ivec2(0)));

@@ -12,7 +12,7 @@ uniform vec3 uEyeCorner[EYES];  // direction of the region's corner; length 1 al
 uniform vec3 uEyeAcross[EYES];  // a pixel on, to the right
 uniform vec3 uEyeDown[EYES];
 uniform float uEyePixel[EYES];  // width of a pixel at unit depth
-uniform float uFromEye;         // of the slab's middle along the axis of the sweep: metres
+uniform float uFromEye;         // place of the slab's middle along the axis of the sweep: metres
 layout(binding = 4) uniform sampler2D uBefore;
 uniform ivec2 uBeforeAt;
 uniform ivec2 uLightSize;

@@ -8,13 +8,13 @@
 // LEANS: 0 where V11 does not count.
 layout(binding = 4) uniform sampler2D uBefore;
 uniform ivec2 uBeforeAt;    // corner of the buffer in its texture, inside the ring
-uniform ivec2 uWriteAt;     // the same of what is written
+uniform ivec2 uWriteAt;     // corner of what is written, in its texture
 uniform ivec2 uLightSize;   // texels
 uniform vec3 uLightCorner;  // parallel: a place, else a direction whose length along the lamp's axis is 1
 uniform vec3 uLightAcross;  // a texel on, to the right
 uniform vec3 uLightDown;
 uniform float uTexel;       // width of a texel: metres, of a lamp: at unit distance along its axis
-uniform float uFromLamp;    // of the slab's middle along the axis of the sweep: metres
+uniform float uFromLamp;    // place of the slab's middle along the axis of the sweep: metres
 uniform float uSpread;      // offset of the taps over the root of the way through the slab: root of metres
 uniform int uSlabNumber;
 uniform float uLeaning;     // how far V11 counts, 0..1
@@ -39,7 +39,7 @@ float tapTurn(ivec2 texel) {
 // Where a texel's ray crosses the middle of the slab.
 struct Crossing {
     vec3 place, way;
-    float width;  // of a texel there: metres; 0 or less: behind a lamp
+    float width;  // width of a texel there: metres; 0 or less: behind a lamp
     vec2 lags;    // sweep_geometry's tapLags
 };
 Crossing crossingOf(ivec2 texel) {

@@ -184,7 +184,7 @@ Properties unperturbed(vec3 place, float footprint) { return kNothing; }
 
 #if NOISE > 0
 layout(binding = 2) uniform sampler3D uNoise;  // 32^3, repeating, -1..1
-uniform vec3 uNoiseOrigin[NOISE];    // of the anchor at this time, in repeats of the noise, and half a texel
+uniform vec3 uNoiseOrigin[NOISE];    // the anchor at this time, in repeats of the noise, and half a texel
 uniform float uNoiseRepeats[NOISE];  // a metre
 uniform float uNoiseMove[NOISE];     // metres
 uniform float uNoiseExtinction[NOISE];

@@ -7,10 +7,10 @@ const float kLeastCosine = 1e-4;  // sweep_geometry's
 
 uniform vec3 uAxis;
 uniform vec2 uSlab;          // t of its middle, and its thickness: metres
-uniform vec3 uLightOrigin;   // of a lamp
+uniform vec3 uLightOrigin;   // place of a lamp
 uniform vec3 uLightForward;  // unit
 uniform float uLightStart;   // t before which a lamp lights nothing
-uniform float uLampCosine;   // of half its cone
+uniform float uLampCosine;   // cosine of half a lamp's cone
 uniform float uPerFalloff;   // 1 / metres, 0 without
 uniform vec3 uRadiance;      // linear
 
@@ -38,7 +38,7 @@ struct Arriving {
     vec3 way;          // that it travels, unit
     vec3 radiance;     // R of V4: 0 where nothing arrives
     float direct;      // 0 beside a lamp's cone, where scattered light alone arrives; else 1
-    float slabLength;  // of the slab along its way: metres
+    float slabLength;  // length of the slab along its way: metres
 };
 Arriving arrivingAt(vec3 place) {
 #if LAMP

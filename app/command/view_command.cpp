@@ -1,4 +1,4 @@
-// `stereonav view`, in builds with and without the window.
+// The command `stereonav view`, in builds with and without the window.
 #include "app/view/window/view_command.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ std::optional<ValueProblem> problemOfMode(const std::string& text) {
     return ValueProblem{"there is no output mode \"" + text + "\"", "the modes are " + outputModeNames(true)};
 }
 
-// Returns the options of what is shown, and on which screen.
+// Returns the options for what is shown, and on which screen.
 std::vector<Option> shownOptions() {
     return {
         {.key = "path",
@@ -69,7 +69,7 @@ std::vector<Option> shownOptions() {
     };
 }
 
-// Returns the options of frames, and of a run of the window.
+// Returns the options for how frames are made, and for what the window does from start to close.
 std::vector<Option> runOptions() {
     return {
         {.key = "sweep",

@@ -5,7 +5,7 @@
 
 namespace stereonav {
 
-// The page as Markdown, with lines of at most 120 characters.
+// Returns the page as Markdown, with lines of at most 120 characters.
 std::string optionPage();
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// What the window is opened with: the values of the command `view`.
+// Values of the options of the command `view`.
 #pragma once
 
 #include <optional>

@@ -22,8 +22,8 @@ struct EyeMark {
 EyeMark markUnder(const StereoViews& views, const Plane<float>& viewDepth, const glm::dvec2& share,
                   const glm::ivec2& guard = glm::ivec2(0));
 
-// Returns the point on the surface that markUnder() finds, at the middle of viewDepth's pixel. Empty where
-// nothing is hit or known, or the place lies outside the picture.
+// Returns the point on the surface that markUnder() finds, at the middle of viewDepth's pixel. Returns
+// nothing where nothing is hit or known, or the place lies outside the picture.
 std::optional<glm::dvec3> worldUnder(const StereoViews& views, const Plane<float>& viewDepth,
                                      const glm::dvec2& share, const glm::ivec2& guard = glm::ivec2(0));
 
@@ -31,8 +31,8 @@ struct PointMark {
     EyeMark mark;
     double depth = 0;  // depth in the view, metres
 };
-// Returns the mark of a point of the world, at its apparent place over a round Earth. Empty where the point
-// is nearer than the near plane or behind the eyes, outside one of the pictures, or hidden.
+// Returns the mark of a point of the world, at its apparent place over a round Earth. Returns nothing where
+// the point is nearer than the near plane or behind the eyes, outside one of the pictures, or hidden.
 std::optional<PointMark> markOf(const StereoViews& views, const Plane<float>& viewDepth,
                                 const glm::dvec3& world, const glm::ivec2& guard = glm::ivec2(0));
 

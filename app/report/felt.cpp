@@ -15,14 +15,14 @@
 namespace stereonav {
 namespace {
 
-// Returns the methods to compare; in brief parts only those with their own settings.
+// Returns the methods to compare; in a brief report only those at their default settings.
 std::vector<Variant> feltVariants(const Scene& scene, bool brief) {
     std::vector<Variant> variants = rightEyeVariants(scene);
     if (brief) std::erase_if(variants, [](const Variant& v) { return !v.detail.empty(); });
     return variants;
 }
 
-// A frame of the flight, and the next one.
+// Times and views of a frame of the flight, and of the next one.
 struct FeltTimes {
     double time, nextTime;
     StereoViews views, next;
@@ -35,10 +35,10 @@ FeltTimes feltTimes(const Scene& scene, double time) {
     return {time, time + kNextFrame_s, viewsAt(time), viewsAt(time + kNextFrame_s)};
 }
 
-// The exact frames of a moment, from which all ways are made and with which they are compared.
+// Full casts of a frame and of the next one: every way starts from them and is compared with them.
 struct FeltMoment {
     EyePair exact, exactNext;
-    FeltTruth truth;  // pictures are sent with the order
+    FeltTruth truth;  // its pictures arrive with the order
 };
 
 FeltMoment momentAt(const ReportScene& scene, const FeltTimes& times) {
@@ -55,15 +55,15 @@ FeltMoment momentAt(const ReportScene& scene, const FeltTimes& times) {
     return moment;
 }
 
-// One way at one moment; the message continues with the truths of the left eye, the right eye, and the next
-// right eye.
+// An order to measure one way at one moment. The message continues with the true pictures of the left eye,
+// the right eye, and the next frame's right eye.
 struct FeltOrder {
     std::size_t scene, variant;
     double time;
     bool brief, pictures;
 };
 
-// Frames of one scene's flight, each with the next one.
+// Measures frames of one scene's flight, each together with the next one.
 class FeltTrial {
 public:
     FeltTrial(ReportRun& run, const ReportScene& scene, const std::vector<Variant>& variants)

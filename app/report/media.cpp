@@ -51,7 +51,8 @@ double squareOf(const EyeImage& truth, const EyeImage& image) {
     return psnr >= kIdenticalPsnr_db ? 0.0 : 255.0 * 255.0 * std::pow(10.0, -psnr / 10);
 }
 
-// Both eyes of a frame, or only the left one, each by its own sweep. The scene is one of run.media().
+// A request for a frame's true pictures, of both eyes or the left one alone, each by a sweep of its own.
+// scene: index into run.media().
 struct SweptOrder {
     std::size_t scene;
     SweepSetting sweep;
@@ -70,7 +71,7 @@ void getEye(ByteReader& reader, const EyeView& view, EyeImage& eye) {
     getRows(reader, 0, view.height, eye.viewDepth);
 }
 
-// Frames of one medium: their views, and the true pictures of both eyes.
+// Measures frames of one medium. Holds their views and the true pictures of both eyes.
 class PairTrial {
 public:
     PairTrial(ReportRun& run, ReportScene& scene, int frames, double share)
@@ -246,7 +247,8 @@ void addWaysCharts(ReportRun& run, ReportSection& section, const ReportScene& sc
     addFeltCharts(run, section, scene.id, felt, points, trial.feltErrors(ways));
 }
 
-// trials: for these parts of the zero-parallax distance.
+// Returns the chart of errors by separation. trials: one for each entry n of `parts`, with eyes 1/n of the
+// zero-parallax distance apart.
 WayChart separationsChart(ReportRun& run, const ReportScene& scene, const std::vector<int>& parts,
                           std::span<PairTrial> trials) {
     WayChart chart = emptyChart(trials.front());

@@ -1,5 +1,5 @@
-// The report's part on ambient occlusion: every estimate of openness and the older methods along 42
-// directions, against openness traced by rays, by radius.
+// The report's part on ambient occlusion. For several radii it compares every estimate of openness, and the
+// older methods that sample 42 directions, with openness traced by many rays.
 #include "engine/light/occlusion/occlusion.h"
 
 #include <fmt/format.h>
@@ -22,14 +22,14 @@ struct Texels {
     std::vector<double> truth;  // obscurance
 };
 
-// Some of the block's texels.
+// A request for the traced openness at some of the block's texels.
 struct OpennessOrder {
     double radius;
     std::size_t texels, first, end;
 };
 
 Texels tracedTexels(ReportRun& run, const GreyVolume& volume, double radius) {
-    constexpr std::size_t kTexels = 100;  // texels of a piece
+    constexpr std::size_t kTexels = 100;  // texels in each piece of work
     Texels texels;
     texels.at = surfaceVoxels(volume, kBlockSurface, static_cast<std::size_t>(run.pick(400, 1500)));
     const std::size_t count = texels.at.size();
@@ -75,7 +75,8 @@ WayPoint estimated(ReportRun& run, const GreyVolume& volume, OcclusionMethod met
     return point;
 }
 
-// Measures a directed method on the texels and scales its time to all voxels, which the estimates compute.
+// Measures a directed method at the texels and scales its time to all voxels, since the estimates are timed
+// over all voxels.
 WayPoint directed(ReportRun& run, const GreyVolume& volume, DirectionMethod method, const char* name,
                   double radius, const Texels& texels) {
     std::vector<double> ms, values(texels.at.size());

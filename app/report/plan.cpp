@@ -71,7 +71,7 @@ Case caseOf(ReportRun& run, const Scene& scene, FrameMaker& frames, const std::s
 }
 
 // Returns a renderer of the same scene without vector instructions, whose rays cost more, to show where the
-// crossing lies. Null for scenes that other libraries cast.
+// crossing lies. Returns null for scenes that other libraries cast.
 std::unique_ptr<EyeRenderer> plainRenderer(const Scene& scene) {
     if (terrainOf(scene)) return std::make_unique<TerrainRenderer>(*terrainOf(scene), SimdTarget::Plain);
     if (!colonOf(scene)) return nullptr;

@@ -35,8 +35,8 @@ double rmsOfPsnr(double psnr_db);
 double rmsOf(const Plane<PackedColor>& truth, const Plane<PackedColor>& picture);
 
 // Measures as many of `most` places of a flight as `seconds` allow, at least one, and returns their number.
-// measure: measures these places of so many. The first place is measured alone, and its time decides how many
-// follow.
+// measure: measures the places `some`, numbered among `of` places along the flight. The first place is
+// measured alone, and its time decides how many follow.
 int measureWhatFits(int most, double seconds,
                     const std::function<void(const std::vector<int>& some, int of)>& measure);
 

@@ -25,7 +25,8 @@ std::optional<QualityPlan> qualityOf(const SceneOptions& options, const Scene& s
 // unless the picture gets more rays everywhere or its light is traced for each pixel.
 EdgeSetting edgesOf(const SceneOptions& options, const Scene& scene, const RayOptions& rays = {});
 
-// Returns the bytes of a picture with so many rays, given those of a picture with one ray.
+// Returns the bytes of a picture with the rays that the options ask for, given those of a picture with one
+// ray a pixel.
 PixelBytes withRays(PixelBytes each, const RayOptions& rays);
 
 // Returns the frames that a scene is measured on: its start pose and some frames of its flight.

@@ -162,7 +162,7 @@ std::optional<FramePlan> planScene(const Scene& scene) {
     }
     std::vector<StereoViews> views;
     views.reserve(poses.size());
-    for (const TimedPose& pose : poses)  // same eyes as render, play and compare
+    for (const TimedPose& pose : poses)  // the same eyes that render, play and compare use
         views.push_back(makeStereoViews(pose.pose, scene.lens, NarrowedEyes(scene).at(pose.pose, pose.time)));
     return scene.frames().measure(views);
 }

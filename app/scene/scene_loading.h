@@ -51,7 +51,7 @@ void checkMethod(const SceneOptions& options, const std::string& method, const c
 std::string_view methodNamed(const std::string& name, const Scene& scene);
 
 // Returns the frame plan of a loaded scene: measured along its flight, or at its start where it has none,
-// with the eyes as frames have them (NarrowedEyes). Empty where there is nothing to choose.
+// with the eyes as frames have them (NarrowedEyes). Returns nothing where there is nothing to choose.
 std::optional<FramePlan> planScene(const Scene& scene);
 
 // Returns the processor's name, "unknown" where the system does not report it.

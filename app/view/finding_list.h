@@ -110,7 +110,7 @@ private:
     bool mWrites = false;  // the present work writes a file
     bool mEnds = false;    // the present work was cancelled, and nothing was asked for since
     std::string mSummary, mTold, mProblem, mDoing;
-    Outcome mOutcome;        // of the present work, whose thread writes it
+    Outcome mOutcome;        // result of the present work, whose thread writes it
     BesideWork<bool> mWork;  // last: it is cancelled, and its end waited for, first
 };
 

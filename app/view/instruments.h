@@ -32,7 +32,8 @@ public:
     void replaceScene(const std::shared_ptr<const Scene>& scene);
     // Takes results; to be called each turn. Returns true where something has changed.
     bool follow();
-    // The same for paint on the ground; failed: called with the reason where paint is not possible.
+    // Takes results of paint on the ground; to be called each turn. Returns true where something has changed.
+    // failed: called with the reason where paint is not possible.
     bool followPaint(const std::function<void(const std::string&)>& failed);
     // Notes that a picture was shown: its wall has been seen.
     void see(const ViewFrame& frame, const AskedFrames& asked);

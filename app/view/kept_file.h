@@ -44,7 +44,7 @@ std::optional<nlohmann::json> readKeptJson(const std::filesystem::path& file,
 
 bool isUtf8(std::string_view text);
 // Returns text that JSON accepts: bytes that are no UTF-8 become U+FFFD, control characters blanks; at most
-// so many bytes, cut between characters.
+// `mostBytes` bytes, cut between characters.
 std::string keptText(std::string_view text, std::size_t mostBytes);
 // Returns a path with any bytes: text where it is UTF-8, otherwise a list of bytes.
 nlohmann::json jsonOfPath(const std::filesystem::path& path);

@@ -25,7 +25,7 @@ double secondsBetween(const Pose& from, const Pose& to, double metresPerSecond) 
     return timedKeyframes({from, to}, metresPerSecond).back().time;
 }
 
-// Moves this keyframe and all later ones by so many seconds.
+// Moves keyframe `from` and all later ones by `seconds`.
 void moveOn(Keyframes& keys, std::size_t from, double seconds) {
     for (std::size_t n = from; n < keys.size(); ++n) keys[n].time += seconds;
 }
@@ -49,7 +49,7 @@ double pathLength(const RecordedPath& path) {
     return length;
 }
 
-// Returns the largest value within so many places to each side.
+// Returns, for each place, the largest value within `around` places to each side.
 std::vector<double> largestAround(const std::vector<double>& values, std::size_t around) {
     std::vector<double> largest(values.size());
     std::deque<std::size_t> falling;  // places with falling values

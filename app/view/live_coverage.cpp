@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kStep = 0.0015;      // metres between the views that are used in flight
 constexpr double kTurn = 0.05;        // radians
-constexpr double kRestStep = 0.0002;  // the same for pictures that rest
+constexpr double kRestStep = 0.0002;  // metres between views in pictures that rest
 constexpr double kRestTurn = 0.005;
 constexpr double kJump = 0.1;       // metres: larger distances between pictures are jumps, not flight
 constexpr double kPause = 1;        // seconds: longer intervals are pauses
@@ -98,7 +98,7 @@ struct LiveCoverage::Work {
 
 void LiveCoverage::Work::run() {
     stepBehindTheWindow();
-    stepBehindTheWindow();  // and after the thread that makes frames
+    stepBehindTheWindow();  // a second time: the thread that makes frames goes first, too
     loopOnThisThreadAlone();
     try {
         readBefore();

@@ -24,8 +24,8 @@ public:
 
     // Expected distance of the mean from the truth that is enough: root mean square in steps of 255, 60 dB.
     static constexpr double kEnough_levels = 0.25;
-    // The same for media: half a step, 54 dB; and the largest effort of their frames, as a multiple of the
-    // scene's own.
+    // Expected distance that is enough for media: half a step, 54 dB; and the largest effort of their frames,
+    // as a multiple of the scene's own.
     static constexpr double kEnoughOfMedium_levels = 0.5, kMostEffort = 4;
     // Longest time of a frame: slower scenes are not refined, as the user's next action would have to wait.
     // Media can be interrupted at any time.

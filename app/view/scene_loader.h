@@ -63,7 +63,7 @@ private:
     Loading mLoading;
     std::string mProblem;
     std::shared_ptr<const OpenScene> mScene;
-    std::exception_ptr mFailure;  // of the first load
+    std::exception_ptr mFailure;  // why the first load failed
     bool mStop = false;
     std::jthread mThread;  // last: it starts when all other members exist
 };

@@ -47,7 +47,8 @@ public:
 
     // Begins with the settings of another scene that is being loaded.
     void begin(SceneMade next);
-    // The same, where those before differ from the ones given.
+    // Begins with the settings of another scene that is being loaded, where those before differ from the ones
+    // given.
     void begin(SceneMade next, SceneMade before);
     // Notes that the other scene is there.
     void arrived() { mBefore.reset(); }

@@ -48,7 +48,7 @@ private:
 };
 
 // Returns a ramp from 0 at `low` upwards to `high`: a beginning where named functions are for other values.
-// Empty unless low < high and both are finite.
+// Returns an empty curve unless low < high and both are finite.
 TransferCurve rampBetween(double low, double high);
 
 // The range of values that a curve is drawn over.

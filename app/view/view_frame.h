@@ -1,4 +1,4 @@
-// What the threads beside the window's are asked for and hand over: scenes, requests for frames, frames.
+// Data that the window's thread and the others exchange: scenes, requests for frames, frames.
 #pragma once
 
 #include <array>

@@ -16,7 +16,7 @@ namespace {
 struct Control {
     glm::dvec3 place;
     double radius;
-    double turn = 0;  // of a line that was made of them: which place of the spline it is
+    double turn = 0;  // on a line through them: place on the spline
 };
 constexpr Control kControls[] = {
     {{0, 70, -138}, 15},   {{0, 80, -118}, 22},  {{0, 80, -98}, 22},     {{0, 66, -80}, 18},
@@ -43,7 +43,7 @@ double between(double low, double high, double unit) {
     return low + (high - low) * unit;
 }
 
-// The larger (smaller) of two, rounded where they are nearer than k: quadratic polynomial.
+// Returns the larger of two numbers, rounded by a quadratic polynomial where they are nearer than k.
 double smoothMax(double a, double b, double k) {
     const double h = std::max(k - std::abs(a - b), 0.0) / k;
     return std::max(a, b) + h * h * k * 0.25;
@@ -78,7 +78,7 @@ Control splineAt(const std::vector<Control>& c, double u) {
     return sum;
 }
 
-// The spline wound about itself a little: a real colon is longer than the way it takes.
+// Returns a point of the spline, wound about itself a little: a real colon is longer than its way.
 Control windingAt(const std::vector<Control>& c, double u) {
     Control now = splineAt(c, u);
     const double phase = 2 * kPi * u / 4.2 + 1.75;
@@ -102,7 +102,7 @@ std::vector<Control> wobbledControls(std::uint64_t seed) {
     return controls;
 }
 
-// A point every millimetre.
+// Returns points of the line, one for every millimetre of its length.
 std::vector<Control> evenlySpaced(const std::vector<Control>& line) {
     std::vector<Control> even;
     double walked = 0;
@@ -189,7 +189,7 @@ void BuiltInAnatomy::makeAxis(std::uint64_t seed, double bend, double inflation)
     bendLoops(controls, seed, bend);
     const std::vector<Control> line = bend == 0 ? unbent : axisThrough(controls);
     mBent = matchOf(unbent, line);
-    std::vector<double> before(line.size());  // of each place: where it is on the unbent line
+    std::vector<double> before(line.size());  // for each place: where it is on the unbent line
     for (std::size_t n = 0; n < line.size(); ++n)
         before[n] = bend == 0 ? static_cast<double>(n) : indexOfTurn(unbent, line[n].turn);
     for (std::size_t n = 0; n < line.size(); ++n) {
@@ -383,7 +383,7 @@ double BuiltInAnatomy::polypsAt(const glm::dvec3& p, double along) const {
     return flesh;
 }
 
-// mm: from here on the wall is so far that nothing of it is seen; its shape adds or takes 1.5 mm at most.
+// mm: voxels further from the wall see none of it, so its coarse distance (to 1.5 mm) will do.
 constexpr double kFarAway = 6;
 
 // Returns a point between two of the axis: its place by a cubic through them with their tangents, the rest in

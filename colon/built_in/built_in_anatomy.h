@@ -20,7 +20,7 @@ struct AxisPoint {
     glm::dvec2 turn{1, 0};                // cosine and sine of the taeniae's turn about the axis
     glm::dvec3 bend{0.0};                 // the curvature vector, 1/mm
     double radius = 0;                    // mm, of the wall between folds
-    double slope = 0;                     // of the radius, mm a mm
+    double slope = 0;                     // change of the radius, mm a mm
 };
 
 // A crescent in one of three sectors between the taeniae.
@@ -28,7 +28,7 @@ struct Fold {
     double along = 0;      // mm along the axis
     double unbent = 0;     // mm, the same where the axis is not bent
     double cosine = 1;     // angle of the sector's middle, in the axis' frame
-    double sine = 0;       // of the same angle
+    double sine = 0;       // sine of the same angle
     double height = 0;     // mm, of the crest's middle over the wall
     double thickness = 0;  // mm
     double lean = 0;       // mm along the axis from one side to the other
@@ -92,7 +92,7 @@ private:
     // Millimetres along this axis, by millimetre of the unbent one.
     std::vector<double> mBent;
     std::vector<Fold> mFolds;               // by `along`
-    std::vector<std::array<int, 2>> mNear;  // of each axis point: its folds, from and to
+    std::vector<std::array<int, 2>> mNear;  // for each axis point: its folds, from and to
     std::vector<BuiltInPolyp> mPolyps;
     FluidLevel mFluid;
 };

@@ -1,7 +1,7 @@
 // Samples the built-in anatomy into a CT: tissue, fat and the air around the body, the lumen with its tagged
 // fluid, the scanner's blur and noise. Blocks of voxels far from the lumen skip the implicit function. Edges
-// carry the profile that a blur of sigma gives to a flat wall: the lumen's share of a voxel is the normal
-// distribution of its distance to the wall.
+// have the profile of a flat wall under a Gaussian blur: the lumen's share of a voxel is the cumulative
+// normal distribution of the voxel's distance to the wall.
 #include "colon/built_in/built_in_colon.h"
 
 #include <fmt/format.h>
@@ -17,14 +17,14 @@
 namespace stereonav {
 namespace {
 
-constexpr glm::dvec3 kExtent_mm{358.4, 358.4, 328.8};  // 512 x 512 x 411 of 0.7 x 0.7 x 0.8 mm
+constexpr glm::dvec3 kExtent_mm{358.4, 358.4, 328.8};  // 512 x 512 x 411 voxels of 0.7 x 0.7 x 0.8 mm
 constexpr double kAir = -1000, kTissue = 40, kFat = -90, kFluid = 400;  // HU
-constexpr double kBlur = 0.7;                                           // mm, sigma
-constexpr double kNoise = 15;                                           // HU, sigma
-constexpr int kBlock = 8;                                               // voxels
-constexpr double kReach = 4;  // mm from the wall beyond which a voxel is all one thing
+constexpr double kBlur = 0.7;                                           // mm: sigma of the blur
+constexpr double kNoise = 15;                                           // HU: sigma of the noise
+constexpr int kBlock = 8;                                               // voxels along each side of a block
+constexpr double kReach = 4;  // mm: voxels further from the wall hold one material alone
 
-// The normal distribution in steps of a 32nd of sigma, to 4 sigma.
+// A table of the cumulative normal distribution from -4 to 4 sigma, in steps of sigma / 32.
 struct EdgeProfile {
     static constexpr int kSteps = 256;
     float share[kSteps + 2];
@@ -40,7 +40,8 @@ struct EdgeProfile {
     }
 };
 
-// About normal, sigma 1: four bytes of a hash of the voxel's number, added (Irwin and Hall).
+// Returns noise that is about normally distributed, with sigma 1: the sum of the four bytes of a hash of the
+// voxel's number (Irwin-Hall distribution).
 float noiseAt(std::uint32_t seed, std::uint32_t voxel) {
     std::uint32_t z = voxel * 0x9E3779B1u ^ seed;
     z = (z ^ (z >> 16)) * 0x85EBCA6Bu;
@@ -76,7 +77,8 @@ public:
 private:
     glm::dvec3 placeOf(const glm::dvec3& voxel) const { return mOrigin + voxel * mSpacing; }
 
-    // A body rounded like a box: muscle and organs in a layer of fat; the same in every slice.
+    // Makes a slice of the body, which is the same at every height: a superellipse with muscle and organs
+    // inside a layer of fat.
     void makeBody() {
         const glm::ivec3 size = mGrey.frame.size;
         mBody.resize(static_cast<std::size_t>(size.x) * size.y);
@@ -85,7 +87,7 @@ private:
             for (int i = 0; i < size.x; ++i) {
                 const double x = std::abs(mOrigin.x + i * mSpacing.x) / 175,
                              shape = x * x * std::sqrt(x) + yy;
-                const double skin = (std::pow(shape, 0.4) - 1) * 140;  // about mm from the skin
+                const double skin = (std::pow(shape, 0.4) - 1) * 140;  // mm outside the skin, about
                 const double inside = mEdge.at(-skin), organs = mEdge.at(-skin - 6);
                 mBody[static_cast<std::size_t>(j) * size.x + i] = static_cast<std::int16_t>(
                     std::lround(kAir + inside * (kFat - kAir) + organs * (kTissue - kFat)));
@@ -105,13 +107,15 @@ private:
                 for (int i = first.x; i < last.x; ++i) fillVoxel({i, j, k}, candidates.data(), count);
     }
 
-    // The axis points that may be the nearest ones of a voxel in the block; none when all of it is far away.
+    // Finds the axis points that may be the nearest one to some voxel of the block. Returns how many there
+    // are, 0 where the whole block is far from the lumen.
     int findCandidates(const glm::dvec3& middle, double half, std::vector<int>& candidates) const {
         const std::vector<AxisPoint>& axis = mAnatomy.axis();
         double least = 1e30;
         for (std::size_t n = 0; n < axis.size(); n += 2)
             least = std::min(least, glm::length(middle - axis[n].place) - axis[n].radius);
-        // Every second point was asked, and the radius grows by less than a mm a mm.
+        // The margin of 3 mm is for the points in between: only every second one was tested. They lie 1 mm
+        // apart, and the radius changes by less than 1 mm from one to the next.
         if (least > half + std::max(kReach, 4 / mEdge.perMm * 32) + 3) return 0;
         int count = 0;
         for (std::size_t n = 0; n < axis.size(); ++n)

@@ -28,8 +28,8 @@ struct BuiltInColon {
 struct BuiltInColonSetting {
     std::uint64_t seed = 1;
     glm::ivec3 size{512, 512, 411};  // voxels
-    // The same colon on another day: its loops lie elsewhere by up to so many metres, and its radii are
-    // larger by this factor. Folds and polyps stay at their places of the line. 0 to 0.03, 0.7 to 1.4.
+    // The same colon on another day: its loops lie elsewhere by up to `bend`, 0 to 0.03, and its radii are
+    // multiplied by `inflation`, 0.7 to 1.4. Folds and polyps stay at their places of the line.
     double bend = 0, inflation = 1;  // metres; factor
 };
 

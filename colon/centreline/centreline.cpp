@@ -26,8 +26,8 @@ void check(const LumenField& lumen, const DistanceVolume& distance, const Centre
         throw Error("", "", "the distances are not those of the lumen", "compute them from its mask");
 }
 
-// Whether the line runs from the rectum upwards: its start is lower, or, where the ends are about level
-// (within a tenth of the line's height or an end's radius), further back.
+// Returns whether the line runs from the rectum upwards: its start is lower, or, where the ends are about
+// level (within a tenth of the line's height or an end's radius), further back.
 bool startsAtRectum(const LumenProbe& probe, const std::vector<glm::dvec3>& points) {
     const glm::dvec3 a = points.front(), b = points.back();
     double low = a.z, high = a.z;

@@ -38,7 +38,7 @@ struct CentrelineSetting {
 Centreline findCentreline(const LumenField& lumen, const DistanceVolume& distance,
                           const CentrelineSetting& setting, Progress& progress);
 
-// Whether writeCentreline() knows the extension.
+// Returns whether writeCentreline() knows the extension.
 bool isCentrelineFileName(const std::filesystem::path& file);
 // Writes by extension. .txt: "x y z radius segment" a line, LPS millimetres. .vtp, .vtk: poly data of one
 // polyline a segment with the point array MaximumInscribedSphereRadius, LPS millimetres, as the vascular

@@ -35,7 +35,7 @@ glm::ivec3 blockOf(const glm::dvec3& spacing, std::size_t voxels, std::size_t mo
     return block;
 }
 
-// The distance of each node: of its voxel that is farthest from the wall.
+// Returns the wall distance of each node: that of its voxel which is farthest from the wall.
 std::vector<float> nodeDistances(const VoxelGraph& graph, const DistanceVolume& distance) {
     std::vector<float> deepest(graph.nodeCount());
     constexpr std::size_t kChunk = 16384;
@@ -94,7 +94,8 @@ Corridor corridorAround(const LumenField& lumen, int segment, const VoxelGraph& 
     return corridor;
 }
 
-// The node of a coarse end's deepest voxel in the fine graph: its voxel is the same in both.
+// Returns the node's voxel that is farthest from the wall. It stands for a coarse end in the fine graph,
+// whose voxels are the same.
 glm::ivec3 deepestVoxel(const VoxelGraph& graph, Node node, const DistanceVolume& distance) {
     glm::ivec3 best(0);
     int most = -1;

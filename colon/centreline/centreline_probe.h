@@ -1,4 +1,5 @@
-// What a centreline asks of a lumen at points between voxels: whether they lie inside, how far the wall is.
+// Queries of a lumen at points between voxels, for centrelines: whether a point lies inside, how far the wall
+// is.
 #pragma once
 
 #include "colon/segmentation/segmentation.h"
@@ -12,9 +13,10 @@ class LumenProbe {
 public:
     LumenProbe(const LumenField& lumen, const DistanceVolume& distance, int segment);
 
-    // Whether the nearest voxel is the segment's, and the trilinear value is on the lumen's side of the wall.
+    // Returns whether the nearest voxel is the segment's, and the trilinear value is on the lumen's side of
+    // the wall.
     bool inside(const glm::dvec3& world) const;
-    // Whether all of a straight line is inside, looked at every quarter of the smallest spacing.
+    // Returns whether all of a straight line is inside, looked at every quarter of the smallest spacing.
     bool lineInside(const glm::dvec3& a, const glm::dvec3& b) const;
     // Returns the distance to the nearest outside voxel's centre, metres, linear between voxels; 0 beyond the
     // volume.
@@ -28,7 +30,7 @@ public:
     double smallestSpacing() const { return mSmallest; }  // metres
 
 private:
-    struct Cell {  // of a point: lowest corner, share of the way to the highest
+    struct Cell {  // a point's cell: lowest corner, share of the way to the highest
         glm::ivec3 corner;
         glm::dvec3 share;  // 0 to 1, along each axis
     };

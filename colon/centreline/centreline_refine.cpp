@@ -24,7 +24,7 @@ constexpr double kKeptRadius = 0.7;  // smoothing may take this share of the rad
 // share, stand out from the others.
 constexpr int kPolishing = 3;
 constexpr double kPolish = 0.3, kPolishKept = 0.5;
-constexpr double kMostCut = 0.125;  // of the length, from each end, twice
+constexpr double kMostCut = 0.125;  // share of the length that is cut from each end, twice
 constexpr double kMostWorkPoints = 100000;
 constexpr int kChunk = 64;  // points of a parallel task
 
@@ -222,7 +222,7 @@ Points resampleEvenly(const LumenProbe& probe, const Points& points, double spac
 }
 
 Points refineCentreline(const LumenProbe& probe, const Points& rough, const std::function<void()>& poll) {
-    Points points = withoutEnds(probe, rough);  // and again once the line is smooth
+    Points points = withoutEnds(probe, rough);  // cut again once the line is smooth
     const double length = polylineLength(points);
     if (points.size() < 3 || !(length > 0)) return points;
     const double spacing = std::max(probe.smallestSpacing(), length / kMostWorkPoints);

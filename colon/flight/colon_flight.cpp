@@ -40,10 +40,10 @@ constexpr double kEndDamping = 0.5;       // seconds: slows down before the line
 constexpr double kPushSpeed = 0.1;        // k above, as a share of the speed
 constexpr double kFarthestPull = 0.01;    // metres: the pull aims so far ahead at most
 constexpr double kNearestLook = 0.008, kFarthestLook = 0.03;  // metres ahead that the view aims at
-constexpr double kLookRadii = 1.5;                            // the same in free distances of the line
-constexpr int kMostPulls = 8;                                 // pieces of a substep along the line
-constexpr double kAtEnd = 1e-6;                               // metres along the line
-constexpr double kTurnPiece = 0.25;  // of the clearance that an eye moves between two looks while turning
+constexpr double kLookRadii = 1.5;   // free distances of the line ahead that the view aims at
+constexpr int kMostPulls = 8;        // pieces of a substep along the line
+constexpr double kAtEnd = 1e-6;      // metres along the line
+constexpr double kTurnPiece = 0.25;  // share of the clearance: an eye's way between two looks while turning
 constexpr int kMostTurnPieces = 64;
 constexpr double kFarthestPlace = 0.5;  // metres within which setPose looks for room
 
@@ -122,7 +122,7 @@ glm::dvec3 ColonFlight::State::besideWall(const glm::dvec3& by, double range, bo
     if (glm::dot(wall, wall) == 0 || r0 + inward >= range) return by;
     const double k = kPushSpeed * setting.speed * h, b = std::max(r0, 0.0) + inward - k;
     const double r1 = (b + std::sqrt(b * b + 4 * k * range)) / 2;
-    const double change = r1 - std::max(r0, 0.0);                 // of the room, by the wall's equation
+    const double change = r1 - std::max(r0, 0.0);  // change of the room, by the wall's equation
     const double slid = std::min(change, std::max(inward, 0.0));  // without being pushed
     const double push = pushes ? std::max(change - slid, 0.0) : 0.0;
     const glm::dvec3 move = by + wall * (slid - inward);

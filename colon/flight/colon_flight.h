@@ -66,7 +66,8 @@ public:
     // Returns the clearance of the nearer eye, at the largest separation, metres; at most kFarthestClearance.
     double clearanceNow() const override;
     static constexpr double kFarthestClearance = 0.1;  // metres
-    // Whether the way is clear for the head as it is turned, with the eyes at their largest separation.
+    // Returns whether the way is clear for the head as it is turned, with the eyes at their largest
+    // separation.
     bool wayIsClear(const glm::dvec3& from, const glm::dvec3& to) const override;
     void moveTo(const Pose& pose) override;
     std::optional<double> along() const override;  // while guided
@@ -92,9 +93,10 @@ RecordedPath centrelineFlight(const FreeDistance& freeDistance, const Centreline
                               const ColonFlightSetting& setting, bool backwards = false);
 constexpr double kFlightCut = 0.0005;  // seconds
 
-// The least distance to the wall over the whole of a flight, of the head and of the nearer of two eyes so far
-// apart, metres: never above the truth, and below the least free distance by no more than 0.01 mm; at most
-// ColonFlight::kFarthestClearance. What lies in centrelineFlight's cuts, which no frame shows, is left out.
+// The least distance to the wall over the whole of a flight, of the head and of the nearer of two eyes
+// `separation` apart, metres: never above the truth, and below the least free distance by no more than 0.01
+// mm; at most ColonFlight::kFarthestClearance. What lies in centrelineFlight's cuts, which no frame shows, is
+// left out.
 struct FlightClearance {
     double head = 0, eyes = 0;  // metres
 };

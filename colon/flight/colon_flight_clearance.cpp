@@ -1,6 +1,6 @@
-// What a flight really keeps from the wall. The distance to it changes by at most a metre a metre of way, so
-// two looks bound it on all of the way between them; where the bound does not tell enough there is another
-// look half way.
+// The clearance that a flight really keeps from the wall. The distance to it changes by at most a metre a
+// metre of way, so two looks bound it on all of the way between them; where the bound does not tell enough
+// there is another look half way.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -15,8 +15,8 @@ namespace {
 constexpr double kFirstLook = 0.002,
                  kFartherLook = 4;    // metres; and how much further where no wall is so near
 constexpr double kTightness = 1e-5;   // metres, or
-constexpr double kTightShare = 5e-6;  // of the flight's length, which bounds how many looks are taken
-constexpr int kMostHalvings = 20;     // of the way between two samples
+constexpr double kTightShare = 5e-6;  // share of the flight's length, which bounds how many looks are taken
+constexpr int kMostHalvings = 20;     // halvings of the way between two samples
 
 double freeAt(const FreeDistance& free, const glm::dvec3& point, double upTo) {
     const double distance = free(point, upTo);

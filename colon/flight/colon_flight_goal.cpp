@@ -1,5 +1,5 @@
-// What flights to a goal ask of a colon flight: straight moves beside the wall, the place on the line, and
-// turning round on it.
+// Functions of ColonFlight that flights to a goal need: straight moves beside the wall, the place on the
+// line, and turning round on it.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -47,7 +47,7 @@ void ColonFlight::moveTo(const Pose& pose) {
     state.turnTo({glm::normalize(pose.orientation), 0, 0, 0});
     const glm::dvec3 before = state.position;
     state.position = state.room.moved(before, state.view.right(), pose.position - before);
-    // Who is guided sees the line: not further than that.
+    // In guided flight the line must be seen: the viewer moves no further than that.
     if (!state.guided || state.findOnLine()) return;
     state.position = before;
     state.findOnLine();

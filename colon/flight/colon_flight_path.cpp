@@ -17,7 +17,7 @@ namespace stereonav {
 namespace {
 
 constexpr double kSpacing = 0.001;      // metres between samples
-constexpr double kMostSamples = 1e6;    // of a run; longer ones get wider apart
+constexpr double kMostSamples = 1e6;    // samples of a run; in longer ones they lie wider apart
 constexpr double kPathLookRadii = 1.5;  // the view aims so many free distances ahead
 constexpr double kPathNearestLook = 0.008, kPathFarthestLook = 0.03;  // metres
 constexpr double kPathSmoothing = 0.02;                               // metres along the line

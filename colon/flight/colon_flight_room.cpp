@@ -10,12 +10,12 @@
 namespace stereonav {
 namespace {
 
-constexpr int kMostPieces = 12;       // of one move; what is left then is not moved
-constexpr int kMostLooks = 64;        // along a straight way
-constexpr double kProbe = 0.25;       // of the clearance: how far around the wall's direction is looked for
+constexpr int kMostPieces = 12;  // pieces of one move; what is left then is not moved
+constexpr int kMostLooks = 64;   // along a straight way
+constexpr double kProbe = 0.25;  // share of the clearance: how far around the wall's direction is looked for
 constexpr double kLeastProbe = 1e-4;  // metres, above the steps of a distance kept in voxels
 constexpr double kClearSlope = 0.25;  // a gradient below it points nowhere: the head is between walls
-constexpr double kOffWall = 1.5;      // of what a piece came too near to the wall by
+constexpr double kOffWall = 1.5;      // times the way by which a piece came too near to the wall
 constexpr double kFarther = 2.0;      // clearances: looked further than asked, to know more for later
 constexpr double kNothing = 1e-12;    // metres
 constexpr std::int64_t kCellSpan = 1 << 20;

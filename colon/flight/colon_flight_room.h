@@ -46,7 +46,7 @@ public:
     // place has room; so does every point on the way, to within kCrawl of the clearance. `head` must have
     // room.
     glm::dvec3 moved(const glm::dvec3& head, const glm::dvec3& right, const glm::dvec3& by) const;
-    // Whether a head finds room everywhere on the straight way.
+    // Returns whether a head finds room everywhere on the straight way.
     bool wayIsFree(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& right) const;
 
     // Returns the distance of the nearer eye (or the head) to the wall, metres, at most upTo; and that of a

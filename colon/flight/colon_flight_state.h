@@ -1,5 +1,5 @@
-// What a ColonFlight is between two steps, shared by its sources: its motion (colon_flight.cpp) and flights
-// to a goal (colon_flight_goal.cpp).
+// The state of a ColonFlight between two steps. Its functions are in two sources: motion (colon_flight.cpp)
+// and flights to a goal (colon_flight_goal.cpp).
 #pragma once
 
 #include <utility>
@@ -11,7 +11,7 @@
 
 namespace stereonav {
 
-// Throws Error unless finite, with a unit quaternion.
+// Throws Error unless the pose is finite and its quaternion has a length of about 1.
 void checkFlightPose(const Pose& pose);
 
 struct ColonFlight::State {
@@ -26,11 +26,13 @@ struct ColonFlight::State {
     const FlightRun& stretch() const { return line.runs()[run]; }
     double freeAround(const glm::dvec3& p) const { return room.room(p, view.right(), 1); }
 
-    // h: seconds, 0.01 at most; lengths: metres.
+    // Moves and turns for one time step. In all functions h is its length in seconds, 0.01 at most; lengths
+    // are in metres.
     void substep(const FlightInput& wish, double h);
     void turn(const FlightInput& wish, double h);
     void turnTo(const FlightView& wanted);
-    // Returns false where the eyes have no room, even aside.
+    // Turns to `next`. Where an eye comes too near to the wall the head gives way; returns false, with
+    // nothing changed, where it has no room to.
     bool turnPiece(const FlightView& next);
     void moveFree(const FlightInput& wish, double h);
     void moveGuided(const FlightInput& wish, double h);
@@ -38,20 +40,22 @@ struct ColonFlight::State {
     void followLine(const glm::dvec3& moved, double length);
     void jumpBetweenRuns(double forward);
     void startRun(std::size_t next, double s);
-    // range: where the wall pushes.
+    // Returns what the wall leaves of the move `by`. range: metres of room below which the wall slows the
+    // move and, if `pushes`, moves the viewer off.
     glm::dvec3 besideWall(const glm::dvec3& by, double range, bool pushes, double h);
     glm::dvec3 pushed(const glm::dvec3& wall, double length) const;
-    // The range in guided flight.
+    // Returns the range of besideWall() in guided flight.
     double pushRange() const;
-    // Whether there is room all the way to the line at s.
+    // Returns whether the eyes have room all the way to the line's point at s.
     bool sees(double s) const;
-    // Sets run and s; false where no place of the line is seen.
+    // Sets run and s to the nearest place of the line that is seen. Returns false where none is seen, and
+    // sets the nearest unseen one.
     bool findOnLine();
-    // Moves to where there is room near a place; false where there is none.
+    // Moves to a place with room near the wanted one. Returns false where there is none.
     bool findPlace(const glm::dvec3& wanted);
     bool findPlaceTowardsLine(const glm::dvec3& wanted);
     void rest();
-    double towards() const { return back ? -1.0 : 1.0; }  // along the line, of `forward`
+    double towards() const { return back ? -1.0 : 1.0; }  // along the line: the direction of `forward`
     void turnRound();
     void stepRound(double h);
 
@@ -62,13 +66,13 @@ struct ColonFlight::State {
     bool guided;
     FlightView view;
     glm::dvec3 position{0.0};                         // world, metres
-    glm::dvec3 velocity{0.0};                         // metres a second: in free flight, or sideways
-    double along = 0;                                 // metres a second along the line, guided
+    glm::dvec3 velocity{0.0};                         // metres a second; in guided flight the sideways part
+    double along = 0;                                 // metres a second along the line, in guided flight
     double yawRate = 0, pitchRate = 0, rollRate = 0;  // radians a second
-    std::size_t run = 0;                              // guided: the stretch of the line
-    double s = 0;                                     // and the place on it that the viewer is at, metres
-    bool back = false;                                // `forward` goes to the line's start
-    double roundAngle = 0, roundTime = 0;             // radians to turn in all, and seconds since then
+    std::size_t run = 0;                   // in guided flight: number of the run that the viewer is on
+    double s = 0;                          // in guided flight: the viewer's place, metres along the line
+    bool back = false;                     // whether a positive `forward` goes towards the line's start
+    double roundAngle = 0, roundTime = 0;  // turning round: radians in all, and seconds since its start
 };
 
 }  // namespace stereonav

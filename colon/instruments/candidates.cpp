@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* kLookingForTips = "looking for candidates";
 
-// The vertex that bulges most, of each cluster of vertices that may be tips.
+// Returns, for each cluster of vertices that may be tips, the one that bulges most.
 std::vector<std::uint32_t> tipsOf(const WallNeighbours& neighbours, const std::vector<Curvatures>& curvatures,
                                   const CandidateSetting& setting) {
     std::vector<std::uint8_t> open(curvatures.size());
@@ -50,7 +50,7 @@ std::vector<Candidate> polypCandidates(const WallMesh& mesh, const WallNeighbour
     std::size_t done = 0;
     for (const std::uint32_t tip : tips) {
         told.report(static_cast<double>(done++) / static_cast<double>(tips.size()), kLookingForTips);
-        if (taken[tip]) continue;  // of a head that was found by another tip of it
+        if (taken[tip]) continue;  // it is on a head that was found from another tip
         std::string why;
         auto polyp = polypAt(mesh, neighbours, tip, setting.polyp, why);
         if (!polyp || taken[polyp->tip]) continue;

@@ -14,8 +14,8 @@
 namespace stereonav {
 namespace {
 
-constexpr std::uint32_t kChunk = 256;     // vertices
-constexpr double kLift = 0.5;             // of the smallest spacing: how far off the wall lines of sight end
+constexpr std::uint32_t kChunk = 256;  // vertices
+constexpr double kLift = 0.5;  // share of the smallest spacing: how far off the wall lines of sight end
 constexpr std::size_t kPiecesEach = 8;    // for each of several processes, where there are so many chunks
 constexpr std::size_t kMostInPiece = 64;  // chunks
 constexpr const char* kLooking = "looking at the wall";
@@ -77,7 +77,7 @@ EyeView Coverage::viewFrom(const Pose& pose) const {
     return view;
 }
 
-// Whether anything of the chunk is near enough and not behind the eye.
+// Returns whether anything of the chunk is near enough and not behind the eye.
 bool Coverage::reaches(const Chunk& chunk, const EyeView& view) const {
     const glm::dvec3 to = glm::dvec3(chunk.middle) - view.eye;
     const double r = chunk.radius + mSight.smallestSpacing();
@@ -188,7 +188,8 @@ double Coverage::percent() const {
     return all > 0 ? 100 * seen / all : 0;
 }
 
-// The unseen of these (ascending), parted into what hangs together; of the set size, largest first.
+// Returns the connected patches of unseen vertices among `vertices` (ascending) that have the smallest size
+// or more, largest first.
 std::vector<UnseenPatch> Coverage::patchesAmong(const std::vector<std::uint32_t>& vertices) const {
     std::vector<std::uint8_t> open(mSeen.size(), 0);
     for (const std::uint32_t v : vertices) open[v] = !mSeen[v];

@@ -35,7 +35,7 @@ struct CoverageSetting {
 struct UnseenPatch {
     double area = 0;                      // square metres
     glm::dvec3 place{0.0};                // world, metres: on it, next to its middle
-    std::vector<std::uint32_t> vertices;  // of the mesh, ascending
+    std::vector<std::uint32_t> vertices;  // numbers of the mesh's vertices, ascending
     std::optional<Pose> view;             // shows it; none where there is no room for an eye
 };
 
@@ -76,7 +76,7 @@ public:
               Progress& progress);
 
 private:
-    struct Chunk {  // of vertices that are near each other, and the ball around them
+    struct Chunk {  // vertices that are near each other, and the ball around them
         std::uint32_t from, to;
         glm::vec3 middle;  // world, metres
         float radius;      // metres

@@ -69,7 +69,7 @@ bool isSamePlace(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::distance(a, b) <= kSamePlace;
 }
 
-// The second one's tip is of the first one's head.
+// Returns whether the second finding's tip lies on the first one's head.
 bool ofOnePolyp(const Finding& first, const Finding& second) {
     return first.polyp && second.polyp &&
            std::binary_search(first.polyp->vertices.begin(), first.polyp->vertices.end(), second.polyp->tip);

@@ -26,14 +26,14 @@ struct Finding {
     std::optional<MeasuredPolyp> polyp;
     std::string problem;                // why there is none, or a note on it; ""
     double along = 0;                   // metres from the rectum
-    std::string segment;                // of the colon, by landmarks; "": not told
-    std::optional<PolypValues> values;  // of the CT inside it; none: not told
+    std::string segment;                // segment of the colon, by landmarks; "": not told
+    std::optional<PolypValues> values;  // the CT's values inside the polyp; none: not told
 
     bool candidate = false;  // found by the program alone: nobody has looked at it and kept it
 
     double diameter() const { return polyp ? polyp->widest.length : 0; }  // metres
     bool doubled = false;  // shows the same polyp as one before it in its list
-    // Whether the diameter is that of the truth, within 1 mm or a tenth. True without a truth.
+    // Returns whether the diameter is that of the truth, within 1 mm or a tenth. True without a truth.
     bool right() const;
 };
 
@@ -59,7 +59,7 @@ private:
     const ColonScene& mColon;
     std::shared_ptr<const JoinedWall> mWall;
     const GreyVolume* mStudy = nullptr;  // null: it has no values
-    std::optional<double> mBlur;         // of mStudy across the wall, metres
+    std::optional<double> mBlur;         // blur of mStudy across the wall, metres
 };
 
 // Adds a finding to a list in which the same place is one entry: a place that is there already (within
@@ -67,7 +67,7 @@ private:
 // candidate any more, and has their comment.
 void addFinding(std::vector<Finding>& findings, Finding finding);
 constexpr double kSamePlace = 0.0005;  // metres
-// Whether the list has that place already: then it needs no measuring to be added.
+// Returns whether the list has that place already: then it needs no measuring to be added.
 bool listsPlace(const std::vector<Finding>& findings, const glm::dvec3& place);
 
 // Notes on findings that show one polyp: each but the first says so. Nothing is left out.

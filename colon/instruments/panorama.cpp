@@ -60,7 +60,8 @@ Panorama::Panorama(const GreyVolume& field, const Centreline& line, const LineOf
     progress.report(1, "drawing the panorama");
 }
 
-// Returns a place so far before what the eye looks at that a wall of the mean radius lies in its column.
+// Returns the eye's place, metres along the line: before what it looks at by the distance at which a wall of
+// the mean radius lies in its column.
 double Panorama::eyeAt(End from, int x) const {
     return x * mPixel - signOf(from) * mRadius;
 }

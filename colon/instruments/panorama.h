@@ -52,7 +52,8 @@ public:
     int rows() const { return 2 * mHeight + kGap; }  // pixels, of picture()
     double pixel() const { return mPixel; }          // metres along the line
 
-    // Whether the ring of some eye passes through a place (in the lumen; world, metres) with nothing between.
+    // Returns whether the ring of some eye passes through a place (in the lumen; world, metres) with nothing
+    // between.
     bool shows(End from, const glm::dvec3& place) const { return eyeThatSees(from, place).has_value(); }
     // Returns where a place (world, metres) shows in picture(), in continuous pixels: in the strip from the
     // rectum's end, and in that from the caecum's; none where it does not show. Of several eyes that see it

@@ -16,8 +16,8 @@
 namespace stereonav {
 namespace {
 
-constexpr double kNeck = 0.7;        // of a head's width: an outline that is narrower is a neck
-constexpr double kLeastShare = 0.1;  // of the tip's bulge: less is no part of the head
+constexpr double kNeck = 0.7;        // share of a head's width: an outline that is narrower is a neck
+constexpr double kLeastShare = 0.1;  // share of the tip's bulge: less is no part of the head
 
 // Part of the wall around a tip, with its smaller curvature, smoothed.
 class Neighbourhood {

@@ -43,13 +43,13 @@ struct PolypWidth {
 // A polyp's parts and measures.
 struct MeasuredPolyp {
     std::uint32_t tip = 0;                // vertex, the most curved
-    std::vector<std::uint32_t> vertices;  // of its head, ascending
+    std::vector<std::uint32_t> vertices;  // vertices of its head, ascending
     std::vector<glm::dvec3> outline;      // world, metres: the vertices next to its head
     glm::dvec3 middle{0.0};               // world, metres, of its vertices
     glm::dvec3 outward{0.0};              // unit: the mean normal, into the lumen
     PolypWidth widest;                    // in space
     PolypWidth widestInSlice;             // in a plane of voxels
-    int sliceAxis = 2;                    // of the plane: 0 sagittal, 1 coronal, 2 axial
+    int sliceAxis = 2;                    // axis across the plane: 0 sagittal, 1 coronal, 2 axial
     double slice = 0;                     // metres, where on that axis
     double area = 0, volume = 0;          // square and cubic metres; the volume above a lid on its outline
     // Returns three times the volume over the area, metres: the radius of a ball, about one and a half times

@@ -17,7 +17,7 @@ namespace {
 constexpr double kAir = -800, kTissue = -200;  // HU: below, above
 constexpr std::size_t kProfiles = 4000;        // at most
 constexpr std::size_t kLeastProfiles = 100;
-constexpr int kSteps = 40;  // of a profile, to each side of the wall
+constexpr int kSteps = 40;  // steps of a profile, to each side of the wall
 
 double storedAt(const GreyVolume& study, const glm::ivec3& voxel) {
     return study.at(voxel) * study.scale + study.offset;
@@ -64,7 +64,7 @@ bool profileAt(const GreyVolume& study, const WallMesh& wall, std::size_t vertex
     return true;
 }
 
-// What is near a polyp of the wall, and whether it is the polyp's.
+// Vertices of the wall near a polyp, and for each whether it is the polyp's own.
 struct NearWall {
     std::vector<glm::dvec3> places, normals;
     std::vector<char> ofHead;
@@ -84,7 +84,7 @@ NearWall wallAround(const WallMesh& wall, const MeasuredPolyp& polyp, const glm:
     return near;
 }
 
-// Whether a place is inside the flesh of the polyp, and so far from all wall.
+// Returns whether a place is inside the flesh of the polyp and at least `away` from all wall.
 bool isDeepInside(const NearWall& near, const glm::dvec3& place, double away) {
     double least = std::numeric_limits<double>::infinity();
     std::size_t nearest = 0;

@@ -1,5 +1,5 @@
-// What a CT says of the inside of a polyp: only voxels that the air beyond its wall does not reach through
-// the scanner's blur.
+// CT values inside a polyp: only voxels that the air beyond its wall does not reach through the scanner's
+// blur.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace stereonav {
 // Returns the standard deviation of the blur across the wall, metres: a flat edge under a normal blur has its
 // steepest slope at 1 / (sqrt(2 pi) sigma) of its step. Read from the median of many profiles along the
 // wall's normals, each from air to tissue. It has the interpolation between voxels in it, so it is rather too
-// large. Nothing where too few places have air on one side and tissue on the other.
+// large. Returns nothing where too few places have air on one side and tissue on the other.
 std::optional<double> blurAcrossWall(const GreyVolume& study, const WallMesh& wall);
 
 // Standard deviations of the blur away from the wall at which a voxel is free of air: 0.02 % of the step is
@@ -28,8 +28,8 @@ struct PolypValues {
 };
 
 // Returns values of the voxels between a polyp's wall and the lid on its outline that are nearer to its wall
-// than to other wall, and at least kBlurReaches * blur away from any. blur: metres. Nothing where these are
-// less than kLeastVoxels.
+// than to other wall, and at least kBlurReaches * blur away from any. blur: metres. Returns nothing where
+// these are less than kLeastVoxels.
 std::optional<PolypValues> valuesInside(const GreyVolume& study, const WallMesh& wall,
                                         const MeasuredPolyp& polyp, double blur);
 

@@ -12,10 +12,10 @@
 namespace stereonav {
 namespace {
 
-// What is compared at one place of a line.
+// Features of one place of a line, by which two lines are compared.
 struct Feature {
     double along;                 // metres
-    double share;                 // of the whole length
+    double share;                 // share of the whole length
     double radius;                // logarithm, less the line's mean
     glm::dvec3 place, direction;  // smoothed; unit
     double turn;                  // curvature times kTurn

@@ -36,7 +36,7 @@ public:
     double toFirst(double along) const { return mapped(mPairs, along, true); }
     // Returns the mean cost of a matched pair, 0 or more: lower is more alike; 0 of a line with itself.
     double cost() const { return mCost; }
-    // Whether both lines may lead through one colon.
+    // Returns whether both lines may lead through one colon.
     bool matches() const { return mCost <= kMostCostOfOneColon; }
 
 private:
@@ -46,7 +46,7 @@ private:
     static double mapped(const std::vector<Pair>& pairs, double along, bool back);
 
     std::vector<Pair> mPairs;
-    double mCost = 0;  // of a pair, the mean
+    double mCost = 0;  // mean cost of a pair
 };
 
 // Returns a place of a line, world, by metres from its start; its ends beyond them. The line has one point or

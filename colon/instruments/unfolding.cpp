@@ -18,13 +18,13 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kTurns = 360;                 // angles that shares of area are kept for
 constexpr double kSmoothTurn = 6;           // angles, sigma
-constexpr double kOffWall = 0.5;            // of the smallest spacing
-constexpr int kVertices = 1024;             // of one task
+constexpr double kOffWall = 0.5;            // share of the smallest spacing
+constexpr int kVertices = 1024;             // vertices of one task
 constexpr int kStride = 2;                  // frames that are tried
 constexpr int kNearest = 60, kEvery = 3;    // places of the line next to a vertex; which are tried
 constexpr double kColumnStep = 0.00025;     // metres along the line
 constexpr double kEnds = 0.02;              // metres of the line whose height does not count
-constexpr double kTallShare = 0.98;         // of the line that keeps its length
+constexpr double kTallShare = 0.98;         // share of the line that keeps its length
 constexpr double kLongestTriangle = 0.012;  // metres along the line; longer ones join two loops
 constexpr int kMostPixels = 32768;
 constexpr const char* kUnfolding = "unfolding the wall";

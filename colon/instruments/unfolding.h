@@ -52,7 +52,7 @@ public:
     std::optional<glm::dvec3> placeAt(int x, int y) const;
     // Returns where a vertex lies in the picture, pixels, also where another one hides it.
     glm::dvec2 pixelOf(std::uint32_t vertex) const;
-    // Whether the picture shows wall further off than `within` metres at that place.
+    // Returns whether the picture shows wall further off than `within` metres at that place.
     bool hidden(std::uint32_t vertex, double within) const;
     // Returns the share of the wall's area that is hidden so, 0 to 1.
     double hiddenShare(double within) const;

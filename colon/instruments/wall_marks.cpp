@@ -33,7 +33,7 @@ WallMarks::WallMarks(const WallMesh& mesh, const VolumeFrame& frame, const std::
             number = static_cast<std::uint32_t>(mBricks.size());
         }
         const glm::ivec3 in = cell % kBrickSide;
-        const float mark = std::clamp(byVertex[v], 0.0f, 1.0f);  // of NaN: unspecified, so no NaN may come
+        const float mark = std::clamp(byVertex[v], 0.0f, 1.0f);  // unspecified for NaN: none may come
         mBricks[number - 1][(in.z * kBrickSide + in.y) * kBrickSide + in.x] =
             static_cast<std::uint8_t>(1.5f + kMarkSteps * mark);
     }

@@ -1,4 +1,4 @@
-// What was found in a study, kept in the cache folder: opening it again takes a fraction of a second.
+// Results of a study, kept in the cache folder: opening it again takes a fraction of a second.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ namespace stereonav {
 struct FoundColon {
     std::string format;
     bool ofMask = false;     // the study was a mask
-    VolumeFrame studyFrame;  // of the whole study; the lumen's is a part of it
+    VolumeFrame studyFrame;  // frame of the whole study; the lumen's is a part of it
     LumenField lumen;
-    ValueSpan values;  // of the lumen's field as it was found, HU
+    ValueSpan values;  // span of the lumen's field as it was found, HU
     Centreline centreline;
     std::vector<Polyp> polyps;
     std::vector<std::string> notes;

@@ -45,7 +45,7 @@ LumenField lumenOfGrey(Study& study, const ColonOptions& options, std::vector<st
                        Progress& progress) {
     const bool keeps = options.cache && !options.study.empty();
     const std::uint64_t key = savedLumenKey(study.key, options.segmentation);
-    const double found = keeps ? 0.2 : 0;  // of the progress: none is looked for where none is kept
+    const double found = keeps ? 0.2 : 0;  // share of the progress: none is looked for where none is kept
     if (keeps) {
         Progress reading(progress, 0, found);
         SavedLumen saved = readSavedLumen(options.study, study.grey, options.segmentation, key, reading);

@@ -27,9 +27,9 @@ struct ColonOptions {
     SegmentationSetting segmentation;
     CentrelineSetting centreline;
     bool isosurface = false;         // show any volume from outside, without looking for a colon
-    std::optional<double> isovalue;  // of the surface, the volume's values; not given: chosen from them
+    std::optional<double> isovalue;  // the surface's, in the volume's values; not given: chosen from them
     std::filesystem::path transfer;  // a transfer function, by file or name: translucent
-    std::optional<double> opacity;   // of a translucent wall, a millimetre, in (0, 1]
+    std::optional<double> opacity;   // opacity of a translucent wall, a millimetre, in (0, 1]
     double clearance = 0;            // metres; 0: chosen
     std::optional<UpAxis> up;        // for a volume seen from outside; not given: z
     bool cache = true;

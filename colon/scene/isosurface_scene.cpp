@@ -26,7 +26,7 @@
 namespace stereonav {
 namespace {
 constexpr double kAirSeen = -500, kBone = 300, kSkin = -300;  // HU
-constexpr double kBoneShare = 0.002;  // of the voxels: less is a contrast agent or a calcification
+constexpr double kBoneShare = 0.002;  // share of the voxels: less is a contrast agent or a calcification
 
 double valueOf(const GreyVolume& grey, double stored) {
     return stored * grey.scale + grey.offset;
@@ -224,7 +224,7 @@ bool looksLikeHounsfield(const GreyVolume& grey) {
 
 IsovalueChoice chooseIsovalue(const GreyVolume& grey) {
     if (!looksLikeHounsfield(grey) ||
-        valueOf(grey, storedRangeOf(grey).highest) <= kSkin) {  // of air alone there is no skin
+        valueOf(grey, storedRangeOf(grey).highest) <= kSkin) {  // air alone has no skin
         const double value = valueOf(grey, otsu(histogramOf(grey)));
         return {value, "between the two kinds of values that differ most"};
     }

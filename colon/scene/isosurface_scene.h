@@ -11,30 +11,30 @@ namespace stereonav {
 
 // A value for the surface, and the reason.
 struct IsovalueChoice {
-    double isovalue = 0;  // the volume's values (HU for CT)
+    double isovalue = 0;  // in units of the volume's values (HU for CT)
     std::string why;      // one clause
 };
 
-// Whether values look like Hounsfield units: some are as low as those of air (-500 or less), while other
-// volumes begin at 0 or so.
+// Returns whether values look like Hounsfield units: some are as low as those of air (-500 or less), while
+// the values of other volumes begin near 0.
 bool looksLikeHounsfield(const GreyVolume& grey);
 
 // Chooses the isovalue. CT: bone where there is some, else skin. Other volumes: the threshold that parts
 // their values into the two classes that differ most (Otsu 1979).
 IsovalueChoice chooseIsovalue(const GreyVolume& grey);
 
-// Returns the bytes that isosurfaceScene() takes at once beside the values of so many voxels: a border, and
-// the distances by which rays leap over empty space. What rays need of the cells that hold surface comes
-// after that, and is checked when they are counted.
+// Returns the bytes of memory that isosurfaceScene() needs for a volume of `voxels` voxels beside their
+// values: for a border, and for the distances by which rays leap over empty space. What it stores for each
+// cell that holds surface is not included: that is checked once these cells are counted.
 double surfaceWorking(double voxels);
 
 // Makes the scene. Throws Error when nothing or all of the volume reaches the isovalue, and where memory does
 // not suffice; Cancelled.
 ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress);
 
-// Sets another isovalue (one of the volume's values; none: the present one), and the transfer function of the
-// options. scene: made by isosurfaceScene(), and rendered by no one meanwhile. Does nothing where the scene
-// shows just that. Throws as isosurfaceScene(), and then leaves the scene as it was.
+// Sets another isovalue (in units of the volume's values; none: keeps the present one) and the transfer
+// function of the options. scene: made by isosurfaceScene(); nobody may render it meanwhile. Does nothing
+// where both stay the same. Throws as isosurfaceScene() does, and then leaves the scene unchanged.
 void setSurface(ColonScene& scene, const std::optional<double>& isovalue, const ColonOptions& options,
                 Progress& progress);
 

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 // Counts up when the same study and settings give another lumen.
 constexpr std::int64_t kSavedVersion = 2;
 constexpr const char *kKeyField = "stereonav lumen key", *kHashField = "stereonav lumen hash",
-                     *kNoteField = "stereonav lumen note ";  // and its number
+                     *kNoteField = "stereonav lumen note ";  // a number follows
 constexpr std::size_t kLongestHeader = 64 << 10;
 constexpr const char* kReading = "reading the lumen that was kept";
 

@@ -11,7 +11,7 @@
 namespace stereonav {
 
 struct TransferPreset {
-    std::string_view name;  // of the file, without .txt
+    std::string_view name;  // name of the file, without .txt
     std::string_view text;
 };
 // Returns the presets, by name (a generated source, see cmake/embed.cmake).

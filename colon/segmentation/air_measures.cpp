@@ -118,7 +118,7 @@ bool AirMeasures::holds(int piece, const glm::ivec3& voxel) const {
     return !mStudy.frame.contains(voxel) || mAir.parts.at(mAir.runs, voxel) == piece;
 }
 
-// Whether all voxels as far as `depth` along each axis are the piece's, where the scan reaches them.
+// Returns whether all voxels as far as `depth` along each axis are the piece's, where the scan reaches them.
 bool AirMeasures::within(int piece, const glm::ivec3& voxel, int depth) const {
     for (int axis = 0; axis < 3; ++axis)
         for (const int step : {-depth, depth}) {

@@ -1,4 +1,5 @@
-// What a piece of air is judged by: its volume, its density, the tissue around it, its width, a place in it.
+// Measures by which a piece of air is judged: its volume, its density, the tissue around it, its width, a
+// place in it.
 #pragma once
 
 #include <optional>
@@ -11,21 +12,21 @@ namespace stereonav {
 
 class AirMeasures {
 public:
-    // Both live longer than this.
+    // study and air must outlive the object.
     AirMeasures(const GreyVolume& study, const Pieces& air) : mStudy(study), mAir(air) {}
 
     double volume(int piece) const;  // cubic metres
-    // Whether it reaches the scan's sides; its first slice; its last one.
+    // Return whether the piece reaches the scan's sides; its first slice; its last slice.
     bool touchesSides(int piece) const;
     bool touchesFirst(int piece) const;
     bool touchesLast(int piece) const;
 
     // Metres of tissue to the scan's sides: medians over the piece, without air and metal on the way.
     struct Tissue {
-        double right = 0, left = 0, front = 0, back = 0;  // of the patient
-        // The least of the four, metres.
+        double right = 0, left = 0, front = 0, back = 0;  // sides of the patient
+        // Returns the least of the four, metres.
         double least() const;
-        // Returns 0 where it lies at a side of the body, 0.5 in the middle.
+        // Returns 0 where the piece lies at a side of the body, 0.5 in the middle.
         double fromSide() const;
     };
     Tissue tissueAround(int piece) const;
@@ -34,7 +35,7 @@ public:
     struct Density {
         double median = 0, high = 0;  // high: a tenth of the voxels is denser
     };
-    // Nothing where the piece is too thin to have such voxels.
+    // Returns the density; nothing where the piece is too thin to have such voxels.
     std::optional<Density> density(int piece) const;
 
     // The piece taken for a tube.

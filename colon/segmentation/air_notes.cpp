@@ -1,4 +1,4 @@
-// What is said of pieces of air.
+// Notes for the user on pieces of air.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace stereonav {
 namespace {
 
-constexpr std::size_t kMostNotes = 12;          // of one kind
+constexpr std::size_t kMostNotes = 12;          // notes of one kind
 constexpr double kSmallWorthCounting = 0.5e-6;  // cubic metres
 
 std::string placeText(const glm::dvec3& world) {

@@ -69,7 +69,7 @@ Box borderOf(const std::vector<float>& signs, const Box& box) {
     return {box.first + low, glm::min(box.first + high + 1, box.end)};
 }
 
-// What one thread works on.
+// Smooths tiles of the lumen's surface one after the other, on one thread.
 class TileSmoother {
 public:
     TileSmoother(const VoxelRuns& inside, const MaskSmoothing& setting, GreyVolume& field)

@@ -53,7 +53,7 @@ LumenCrop cropOf(const GreyVolume& study, const AirPieces& air, const FluidPools
     return cropAround(first, last, kLumenMargin + kGrowth, study.frame);
 }
 
-using SliceDone = std::function<void(int k)>;  // of the study: it is not read any more
+using SliceDone = std::function<void(int k)>;  // slice k of the study is not read any more
 
 // Returns HU in the crop's frame; tissue beyond the study and on the outermost voxels, which closes the
 // lumen.
@@ -242,7 +242,8 @@ bool touchesLumen(const MaskVolume& lumen, const glm::ivec3& voxel) {
     });
 }
 
-// Walls off what else is below the wall beside the lumen. False where the lumen itself is not below it.
+// Closes off the voxels beside the lumen whose values are below the wall's. Returns false where the lumen's
+// own values are not below it.
 bool closeAround(const MaskVolume& lumen, double wall, GreyVolume& field) {
     const glm::ivec3 size = lumen.frame.size;
     std::atomic<bool> fits = true;

@@ -51,8 +51,8 @@ LumenField segmentColon(GreyVolume&& study, const SegmentationSetting& setting, 
                         std::optional<VoxelRuns> known = {});
 
 // Returns the field and the segments of a lumen (numbered from 1) that was found in this study with this
-// setting and kept: what segmentColon gives, without judging any air again. Nothing where they do not fit
-// together.
+// setting and kept: what segmentColon gives, without judging any air again. Returns nothing where they do not
+// fit together.
 std::optional<LumenField> restoreLumen(const GreyVolume& study, MaskVolume lumen,
                                        const SegmentationSetting& setting);
 

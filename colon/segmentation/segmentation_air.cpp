@@ -126,8 +126,8 @@ private:
     const GreyVolume& mStudy;
     AirPieces& mAir;
     AirMeasures mMeasures;
-    std::vector<std::optional<AirMeasures::Density>> mDensities;  // of pieces that were asked for theirs
-    double mLargest = 0, mLow = 1e9, mHigh = -1e9;                // of what may be the colon
+    std::vector<std::optional<AirMeasures::Density>> mDensities;  // by piece: those that were asked for
+    double mLargest = 0, mLow = 1e9, mHigh = -1e9;                // candidates: largest volume, range of z
 };
 
 std::string counted(std::ptrdiff_t count, const char* one, const char* many) {

@@ -10,7 +10,7 @@
 
 namespace stereonav {
 
-// What a piece of air is. Other: gas that is not the colon's, or not surely.
+// Classes of pieces of air. Other: gas that is not the colon's, or not surely.
 enum class AirKind : std::uint8_t { Outside, Lung, Small, Other, Colon };
 
 // Why a piece is of its kind, in words that follow "3.6 ml of gas around 1,2,3 mm: "; "" where its size or
@@ -23,7 +23,7 @@ struct AirReason {
 // All pieces of air, and what was made of each.
 struct AirPieces {
     Pieces pieces;
-    std::vector<AirKind> kinds;  // of each piece
+    std::vector<AirKind> kinds;  // kind of each piece
     std::vector<AirReason> reasons;
 };
 

@@ -1,8 +1,8 @@
-// A pool is told from bone by its surface: level, wide, and a film of few voxels away from air. Its values
-// are mirrored, so that the wall lies half way between fluid and tissue as it lies half way between air and
-// tissue above; across the film the values of the clean voxels above and below are interpolated, wall
-// included, which leaves no ridge where air, fluid and wall meet. (Electronic cleansing: Zalis et al. 2004;
-// Lakare et al. 2000 classify rays through the film instead.)
+// A pool of tagged fluid differs from bone by its surface: it is level, wide, and separated from air by a
+// film of a few voxels. The pool's values are mirrored, so that the wall lies half way between fluid and
+// tissue as it lies half way between air and tissue above; across the film the values of the clean voxels
+// above and below are interpolated, wall included, which leaves no ridge where air, fluid and wall meet.
+// (Electronic cleansing: Zalis et al. 2004; Lakare et al. 2000 classify rays through the film instead.)
 #include "colon/segmentation/segmentation_fluid.h"
 
 #include <algorithm>
@@ -19,11 +19,11 @@ constexpr double kFluidTissue = 40, kFluidAir = -1000;  // HU
 constexpr double kSmallestPool = 0.05e-6;               // cubic metres
 constexpr double kThickestFilm = 0.002;                 // metres: walls between bone and air are thicker
 constexpr std::size_t kFewestColumns = 12;
-constexpr double kLevelShare = 0.75;  // of the film's columns lie within two voxels of their median
+constexpr double kLevelShare = 0.75;  // share of the film's columns within two voxels of their median height
 // Share of a pool's top that lies under air: 0.11 was seen where a pool of the real anatomy fills loops up to
 // their roofs.
 constexpr double kContactShare = 0.05;
-constexpr int kFringe = 3;   // voxels around fluid that it makes brighter
+constexpr int kFringe = 3;   // voxels: thickness of the layer around fluid that the fluid brightens
 constexpr int kFilmRim = 4;  // voxels around the film where the wall is interpolated
 
 const glm::ivec3 kFluidNeighbours[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -39,10 +39,10 @@ void forVoxels(const Pieces& pieces, const Body& body) {
         }
 }
 
-// What lies above one component of bright cores.
+// The upper surface of one core (a connected component of bright voxels), and the film between it and air.
 struct Surface {
     std::vector<FilmColumn> film;
-    std::vector<int> pieces;  // of air, one a column
+    std::vector<int> pieces;  // numbers of the pieces of air, one for each column of the film
     std::size_t top = 0;
 };
 
@@ -107,7 +107,8 @@ bool touchesColon(const Surface& surface, const AirPieces& air) {
     });
 }
 
-// Cores of tagged fluid at places that were given; what is air there is none of them.
+// Returns the cores of tagged fluid at the places that an option gives. A place where nothing is bright has
+// none. Throws Error for a place that is bright but in no core.
 std::vector<std::size_t> coresAt(const FluidPools& fluid, const GreyVolume& study,
                                  const SegmentationSetting& setting, const char* option,
                                  const std::vector<glm::dvec3>& places) {
@@ -126,10 +127,10 @@ std::vector<std::size_t> coresAt(const FluidPools& fluid, const GreyVolume& stud
     return cores;
 }
 
-// What was given of pools and of the air that they touch.
+// The user's choices: cores to take, cores to leave out, and pieces of air to leave out.
 struct GivenCores {
     std::vector<std::size_t> taken, left;
-    std::vector<char> airLeft;  // of each piece of air
+    std::vector<char> airLeft;  // for each piece of air: 1 where it is left out
 };
 
 GivenCores givenCores(const FluidPools& fluid, const GreyVolume& study, const SegmentationSetting& setting,
@@ -157,7 +158,7 @@ void acceptPools(const std::vector<Surface>& surfaces, const GivenCores& given, 
     const std::vector<double> medians = mediansOf(fluid, study);
     const glm::dvec3& s = study.frame.spacing;
     std::vector<char> taken(surfaces.size(), 0);
-    for (bool again = true; again;) {  // a pool may tie further air to the colon, and that further pools
+    for (bool again = true; again;) {  // a pool may add air to the colon, and that air further pools
         again = false;
         for (std::size_t n = 0; n < surfaces.size(); ++n) {
             if (taken[n] || isIn(given.left, n)) continue;
@@ -179,8 +180,8 @@ void acceptPools(const std::vector<Surface>& surfaces, const GivenCores& given, 
     }
 }
 
-// Spreads marks by one step of faces a round: `reach` of them. enter(voxel) tells whether a voxel may be
-// marked.
+// Grows a marked region from `front` across the faces of voxels, by `reach` voxels. Returns the voxels that
+// it marked. enter(voxel) tells whether a voxel may be marked.
 template <typename Enter>
 std::vector<glm::ivec3> spread(std::vector<glm::ivec3> front, int reach, MaskVolume& marks, std::uint8_t mark,
                                const Enter& enter) {
@@ -205,7 +206,7 @@ std::int16_t mirrored(double hu, double fluid) {
     return static_cast<std::int16_t>(std::lround(kFluidTissue + share * (kFluidAir - kFluidTissue)));
 }
 
-// Values of fluid and of the voxels around it that it makes brighter.
+// Mirrors the values of a pool and of the voxels around it that its fluid brightens.
 void mirrorPool(const Pool& pool, std::vector<glm::ivec3> core, const SegmentationSetting& setting,
                 GreyVolume& field, MaskVolume& marks) {
     const double half = 0.5 * (kFluidTissue + pool.hu), hu = std::max(pool.hu, kFluidTissue + 100);
@@ -223,7 +224,8 @@ void mirrorPool(const Pool& pool, std::vector<glm::ivec3> core, const Segmentati
     }
 }
 
-// The film's columns and those around them, which take the height of the nearest.
+// Returns the film's columns and those within kFilmRim voxels of them, which take the height of the nearest
+// column of the film.
 std::vector<FilmColumn> withRim(const std::vector<FilmColumn>& film, int axis) {
     const int a = (axis + 1) % 3, b = (axis + 2) % 3;
     std::map<std::pair<int, int>, FilmColumn> columns;

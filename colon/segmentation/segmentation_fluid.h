@@ -23,8 +23,8 @@ struct Pool {
 
 struct FluidPools {
     Pieces cores;  // bright voxels with six bright neighbours: bone joined by a film falls off
-    int axis = 1;  // along which fluid lies under air,
-    int up = -1;   // and the step towards the air
+    int axis = 1;  // axis along which fluid lies under air
+    int up = -1;   // step along it towards the air, 1 or -1
     std::vector<Pool> pools;
 };
 

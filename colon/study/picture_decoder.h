@@ -28,7 +28,8 @@ struct PackedPicture {
     std::vector<std::string_view> parts;
 };
 
-// Returns the pixels that a helper answered for a picture of so many; nothing where it is no such picture.
+// Returns the pixels that a helper answered for a picture of `count` pixels; nothing where the answer is no
+// such picture.
 std::optional<DecodedPixels> pixelsOf(std::string answer, std::uint64_t count);
 
 // Unpacks the pictures of one study: its helpers see nothing else, and end with it.

@@ -22,7 +22,7 @@ struct ReportedFinding {
     double fromRectum_mm = 0;
     std::optional<double> longest_mm, inSlice_mm, volume_mm3, huMean, huSigma;  // the last two in HU
     std::optional<std::array<MmPlace, 2>> longestEnds_mm;
-    std::string segment;  // of the colon, as colonSegmentAt() names it; "": not told
+    std::string segment;  // segment of the colon, as colonSegmentAt() names it; "": not told
     std::string note;     // "": none
 };
 
@@ -32,7 +32,7 @@ struct StructuredReport {
     std::string study;                     // UID, where the source has none
     std::string series, document, device;  // UIDs: the report's own series, its own, the program's
     std::string software;                  // name and version
-    std::string date, time;                // of the report: "20261125", "134500"
+    std::string date, time;                // when the report was made: "20261125", "134500"
     std::string notice;                    // what is said above all
     int crads = 0;                         // C-RADS class by size and count alone, 1 to 4
     std::vector<ReportedFinding> findings;

@@ -124,7 +124,7 @@ bool isDicom(const fs::path& path) {
                 "give a .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd file, or a folder of DICOM slices");
 }
 
-// The same; also throws Error for a series where there are none to choose from.
+// Returns what isDicom(path) does; also throws Error for a series where there are none to choose from.
 bool isDicom(const fs::path& path, const StudyOptions& options) {
     const bool dicom = isDicom(path);
     if (!dicom && !options.series.empty())

@@ -20,7 +20,7 @@
 namespace stereonav {
 
 struct StudyOptions {
-    std::string series;     // of a DICOM folder with several: number in the list (1, 2, ...) or UID
+    std::string series;     // one of several in a DICOM folder: number in the list (1, 2, ...) or UID
     bool resample = false;  // mend uneven or tilted slices onto an even upright grid
     // The one label of a mask with several: its number, or its name where the header names it.
     std::optional<std::string> label;
@@ -28,8 +28,8 @@ struct StudyOptions {
     std::optional<std::uint64_t> key;
     // HU: values below it are looked for while other slices are read (Study::air).
     std::optional<double> airBelow;
-    // Returns the bytes that the caller will take beside the values of so many voxels: what does not fit with
-    // them is not read. Empty: none.
+    // Returns the bytes that the caller will take beside the values of `voxels` voxels: a study that does not
+    // fit into memory together with them is not read. Empty: none.
     std::function<double(double voxels)> working;
 };
 
@@ -42,7 +42,7 @@ struct Study {
     MaskVolume mask;
     // Voxels of `grey` below StudyOptions::airBelow. Nothing where values are not kept as the file has them.
     std::optional<VoxelRuns> air;
-    std::uint64_t key = 0;           // of the content and the options: equal studies have equal keys
+    std::uint64_t key = 0;           // hash of the content and the options: equal studies have equal keys
     std::vector<std::string> notes;  // what was mended or assumed, one line each
 };
 
@@ -55,7 +55,7 @@ struct SeriesInfo {
 struct SeriesLook {
     SeriesInfo info;
     std::string modality;        // "CT"
-    int columns = 0, rows = 0;   // of that slice
+    int columns = 0, rows = 0;   // pixels of that slice
     Plane<PackedColor> picture;  // the middle slice in grey, pixels square; empty where there is a problem
     std::string problem;         // why it has no picture, one line; "" else
 };
@@ -63,14 +63,14 @@ struct SeriesLook {
 // and the like. Throws Error where the folder holds none.
 std::vector<SeriesLook> lookAtSeries(const std::filesystem::path& folder);
 
-// What headers alone say; no sample is read.
+// Facts of a study from headers alone; no sample is read.
 struct StudyGlance {
     std::string format, description;  // Study's; without notes
-    std::string type;                 // of a sample: "int16"; "" where it is not known
+    std::string type;                 // type of a sample: "int16"; "" where it is not known
     std::vector<std::uint64_t> size;  // voxels along three axes; of a folder columns and rows alone
     std::vector<double> spacing_mm;   // along these axes; empty where the header does not say
     std::size_t files = 0;            // in a folder
-    std::size_t series = 0;           // of a folder, among the files that were looked at: at least so many
+    std::size_t series = 0;  // series of a folder, among the files that were looked at: at least so many
 };
 // Reads headers; of a folder those of some files, spread over all. Throws Error, Cancelled.
 StudyGlance glanceAtStudy(const std::filesystem::path& path, Progress& progress);

@@ -20,7 +20,7 @@ namespace stereonav {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int kLeastHu = -1024;  // of CT; lower numbers only mark what was not scanned
+constexpr int kLeastHu = -1024;  // lowest value of CT; lower numbers only mark what was not scanned
 
 struct PixelCounts {
     std::atomic<std::size_t> padding = 0;
@@ -124,7 +124,7 @@ std::string joined(std::initializer_list<std::string> parts) {
     return text;
 }
 
-// What the places of a folder hold, before it is sorted into series.
+// Slices and other files found in a folder, before they are sorted into series.
 struct Scanned {
     std::vector<DicomSlice> slices;
     std::vector<std::string> strangers;  // names of files that are not DICOM

@@ -24,11 +24,11 @@ constexpr std::uint32_t kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd 
 constexpr std::uint32_t kPixels = 0x7fe00010;
 constexpr int kDeepest = 32;                     // sequences within sequences
 constexpr std::uint64_t kLongestKept = 1 << 17;  // bytes of a value: a table of 65536
-constexpr std::size_t kMostItems = 1'000'000;    // of sequences that a study is read from
+constexpr std::size_t kMostItems = 1'000'000;    // items of sequences that a study is read from
 constexpr std::size_t kTellEach = 64 << 20;      // bytes that are unpacked between two looks for a stop
 // Bytes of a data set of the deflated syntax.
 constexpr std::uint64_t kFirstDeflated = 1 << 20, kMostDeflatedHead = 64 << 20, kMostDeflated = 1 << 30;
-constexpr double kMostSpare = 1 << 20;  // of its pixels that no row or frame has
+constexpr double kMostSpare = 1 << 20;  // bytes of its pixels that no row or frame has
 constexpr const char *kImplicit = "1.2.840.10008.1.2", *kDeflated = "1.2.840.10008.1.2.1.99",
                      *kBigEndian = "1.2.840.10008.1.2.2", *kDirectory = "1.2.840.10008.1.3.10";
 
@@ -83,7 +83,7 @@ public:
     Inflater(const Inflater&) = delete;
     Inflater& operator=(const Inflater&) = delete;
 
-    // Adds to what it gave before until there are so many bytes, or it gives no more.
+    // Adds to what it gave before until there are `bytes` bytes, or it gives no more.
     void fill(std::vector<unsigned char>& to, std::uint64_t bytes) {
         std::uint64_t at = to.size();
         to.resize(bytes);
@@ -361,7 +361,7 @@ std::optional<std::uint64_t> DicomFile::wantedOf() {
     mPixels = {};
     try {
         Walk(*this).all();
-    } catch (const Fault&) {  // as it has to be, in the middle of the set
+    } catch (const Fault&) {  // expected: what is unpacked so far ends in the middle of the set
     }
     if (!mPixels.found && mSize < kMostDeflatedHead) return 2 * mSize;
     if (!mPixels.found)

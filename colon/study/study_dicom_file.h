@@ -18,7 +18,7 @@ namespace stereonav {
 struct DicomItem;
 struct DicomValue {
     std::string bytes;             // the bytes as they stand in the file
-    std::vector<DicomItem> items;  // of a sequence
+    std::vector<DicomItem> items;  // items of a sequence
 };
 // The elements that a study is read from, by group * 65536 + element; others are walked over.
 struct DicomItem {
@@ -74,9 +74,9 @@ private:
     void unpack(const std::filesystem::path& file);
 
     MappedFile mFile;
-    std::vector<unsigned char> mUnpacked;  // of the deflated syntax
+    std::vector<unsigned char> mUnpacked;  // unpacked data set of the deflated syntax
     const unsigned char* mData = nullptr;
-    std::uint64_t mSize = 0, mStart = 0;  // of the data set
+    std::uint64_t mSize = 0, mStart = 0;  // bytes of mData, and where the data set begins in it
     bool mIsDicom = false, mBig = false, mExplicit = true, mHasHead = false;
     std::string mSyntax, mMediaClass, mDamage;
     DicomItem mSet;

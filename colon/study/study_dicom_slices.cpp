@@ -163,7 +163,7 @@ std::string takeTable(const DicomFile& file, DicomSlice& slice) {
 }
 
 // Frames without functional groups: along the normal by offsets of their own (PS3.3 C.8.8.3.2), or by one
-// distance between them. None where the file says neither.
+// distance between them. Returns nothing where the file says neither.
 std::vector<DicomSlice> steppedFrames(const DicomItem& set, const DicomSlice& all) {
     const auto count = static_cast<std::size_t>(all.frames);
     std::vector<double> offsets = set.numbers(kFrameOffsets, count);
@@ -216,7 +216,7 @@ std::vector<DicomSlice> readSlices(const fs::path& path, bool& isDicom) {
     }
     if (slice.damage.empty()) slice.damage = damageOf(file, slice);
     if (slice.damage.empty()) slice.damage = takeTable(file, slice);
-    if (!slice.damage.empty() && slice.uid.empty())  // of any series
+    if (!slice.damage.empty() && slice.uid.empty())  // no series is known to leave out
         throw Error(path.string(), "", slice.damage, "copy the file again, or take it out of the folder");
     slice.aside = asideOf(slice, set);
     takePadding(file, slice);

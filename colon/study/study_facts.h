@@ -1,5 +1,5 @@
-// What the values of a study are like: their range, how many differ, whether they are labels; and where they
-// are those of air. Told slice by slice, also while slices are still read and unpacked. Shared among
+// Statistics of a study's values: their range, how many differ, whether they are labels; and where they are
+// those of air. Told slice by slice, also while slices are still read and unpacked. Shared among
 // colon/study/*.cpp only.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace stereonav {
 // Returns the facts of all samples. slices: those of the first slices, as far as they are known already.
 ValueFacts factsOf(const RawStudy& raw, std::vector<ValueFacts> slices);
 
-// Whether values are kept as these samples are, so that air may be looked for among them.
+// Returns whether values are kept as these samples are, so that air may be looked for among them.
 bool showsAir(const RawStudy& raw);
 // Returns the runs of samples below `limit`, HU. slices: those of the first slices, as factsOf()'s.
 VoxelRuns airOf(const RawStudy& raw, double limit, std::vector<SliceRuns> slices);
@@ -37,8 +37,8 @@ public:
     // raw must outlive the object and keep its samples where they are. airBelow: lookAtSlice()'s.
     explicit FactsBeside(const RawStudy& raw, const std::optional<double>& airBelow = {});
     ~FactsBeside();
-    // Tells it that so many bytes of samples have come; they do not change any more. Called by the reading
-    // thread.
+    // Tells it that the first `bytes` bytes of the samples have come; they do not change any more. Called by
+    // the reading thread.
     void come(std::uint64_t bytes);
     // Returns what is known of the first slices. Those that came and were not looked at yet are left to all
     // threads.

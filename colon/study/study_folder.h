@@ -9,15 +9,15 @@
 
 namespace stereonav {
 
-// Whether a file may be a DICOM slice by its name. They are called anything: with .dcm or .ima, without an
-// extension, or by a UID, whose last part looks like one.
+// Returns whether a file may be a DICOM slice by its name. They are called anything: with .dcm or .ima,
+// without an extension, or by a UID, whose last part looks like one.
 bool isSliceName(const std::filesystem::path& file);
-// Whether a file is a slice by its name, or by what it begins with.
+// Returns whether a file is a slice by its name, or by what it begins with.
 bool isDicomFile(const std::filesystem::path& file);
 
 // Returns the folder that is meant: that of a DICOMDIR where one is named, else the place itself.
 std::filesystem::path folderOfStudy(const std::filesystem::path& place);
-// Whether a DICOMDIR lies in it, which makes it the root of a disc.
+// Returns whether a DICOMDIR lies in the folder, which makes it the root of a disc.
 bool isRootOfDisc(const std::filesystem::path& folder);
 
 // Returns the files in a folder, without hidden ones and a DICOMDIR, sorted; the place itself where it is a

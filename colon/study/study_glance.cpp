@@ -1,4 +1,4 @@
-// What a folder of DICOM slices is, by some of its files.
+// Identifies a folder of DICOM slices by some of its files.
 #include <fmt/format.h>
 
 #include <algorithm>

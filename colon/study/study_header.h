@@ -1,5 +1,5 @@
-// What the header of a volume file says, found out and checked before memory is taken. Shared among
-// colon/study/*.cpp only. Formats: teem.sourceforge.net/nrrd/format.html, itk.org MetaIO, nifti.nimh.nih.gov.
+// The header of a volume file, read and checked before memory is taken. Shared among colon/study/*.cpp only.
+// Formats: teem.sourceforge.net/nrrd/format.html, itk.org MetaIO, nifti.nimh.nih.gov.
 #pragma once
 
 #include <cstdint>
@@ -60,8 +60,8 @@ VolumeHeader readVolumeHeader(const std::filesystem::path& file);  // study_volu
 // --- study_samples.cpp
 // Throws Error when the files can not hold as many samples as the header says.
 void checkSampleFiles(const std::filesystem::path& file, const VolumeHeader& header);
-// Reads all samples into `to`, in this machine's byte order. come(bytes): so many have come, in the file's
-// order. Throws Error, Cancelled.
+// Reads all samples into `to`, in this machine's byte order. come(bytes) is told how many bytes have come, in
+// the file's order. Throws Error, Cancelled.
 void readSamples(const std::filesystem::path& file, const VolumeHeader& header, unsigned char* to,
                  Progress& progress, const std::function<void(std::uint64_t bytes)>& come);
 

@@ -37,7 +37,7 @@ struct MaskLabels {
 // Returns the number that --label gives, none where it gives a name.
 std::optional<std::int64_t> labelNumber(const std::string& label);
 
-// Whether keys of a header are about labels.
+// Returns whether keys of a header are about labels.
 bool namesLabels(const HeaderFields& fields);
 // Returns what a header's keys "Segment0_Name" and the like say, in the order of their numbers. A key that
 // says nothing of a layer: the first one, or, where none does, its own. Throws Error over numbers that are

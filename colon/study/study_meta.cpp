@@ -24,7 +24,7 @@ struct MetaText {
     std::map<std::string, std::string> values;  // by name in small letters; the last of several counts
     std::vector<double> size, spacing, origin, directions;
     std::string text;
-    std::size_t end = 0;  // of the header in it
+    std::size_t end = 0;  // end of the header in `text`
     int axes = 0;
 
     std::string value(const std::string& name) const {

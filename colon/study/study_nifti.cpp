@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kFirstSize = 348, kSecondSize = 540;
 constexpr double kMostMillimetres = 1e12;  // far beyond any body
-constexpr double kMostSquare = 1.001;      // of a rotation in 32-bit floats no more than 1 + 4e-7
+constexpr double kMostSquare = 1.001;      // a rotation in 32-bit floats has no more than 1 + 4e-7
 
 struct NiftiNumbers {
     bool turned = false, pair = false;
@@ -139,7 +139,7 @@ bool isLength(double number) {
     return std::abs(number) < kMostMillimetres;
 }
 
-// Whether values are scaled at all, as nibabel has it.
+// Returns whether values are scaled at all, as nibabel has it.
 bool isScaled(const NiftiNumbers& n) {
     return std::isfinite(n.slope) && n.slope != 0;
 }
@@ -282,7 +282,7 @@ Affine centred(const NiftiNumbers& n) {
     return affine;
 }
 
-// The most that a corner of the grid moves, as a share of the shortest step.
+// Returns how far a corner of the grid moves at most between two placements, as a share of the shortest step.
 double differenceOf(const Affine& a, const Affine& b, const NiftiNumbers& n, double& millimetres) {
     millimetres = 0;
     for (int corner = 0; corner < 8; ++corner) {
@@ -298,7 +298,7 @@ double differenceOf(const Affine& a, const Affine& b, const NiftiNumbers& n, dou
 }
 
 Affine affineOf(const fs::path& file, const NiftiNumbers& n, std::vector<std::string>& notes) {
-    constexpr double kAlike = 0.1;  // of a voxel
+    constexpr double kAlike = 0.1;  // share of a voxel
     if (n.sformCode > 0) {
         const Affine sform = sformOf(n);
         double millimetres = 0;

@@ -30,8 +30,8 @@ struct NrrdText {
     std::map<std::string, NrrdField> fields;  // names without blanks, in small letters
     HeaderFields keyed;                       // "key:=value"
     std::string comment;                      // the key "comment", or "content"
-    std::string text;                         // of the file's beginning
-    std::size_t end = 0;                      // of the header in it
+    std::string text;                         // the file's beginning
+    std::size_t end = 0;                      // end of the header in `text`
     bool whole = false;                       // an empty line ends it
 
     const std::string& value(const std::string& name) const {

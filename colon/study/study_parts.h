@@ -19,7 +19,7 @@ namespace stereonav {
 class PictureDecoder;  // picture_decoder.h
 
 enum class SampleType { UInt8, Int8, UInt16, Int16, UInt32, Int32, UInt64, Int64, Float32, Float64 };
-int bytesOf(SampleType type);  // of a sample
+int bytesOf(SampleType type);  // bytes of a sample
 
 // Samples of a regular grid, i fastest, in this machine's byte order.
 struct RawStudy {
@@ -58,15 +58,14 @@ decltype(auto) withSamples(const RawStudy& raw, Use&& use) {
     }
 }
 
-// --- study_check.cpp
-// Throws Error unless there are two or more voxels along each axis and so many bytes fit into the memory that
-// can be had; it says what would fit.
+// --- study_check.cpp Throws Error unless there are two or more voxels along each axis and `bytes` bytes fit
+// into the memory that can be had; the error says what would fit.
 void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, double bytes);
 // Throws Error unless spacings are such that work on the volume ends: neither very small nor very large, none
 // of them far from the others, and the first voxel at a place that numbers tell from that of the next.
 void checkFrame(const std::string& file, const VolumeFrame& frame);
-// Returns the bytes that are held at once: samples of so many bytes, which go as values come, or values with
-// what the caller takes beside those.
+// Returns the bytes that are held at once: samples of `sampleBytes` bytes each, which go as values come, or
+// values with what the caller takes beside them.
 double bytesHeld(const std::vector<std::uint64_t>& size, int sampleBytes, const StudyOptions& options);
 // Returns "512 x 512 x 20".
 std::string sizeText(const std::vector<std::uint64_t>& size);
@@ -81,10 +80,10 @@ struct ValueFacts {
     std::vector<double> distinct;           // sorted
 };
 
-// What was told of a study's first slices, in their order, while others were read.
+// Statistics of a study's first slices, in their order, gathered while others were read.
 struct SliceLooks {
     std::vector<ValueFacts> facts;
-    std::vector<SliceRuns> air;  // of voxels below StudyOptions::airBelow; as many, or none
+    std::vector<SliceRuns> air;  // runs of voxels below StudyOptions::airBelow; as many, or none
 };
 
 // --- study_volume.cpp

@@ -88,7 +88,8 @@ struct PictureSize {
     bool sound = true;
 };
 
-// The size in the frame header of JPEG and JPEG-LS (ITU-T T.81 B.2.2, T.87 C.2.2). None where there is none.
+// Returns the size in the frame header of JPEG and JPEG-LS (ITU-T T.81 B.2.2, T.87 C.2.2); nothing where
+// there is no such header.
 std::optional<PictureSize> jpegSize(const Codestream& code) {
     std::uint64_t at = 2;
     while (at + 4 <= code.size()) {
@@ -121,7 +122,7 @@ std::optional<PictureSize> jpeg2000Size(const Codestream& code) {
     return {};
 }
 
-// Whether RLE's offsets of segments (PS3.5 G.5) are sound, one for each byte of a pixel.
+// Returns whether RLE's offsets of segments (PS3.5 G.5) are sound, one for each byte of a pixel.
 bool isRleSound(std::string_view bytes, int bits) {
     constexpr std::uint64_t kHead = 64;
     const auto number = [&](std::uint64_t n) {

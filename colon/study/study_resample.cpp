@@ -18,7 +18,7 @@ constexpr double kNothing = 1e-4;
 
 struct Axis {
     int first;      // sample before the place
-    double weight;  // of the one behind
+    double weight;  // weight of the sample behind it
 };
 // Returns false where `place` (in samples) lies outside of [0, count - 1].
 bool locate(double place, int count, Axis& axis) {

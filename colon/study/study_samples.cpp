@@ -37,7 +37,7 @@ std::uint64_t bytesExpected(const VolumeHeader& header) {
         "copy the file again");
 }
 
-// The bytes of one data file from behind what its header has it leave out.
+// Returns the byte of a data file at which its samples begin, behind what the header has readers skip.
 std::uint64_t startOf(const fs::path& data, const SamplePlace& place, std::uint64_t share) {
     if (place.atEnd) {
         const std::uint64_t size = fs::file_size(data);

@@ -56,7 +56,7 @@ Plane<PackedColor> pictureOf(const DicomSlice& slice, PictureDecoder& decoder) {
     return picture;
 }
 
-// The middle one along the series' own normal.
+// Returns the middle slice along the series' own normal.
 const DicomSlice& middleOf(DicomSeries& series) {
     const DicomSlice& first = series.slices.front();
     const glm::dvec3 normal = glm::cross(first.along, first.down);

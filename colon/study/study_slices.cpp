@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr double kStepTolerance = 0.02, kStepTolerance_mm = 0.01;
 // A step of n times the usual one, give or take this many, counts as slices missing.
 constexpr double kMissingTolerance = 0.1;
-constexpr double kDirectionTolerance = 1e-3;  // of unit vectors
+constexpr double kDirectionTolerance = 1e-3;  // difference of unit vectors
 // At this tilt the far end of half a metre of slices is off by half a pixel of 0.8 mm.
 constexpr double kMostTilt = 8e-4;
 

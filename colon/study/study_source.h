@@ -1,4 +1,4 @@
-// What a report on a study has to name: whose it is, and which pictures it was read from.
+// The source that a report on a study has to name: whose study it is, and which pictures it was read from.
 #pragma once
 
 #include <filesystem>
@@ -18,11 +18,11 @@ struct StudySource {
     std::string patientName, patientId, birthDate, sex;
     std::string study, studyDate, studyTime, studyId, accession, referring, studyDescription;
     std::string series;  // UIDs, as `study`
-    std::string frame;   // of reference, a UID; "" where slices are of several, too
+    std::string frame;   // UID of the frame of reference; "" where slices are of several, too
     std::vector<std::pair<std::string, std::string>> pictures;  // SOP class and instance, by file
 };
 
-// Reads the source from heads of files alone. Nothing where the study is not DICOM. Throws Error.
+// Reads the source from heads of files alone. Returns nothing where the study is not DICOM. Throws Error.
 std::optional<StudySource> sourceOf(const std::filesystem::path& path, const StudyOptions& options);
 
 }  // namespace stereonav

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 100000;
-constexpr std::size_t kLongestFound = 60;  // of what a message repeats
+constexpr std::size_t kLongestFound = 60;  // bytes of the file that a message repeats
 
 [[noreturn]] void refuseTooMany(const fs::path& header) {
     throw Error(header.string(), "", fmt::format("names more than {} data files", kMostFiles),

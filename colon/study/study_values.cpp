@@ -74,7 +74,7 @@ bool isMask(const ValueFacts& facts) {
            (facts.distinct[0] == 0 || facts.distinct[1] == 0);
 }
 
-// The label that the mask is, by its values, or none for grey values. Throws Error where a label is missing.
+// Returns the label whose mask is wanted, or none for grey values. Throws Error where a label is missing.
 std::optional<double> chosenLabel(const std::string& file, const ValueFacts& facts, const MaskLabels& named,
                                   const StudyOptions& options) {
     const bool mask = isMask(facts), labels = looksLikeLabels(facts, !named.named.empty());

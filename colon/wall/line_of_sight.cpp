@@ -11,7 +11,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kBeyond = 1e-7;  // of the smallest spacing: on into the next cell
+constexpr double kBeyond = 1e-7;  // share of the smallest spacing: on into the next cell
 
 // The cell that a line goes on into: on a face that of the side which it goes to. A line that hardly leaves a
 // face would else stay beside it for steps without number.

@@ -15,8 +15,8 @@ public:
     // of that surface or of more.
     LineOfSight(const GreyVolume& field, const SurfaceCells& cells, double isovalue);
 
-    // Whether no wall is on the way, both ends included, however thin. World, metres. False where either end
-    // is outside the volume.
+    // Returns whether no wall is on the way, both ends included, however thin. World, metres. Returns false
+    // where either end is outside the volume.
     bool clear(const glm::dvec3& from, const glm::dvec3& to) const;
 
     // Returns how far a line from `from` (in the lumen) gets towards `direction` (unit) before it meets wall,

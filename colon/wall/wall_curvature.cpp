@@ -12,7 +12,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kTerms = 6;  // of a quadric z(x, y)
+constexpr int kTerms = 6;  // terms of a quadric z(x, y)
 constexpr int kBatch = 1024;
 
 using Row = std::array<double, kTerms + 1>;

@@ -18,7 +18,7 @@ struct WallMesh {
     std::vector<glm::vec3> places;                        // world, metres
     std::vector<glm::vec3> normals;                       // unit, into the lumen
     std::vector<float> areas;                             // square metres: a third of the triangles around it
-    std::vector<glm::ivec3> cells;                        // of the volume, that it lies in
+    std::vector<glm::ivec3> cells;                        // cell of the volume that each vertex lies in
     std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise as seen from the lumen
 
     double area() const;  // square metres

@@ -1,5 +1,5 @@
-// The one exception type of the program. It carries what a person can act on: which file, which
-// place in it, what was expected and found, and what to do. Libraries throw it; only app/ catches it.
+// The exception for errors that a person can act on. It says which file, which place in it, what was expected
+// and found, and what to do. Libraries throw it, and app/ reports it.
 #pragma once
 
 #include <stdexcept>
@@ -31,7 +31,8 @@ private:
     }
 };
 
-// A file that can not be read now, though it may be whole: no reason to make it anew, as damage is.
+// Thrown where the disk reports an error while a file is read. The file may be intact, so unlike a damaged
+// file it must not be made again.
 class DiskError : public Error {
 public:
     explicit DiskError(const std::string& file)

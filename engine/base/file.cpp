@@ -32,7 +32,7 @@ Error unwritable(const fs::path& path, int reason) {
             kCheckPlace};
 }
 
-// Whether bytes are written into the file itself, since no file can take its place.
+// Returns whether bytes are written into the file itself, since no file can take its place.
 bool isStream(const fs::path& path) {
     std::error_code code;
     const fs::file_type type = fs::status(path, code).type();

@@ -17,15 +17,15 @@ void checkFileToRead(const std::filesystem::path& path);
 // Returns what a place is in a word for messages: "a folder", "a pipe"...
 std::string kindOfFile(const std::filesystem::path& path);
 
-// Whether its name begins with a dot. In a folder such files are other programs' own, as macOS's ._NAME
-// beside NAME: no reader of folders takes them for data.
+// Returns whether the file's name begins with a dot. In a folder such files are other programs' own, as
+// macOS's ._NAME beside NAME: no reader of folders takes them for data.
 bool isHiddenFile(const std::filesystem::path& path);
 
 // Returns the whole content, byte for byte. Throws Error naming the path when it can not be read, is no file,
 // or is more than there is memory.
 std::string readTextFile(const std::filesystem::path& path);
 
-// Whether the path is "-", or a name that the system has for standard output, as /dev/stdout.
+// Returns whether the path is "-", or a name that the system has for standard output, as /dev/stdout.
 bool isStandardOutput(const std::filesystem::path& path);
 
 // Throws Error naming the path, the folder that is missing or can not be written, or what else is in the way.
@@ -35,8 +35,8 @@ void checkPlaceForFile(const std::filesystem::path& path);
 // Throws Error where the place is a file that this run has read (files_read.h): it would be lost.
 void checkIsNoInput(const std::filesystem::path& place);
 
-// What a new file may be put over. Anything is for files of our own that a run reads and goes on with; what
-// lies in cacheFolder() is such.
+// Which existing files a new file may replace. Anything is for files of our own that a run reads and goes on
+// with; what lies in cacheFolder() is such.
 enum class Over { NothingRead, Anything };
 // Whether a file is put in its place when it is on the disk, or when the system has it: where there are many,
 // waiting for each takes longer than making it, and all are made again after a power cut.

@@ -10,7 +10,8 @@ namespace stereonav {
 // Notes a file descriptor that was opened to be read. Counts regular files alone. From any thread.
 void noteFileRead(int file);
 
-// Whether the file is one of those, under whatever name: links are followed. False where nothing is there.
+// Returns whether the file was noted as read, under whatever name: links are followed. Returns false where
+// there is no file.
 bool wasFileRead(const std::filesystem::path& path);
 
 // Takes the file from the list: what the program itself has written may be written again, though it was

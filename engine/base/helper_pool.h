@@ -16,7 +16,7 @@ namespace stereonav {
 
 class HelperPool {
 public:
-    // Name and purpose are HelperProgram's. mostIdle: helpers beyond so many are not kept.
+    // Name and purpose are HelperProgram's. mostIdle: number of idle helpers that are kept at most.
     HelperPool(std::string name, std::string purpose, std::size_t mostIdle);
 
     // Asks a helper, from any thread. A helper that has seen what comes from one folder sees nothing from

@@ -35,7 +35,8 @@ Error cannotStart(const fs::path& file, const std::string& purpose, const std::s
                  "install the library that is missing, or build the program again");
 }
 
-// The process, or the system's error as a negative number. Only `socket` reaches it; what it prints is lost.
+// Starts the program. Returns the process, or the system's error as a negative number. `socket` is its only
+// connection; what it prints is lost.
 int start(const fs::path& file, int socket) {
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
@@ -130,7 +131,8 @@ std::string HelperProgram::end() {
     return waitForEnd(0);
 }
 
-// One that has closed its end is about to end; one that does not, for so many looks, is made to.
+// Waits for a helper that has closed its end of the pipe, and so is about to exit; kills it where it has not
+// after `looks` looks.
 std::string HelperProgram::waitForEnd(int looks) {
     constexpr std::chrono::milliseconds kLookEvery(10);
     int status = 0;

@@ -21,15 +21,15 @@
 
 namespace stereonav {
 
-// What one request may take. Sanitized builds take memory as they like.
+// Limits of one request. Sanitized builds take memory as they like.
 struct HelperLimits {
     std::uint64_t answer = 0;                                 // bytes; a longer one counts as Ended
     std::uint64_t memory = std::uint64_t{1} << 30;            // bytes, beyond those that it has
     std::chrono::seconds work{60};                            // processor time
     std::chrono::milliseconds wait{std::chrono::minutes(5)};  // by the clock
 };
-// Returns the limits for a picture of so many pixels that comes in so many bytes: far more than a sound one
-// takes at most.
+// Returns the limits for a picture of `pixels` pixels in a file of `packed` bytes: far more than a sound one
+// needs.
 HelperLimits limitsForPicture(std::uint64_t pixels, std::uint64_t packed, std::uint64_t answer);
 // Lets no answer be waited for longer than this from now on, whatever the limits say; for tests.
 void waitForHelpersAtMost(std::chrono::milliseconds longest);

@@ -1,5 +1,5 @@
-// What the program and a helper (helper_program.h) say to each other, seen from the program: each message is
-// a head and as many bytes as the head says. The other side is not trusted: a library that a damaged file has
+// The messages between the program and a helper (helper_program.h), on the program's side: each message is a
+// head and as many bytes as the head says. The other side is not trusted: a library that a damaged file has
 // taken over may say anything, in any pieces, or nothing.
 #pragma once
 
@@ -21,7 +21,7 @@ struct HelperAnswer {
     std::string text;
 };
 
-// What stands before the bytes of a message.
+// The header of a message.
 struct HelperHead {
     std::uint64_t bytes = 0;  // how many follow
     std::uint64_t kind = 0;   // HelperAnswer::Kind of answers, but Ended

@@ -37,8 +37,8 @@ public:
         return *this;
     }
 
-    // The same elements again, in the same memory, which is kept as long as one array of it is there. Nobody
-    // writes to any of them from then on.
+    // Returns another array over the same memory, which is kept as long as one of these arrays is there. From
+    // then on nobody may write to any of them.
     LazyArray share() const {
         LazyArray same;
         same.mData = mData;
@@ -46,7 +46,7 @@ public:
         return same;
     }
 
-    // The same memory as elements of another type and of the same size; this array is empty then.
+    // Returns this array's memory as elements of another type; leaves this array empty.
     template <typename U>
     LazyArray<U> as() && {
         static_assert(sizeof(U) % sizeof(T) == 0 && alignof(U) <= 64);

@@ -73,7 +73,7 @@ double taken() {
     return 1024 * valueIn("/proc/self/status", "RssAnon:", 0);
 }
 
-// This program's own, or in a module that of the program.
+// The limit in use: this program's own or, in a module, that of the program.
 std::atomic<std::atomic<double>*>& limitUsed() {
     static std::atomic<double> own = 0;
     static std::atomic<std::atomic<double>*> used = &own;

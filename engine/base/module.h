@@ -46,7 +46,7 @@ const Functions& moduleFunctions(const std::string& name, const std::string& pur
     return *static_cast<const Functions*>(moduleTable(name, purpose, sizeof(Functions)));
 }
 
-// Whether its file is there; nothing is loaded.
+// Returns whether the module's file is there; nothing is loaded.
 bool hasModule(const std::string& name);
 
 // The program's own file: as the system says, or, where no /proc is mounted, as it was started. "" where

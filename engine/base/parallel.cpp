@@ -32,7 +32,7 @@ struct Arena {
     std::atomic<double>& memory = memoryLimit();
     LoopLook look;                          // loop_watch.h
     bool counts = false;                    // whether a loop of the first thread is counted
-    int pieces = 1;                         // of it
+    int pieces = 1;                         // pieces of that loop
     alignas(64) std::atomic<int> done = 0;  // apart from what all threads read
 
     static Arena& own() {

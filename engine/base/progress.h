@@ -52,7 +52,7 @@ private:
     Listener mListener;
     Reader mReader;
     std::atomic<bool> mCancelled = false;
-    const Progress* mWhole = nullptr;  // of a part
+    const Progress* mWhole = nullptr;  // the progress that this is a part of
 };
 
 // Steps of one job that are done in any order, on any threads. They are told one after the other: without

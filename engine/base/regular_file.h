@@ -32,7 +32,7 @@ private:
     std::uint64_t mSize = 0;
 };
 
-// Returns the first bytes of a file, at most so many. Throws Error as RegularFile() does, and DiskError.
+// Returns the first bytes of a file, at most `bytes`. Throws Error as RegularFile() does, and DiskError.
 std::string firstBytes(const std::filesystem::path& file, std::size_t bytes);
 
 }  // namespace stereonav

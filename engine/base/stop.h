@@ -9,8 +9,8 @@ namespace stereonav {
 
 // Milliseconds from the first signal to the end, but for what is being finished.
 constexpr int kMostStopping_ms = 700;
-// Returns kMostStopping_ms for a run that holds so many bytes, less what the system takes to take them back,
-// so that the whole ends within a second. 7.9 GB took 0.26 s.
+// Returns kMostStopping_ms for a run that holds `bytes` bytes of memory, less the time in which the system
+// takes them back, so that the whole ends within a second. 7.9 GB took 0.26 s.
 int stoppingTime_ms(double bytes);
 
 // Makes SIGINT, SIGTERM and SIGHUP wishes to stop, unless whoever started the program had them ignored. A

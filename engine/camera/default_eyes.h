@@ -9,7 +9,7 @@ namespace stereonav {
 // Separation as a share of the zero-parallax distance (Wan et al. 2004).
 constexpr double kUsualShare = 1.0 / 30;
 
-// What a scene is seen as.
+// Kinds of views, from which the default eyes follow.
 enum class SeenAs {
     Ground,   // from its start
     Track,    // ground below a track that is flown
@@ -23,7 +23,7 @@ constexpr StereoSetting defaultEyes(SeenAs seen, double zeroParallax) {
     switch (seen) {
         case SeenAs::Ground:  // rounds otherwise than a thirtieth, by the last bit
             return {kUsualShare * zeroParallax, zeroParallax};
-        case SeenAs::Mesh:  // of whose distance the depths span half
+        case SeenAs::Mesh:  // a mesh's depths span half of its distance
             return {zeroParallax / 45, zeroParallax};
         case SeenAs::Track:
         case SeenAs::Lumen:

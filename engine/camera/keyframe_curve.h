@@ -28,8 +28,8 @@ private:
     // The curve from one keyframe to the next.
     struct Piece {
         glm::dvec3 fromTangent{0.0}, toTangent{0.0};  // metres over the piece's own parameter, 0 to 1
-        std::vector<double> lengths;                  // metres from its start at some parameters,
-        std::vector<double> slopes;                   // and there the parameter a metre
+        std::vector<double> lengths;                  // metres from its start, at some parameters
+        std::vector<double> slopes;  // change of the parameter a metre, at the same parameters
     };
     glm::dvec3 place(std::size_t piece, double parameter) const;
     double rate(std::size_t piece, double parameter) const;  // metres a parameter

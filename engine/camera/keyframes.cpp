@@ -35,7 +35,8 @@ double turnBetween(const glm::dquat& a, const glm::dquat& b) {
     return 2 * std::asin(std::min(1.0, glm::length(glm::dvec3(turn.x, turn.y, turn.z))));
 }
 
-// The samples that are furthest off, one for each two keyframes between which one is too far; indices.
+// Returns the indices of the samples that are furthest from the curve: one for each two keyframes between
+// which a sample is too far.
 std::vector<std::size_t> furthestOff(const std::vector<PathSample>& samples,
                                      const std::vector<std::size_t>& keys, double metres, double radians) {
     Keyframes keyframes;

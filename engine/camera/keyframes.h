@@ -26,9 +26,9 @@ Keyframes timedKeyframes(const std::vector<Pose>& poses, double metresPerSecond)
 // makes more than a million. Throws Error for fewer than two keyframes.
 RecordedPath pathThrough(const Keyframes& keyframes, bool easeEnds = true);
 
-// The fewest keyframes that are found whose flight, without eased ends, is nowhere further from the path than
-// so many metres and radians, at the times of the path's samples; the first and the last sample among them.
-// Both above 0. Throws Error.
+// Returns the fewest keyframes found whose flight, without eased ends, is nowhere further from the path than
+// `metres` and `radians`, at the times of the path's samples; the first and the last sample among them. Both
+// above 0. Throws Error.
 Keyframes keyframesOf(const RecordedPath& path, double metres, double radians);
 
 }  // namespace stereonav

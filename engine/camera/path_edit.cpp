@@ -15,13 +15,13 @@ namespace {
 
 constexpr double kLongestCut = 0.001;      // seconds
 constexpr double kCutSpeed = 20;           // times the mean speed without cuts
-constexpr double kStanding = 1e-3;         // of the mean speed: slower is standing
+constexpr double kStanding = 1e-3;         // share of the mean speed: slower is standing
 constexpr double kTurns = 1e-4;            // radians a second: slower is no turning
 constexpr double kFastestPacedTurn = 1;    // radians a second
 constexpr double kSmoothRate = 60;         // samples a second, and
 constexpr double kSmoothFineness = 8;      // samples a standard deviation
 constexpr double kMostSmoothed = 100'000;  // samples of a stretch
-constexpr double kMostOfStretch = 0.25;    // of its time, as standard deviation
+constexpr double kMostOfStretch = 0.25;    // standard deviation at most, as a share of the stretch's time
 constexpr int kBoxes = 4;
 
 using Samples = std::vector<PathSample>;

@@ -17,11 +17,11 @@
 namespace stereonav {
 namespace {
 
-constexpr int kMaxHalvings = 8;           // of the time between two keyframes
-constexpr double kPositionShare = 1e-5;   // of the path's extent, see path_formats.h
+constexpr int kMaxHalvings = 8;           // halvings of the time between two keyframes
+constexpr double kPositionShare = 1e-5;   // share of the path's extent, see path_formats.h
 constexpr double kAngleTolerance = 1e-4;  // radians
 constexpr double kStepTime = 1e-3;        // seconds
-constexpr int kMostTracks = 100;          // of the camera and the nodes above it
+constexpr int kMostTracks = 100;          // tracks of the camera and the nodes above it
 constexpr std::size_t kMostKeys = 1'000'000, kMostPoses = 4'000'000;
 
 struct AnimatedNode {
@@ -81,7 +81,7 @@ public:
 
 private:
     std::vector<AnimatedNode> mNodes;  // root first
-    std::vector<double> mKeyTimes;     // of all tracks, increasing
+    std::vector<double> mKeyTimes;     // key times of all tracks, increasing
     bool mHasSteps = false;
 };
 

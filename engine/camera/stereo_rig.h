@@ -9,7 +9,7 @@
 
 namespace stereonav {
 
-// What both eyes have in common: their picture's size and angle.
+// The size and angle of the picture, common to both eyes.
 struct Lens {
     int width = 0, height = 0;  // pixels of one eye
     double verticalFov = 0.8;   // radians, in (0, pi)

@@ -17,7 +17,7 @@ struct TimedPose {
 // framesAtRate, throw as those do.
 std::vector<TimedPose> timedFrames(const RecordedPath& path, int count);
 // Returns for each of `frames`, which are timedFrames of the path, the pose `seconds` later, or earlier where
-// the path is at its end: as the path is flown. Empty where it is shorter than that.
+// the path is at its end: as the path is flown. Returns nothing where it is shorter than that.
 std::vector<TimedPose> timedBeside(const RecordedPath& path, const std::vector<TimedPose>& frames,
                                    double seconds);
 std::vector<TimedPose> timedFramesAtRate(const RecordedPath& path, double framesPerSecond);

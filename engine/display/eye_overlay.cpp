@@ -45,7 +45,7 @@ void drawMark(ImDrawList& list, const glm::vec2& place, const OverlayMark& mark,
                              IM_COL32(0, 0, 0, 48));
 }
 
-// Returns a box around all that was drawn since the list had so many corners.
+// Returns a box around all that was drawn since the list had `firstCorner` corners.
 EyeLayer::Box boxOf(const ImDrawList& list, int firstCorner) {
     constexpr float kFar = 1e6f;  // no picture is as wide
     glm::vec2 low(kFar), high(-kFar);

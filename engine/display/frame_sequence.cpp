@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kUsualRate = 60;                 // Hz
 constexpr double kSlowest = 10, kFastest = 1000;  // Hz of displays
-constexpr double kPhaseGain = 0.1;                // of what a swap's time differs by
+constexpr double kPhaseGain = 0.1;                // share of what a swap's time differs by
 constexpr double kPeriodGain = 0.0025;            // a quarter of the square of that: no overshoot
 constexpr double kPeriodReach = 0.02;    // share by which a told rate may be wrong: 59.94 is told as 60
 constexpr int kLooked = 64;              // swaps that are judged together
@@ -34,7 +34,8 @@ void FrameSequence::swapped(double seconds) {
         ++mRefresh;
         return;
     }
-    // None where the one before was taken for a later refresh than it was: then the count is right again.
+    // No refresh passes where the swap before was taken for a later refresh than it was: then the count is
+    // right again.
     const double whole = std::max(std::round(passed), 0.0);
     const double error = (passed - whole) * mPeriod;
     mRefresh += static_cast<long long>(whole);

@@ -42,7 +42,7 @@ private:
     double mPhase = 0;         // seconds: when the refresh mRefresh was
     bool mStarted = false, mSynchronised = true;
     long long mRefresh = -1, mDropped = 0;
-    int mSwaps = 0, mEarly = 0, mLate = 0;  // of the present second or so
+    int mSwaps = 0, mEarly = 0, mLate = 0;  // counts of the present second or so
     bool mTooLate = false;
     bool mToldRate = false, mToldFree = false, mToldLate = false;
 };

@@ -54,7 +54,7 @@ void FullScreen::enter(GLFWwindow* window, std::size_t monitor) {
         mMaximised = glfwGetWindowAttrib(window, GLFW_MAXIMIZED) != 0;
     }
     if (on(window) || monitorUnder(monitors(), now) != monitor) moveTo(window, handles[monitor], *mode);
-    // It stays on glasses or a projector while another monitor's window is used.
+    // The window stays on glasses or a projector while another monitor's window is used.
     glfwSetWindowAttrib(window, GLFW_AUTO_ICONIFY, GLFW_FALSE);
     glfwSetWindowMonitor(window, handles[monitor], 0, 0, mode->width, mode->height, mode->refreshRate);
 }

@@ -17,7 +17,8 @@ public:
     void enter(GLFWwindow* window, std::size_t monitor);
     // Puts the window to its place and size before; nothing where it is a window already.
     void leave(GLFWwindow* window);
-    // Whether it is over a monitor, as the desktop says: a monitor that is unplugged ends it, too.
+    // Returns whether the window is over a whole monitor, as the desktop says: unplugging the monitor ends
+    // that, too.
     static bool on(GLFWwindow* window);
 
 private:

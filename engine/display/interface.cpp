@@ -24,7 +24,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kMostTurns = 12;  // of a layout: more events than that wait for the next
+constexpr int kMostTurns = 12;  // turns of a layout: more events than that wait for the next
 const ImVec2 kNowhere{-FLT_MAX, -FLT_MAX};
 
 struct Event {
@@ -112,7 +112,7 @@ std::uint64_t digestOf(const ImDrawData& data, const ImVec4* box = nullptr) {
     return digest.value();
 }
 
-// What of a drawing lies in a box, while this lives: its commands are cut to it.
+// Cuts the commands of a drawing to a box, while the object lives.
 class CutDrawing {
 public:
     CutDrawing(const ImDrawData& whole, const ImVec4& box) : mData(whole) {
@@ -192,7 +192,7 @@ struct Interface::State {
         const InterfaceArea& area = places.areas.front();
         return glm::dvec2((share.x - area.x) / area.width, (share.y - area.y) / area.height) * units;
     }
-    // Whether a window of the last layout that takes the pointer lies there.
+    // Returns whether a window of the last layout that takes the pointer lies there.
     bool covers(const ImVec2& place) const {
         for (const ImGuiWindow* const box : context->Windows)
             if (box->WasActive && !box->Hidden && !(box->Flags & ImGuiWindowFlags_NoMouseInputs) &&
@@ -443,7 +443,7 @@ void Interface::pointerLeft() {
 bool Interface::takesButton(int button, bool pressed) {
     if (button >= ImGuiMouseButton_COUNT) return false;
     const bool taken = mState->covers(mState->pointer);
-    // It is told of presses beside it too, which end what is being written, and of all releases.
+    // The interface is told of presses beside it too, which end what is being written, and of all releases.
     mState->events.push_back({.kind = Event::Kind::Button, .which = button, .pressed = pressed});
     return taken;
 }

@@ -48,19 +48,19 @@ public:
     bool layOut(const InterfacePlaces& places, double dt, const std::function<void()>& draw);
     // Draws over what is in the framebuffer. opening: where the picture lies in each part; none: everywhere.
     void render(const std::optional<InterfaceOpening>& opening = std::nullopt);
-    // Whether a layout now could show something else for what the user did, or for another window or look.
-    // What is shown of the program's own doing, the caller knows.
+    // Returns whether a layout now could show something else for what the user did, or for another window or
+    // look. What is shown of the program's own doing, the caller knows.
     bool waits(const InterfacePlaces& places) const;
 
     glm::vec2 size() const;                             // units of the layout
     void use() const;                                   // Dear ImGui's calls that follow are of this one
     glm::vec2 textSize(const std::string& text) const;  // units
-    // Whether the pointer is over the picture, and where, in shares of the interface's size; false while it
-    // is over the interface, or outside.
+    // Returns whether the pointer is over the picture, and where, in shares of the interface's size; false
+    // while it is over the interface, or outside.
     bool pointerOverPicture(glm::dvec2& place) const;
     // Leaves the pointer over the picture to whoever draws that (eye_overlay.h), where `drawn`.
     void setPointerOfPicture(bool drawn);
-    // Whether some text is at work.
+    // Returns whether the user is editing some text.
     bool active() const;
 
     void pointerAt(const glm::dvec2& place) override;

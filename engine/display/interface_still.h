@@ -26,7 +26,7 @@ struct InterfacePart {
 // Keeps the interface beside the pictures. In one context, whose framebuffer is that of the window.
 class InterfaceStill {
 public:
-    // Whether what lies beside the opening is kept, as it was when it had this digest.
+    // Returns whether the part beside the opening is kept, as it was drawn with this digest.
     bool holds(std::uint64_t digest, const InterfaceOpening& opening, const InterfacePart& part) const;
     // Keeps it from a part that is drawn. whole: pixels of the framebuffer.
     void keep(std::uint64_t digest, const InterfaceOpening& opening, const InterfacePart& part,

@@ -5,7 +5,7 @@ struct ImVec4;
 
 namespace stereonav {
 
-// What the interface looks like.
+// The look of the interface.
 struct InterfaceLook {
     bool dark = true;
     bool grey = false;  // under an anaglyph, whose glasses split colours

@@ -15,7 +15,7 @@ void bind(GLenum unit, const GlTexture& texture) {
     glBindTexture(GL_TEXTURE_2D, texture.name());
 }
 
-// What was bound before comes back: the window draws into its own.
+// Binds a framebuffer, and the one bound before again at the end: the window draws into its own.
 class DrawInto {
 public:
     DrawInto(const GlFramebuffer& target, int width, int height) {

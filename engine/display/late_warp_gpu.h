@@ -33,9 +33,9 @@ private:
     struct Eye {
         GlTexture color, inverse, plans, image;
         GlFramebuffer framebuffer;
-        int width = 0, height = 0;            // of the picture that was cast
-        int across = 0, down = 0;             // of the plans
-        int shownWidth = 0, shownHeight = 0;  // of the new picture
+        int width = 0, height = 0;            // size of the picture that was cast
+        int across = 0, down = 0;             // number of the plans each way
+        int shownWidth = 0, shownHeight = 0;  // size of the new picture
     };
     void sizeImage(Eye& eye, int width, int height);
 

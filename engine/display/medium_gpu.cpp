@@ -113,14 +113,14 @@ struct MediumGpu::State {
     std::optional<ShaderProgram> ender;
     std::optional<MediumTargets> targets;
 
-    // What the frame at work uses.
+    // State of the frame that is being made.
     const SweepGeometry* geometry = nullptr;
     const Programs* used = nullptr;
     bool lights = false;
     int turn = 0;  // number of the light's buffer that is read, 0 or 1
     PixelRect
-        touched;  // of the light's buffer: what may differ from 1, or, unless it is blurred, between the two
-    double spread = 0;  // of the blur: its offset over the root of the way, root of metres
+        touched;  // texels of the light's buffer that may differ from 1; without blur, from buffer to buffer
+    double spread = 0;  // the blur's offset over the root of the way, root of metres
 
     bool leans(const MediumLook& look) const {
         return look.model == MediumModel::Indirect && geometry->leaning > 0;
@@ -383,7 +383,8 @@ void MediumGpu::State::sweep() {
 
 namespace {
 
-// What was bound before, put back at the end; blending, scissor and depth test are left off, as found.
+// Saves the OpenGL bindings and restores them at the end. Blending, scissor and depth test are left off, as
+// they were.
 class KeptState {
 public:
     KeptState() {

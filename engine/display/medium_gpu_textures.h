@@ -55,7 +55,7 @@ private:
     GlTexture mNoise;
     glm::ivec2 mTableSize{0};  // columns, rows
     GLenum mTableKind =
-        GL_TEXTURE_1D_ARRAY;  // of one row each, read with half the taps; or GL_TEXTURE_2D_ARRAY
+        GL_TEXTURE_1D_ARRAY;  // tables of one row each, read with half the taps; or GL_TEXTURE_2D_ARRAY
     // Mip levels of a layer side by side, and where each lies: corner and size.
     struct Levels {
         GlTexture texture;

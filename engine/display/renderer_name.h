@@ -1,11 +1,11 @@
-// What a driver's name tells.
+// Tells from a driver's name how it draws.
 #pragma once
 
 #include <string_view>
 
 namespace stereonav {
 
-// Whether this GL_RENDERER draws on the processor, by its name.
+// Returns whether this GL_RENDERER draws on the processor, by its name.
 bool drawsInSoftware(std::string_view renderer);
 
 }  // namespace stereonav

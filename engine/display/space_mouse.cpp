@@ -16,8 +16,8 @@ namespace stereonav {
 namespace {
 
 enum Kind : std::int32_t { kMotion = 0, kPress = 1 };  // the first number of an event
-constexpr double kFull = 350;                          // of an axis that is pushed as far as it goes
-constexpr double kDeadZone = 0.06;                     // of that
+constexpr double kFull = 350;                          // value of an axis that is pushed as far as it goes
+constexpr double kDeadZone = 0.06;                     // share of kFull
 constexpr int kMostEvents = 1000;                      // a look
 
 double withoutDeadZone(std::int32_t value) {

@@ -65,12 +65,13 @@ public:
               const PartInset& inset = {}) const;
 
 private:
-    // What one program draws; see shaders/stereo_present.frag.
+    // Kinds of drawing, one for each shader program; see shaders/stereo_present.frag.
     enum class Pass { OneEye, HalfWidth, HalfHeight, Rows, Columns, Checkerboard, Anaglyph };
 
     void checkSizes(const Plane<PackedColor>& left, const Plane<PackedColor>* right) const;
     void uploadEye(std::size_t eye) const;
-    // Copies an eye to a viewport of its size, with its layer over it. False where the driver can not.
+    // Copies an eye to a viewport of its size, with its layer over it. Returns false where the driver can
+    // not.
     bool copyEye(std::size_t eye, const Viewport& viewport) const;
     const ShaderProgram& programFor(Pass pass, bool layered) const;
     static Pass passOf(const OutputModeInfo& info);
@@ -85,7 +86,7 @@ private:
     struct Eye {
         SharedEye picture;
         GlTexture texture;
-        int width = 0, height = 0;  // of the texture
+        int width = 0, height = 0;  // size of the texture
         bool uploaded = false, plain = false;
         GLuint given = 0;  // in the place of the texture
         GLuint name() const { return given != 0 ? given : texture.name(); }

@@ -8,7 +8,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kSmallest_mm = 50, kLargest_mm = 100000;  // of a screen's width
+constexpr int kSmallest_mm = 50, kLargest_mm = 100000;  // range of a screen's width
 constexpr double kShapeReach = 1.4;                     // pixels are square, or nearly
 
 // Millimetres of a screen, and not anything else.

@@ -24,8 +24,8 @@ struct StereoScreen {
 // ratio).
 double statedWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh);
 
-// Whether the stated size is one which somebody measured: no size of a screen is none, nor is what a desktop
-// makes up where a monitor says nothing: as if it had 96 pixels an inch, both ways.
+// Returns whether the stated size is one which somebody measured: no size of a screen is none, nor is what a
+// desktop makes up where a monitor says nothing: as if it had 96 pixels an inch, both ways.
 bool tellsWidth(int width_mm, int height_mm, int pixelsWide, int pixelsHigh);
 
 // Parallax of one thing: negative before the screen, positive behind it.

@@ -1,4 +1,4 @@
-// What uploads of textures share: limits and failures as Errors, filters, binding to a unit.
+// Functions common to uploads of textures: limits and failures as Errors, filters, binding to a unit.
 #pragma once
 
 #include "engine/display/gl_object.h"

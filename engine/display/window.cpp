@@ -18,12 +18,12 @@
 namespace stereonav {
 namespace {
 
-constexpr double kMonitorShare = 0.92;   // of the monitor's free area: leaves room for decorations
+constexpr double kMonitorShare = 0.92;   // share of the monitor's free area: leaves room for decorations
 constexpr int kSmallestWindow = 64;      // screen units
 constexpr double kClickReach = 4.0;      // screen units that a hand shakes while it clicks
 int openWindows = 0;                     // the first and the last one begin and end GLFW
-unsigned turns = 1;                      // of handleEvents, and of what a window did to itself
-constexpr double kStickDeadZone = 0.12;  // of a stick's way: worn sticks rest that far off centre
+unsigned turns = 1;                      // calls of handleEvents, and changes that a window made itself
+constexpr double kStickDeadZone = 0.12;  // share of a stick's way: worn sticks rest that far off centre
 
 std::string lastProblem() {
     const char* text = nullptr;
@@ -121,7 +121,7 @@ void Window::open(const std::string& title, int width, int height, bool visible,
     if (quadBuffer) {
         glfwWindowHint(GLFW_STEREO, GLFW_TRUE);
         mHandle = glfwCreateWindow(fitWidth, fitHeight, title.c_str(), nullptr, nullptr);
-        glfwWindowHint(GLFW_STEREO, GLFW_FALSE);  // of no other window
+        glfwWindowHint(GLFW_STEREO, GLFW_FALSE);  // for no other window
     }
     mQuadBuffered = mHandle != nullptr;
     if (!mHandle)

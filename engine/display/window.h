@@ -12,7 +12,7 @@ struct GLFWwindow;
 
 namespace stereonav {
 
-// Whether a window with the OpenGL this program needs can be opened here. Opens a hidden one to see,
+// Returns whether a window with the OpenGL this program needs can be opened here. Opens a hidden one to see,
 // unless no display is named at all. Not while a Window exists.
 bool hasDisplay();
 
@@ -103,7 +103,7 @@ public:
     std::string clipboard() const;
     void setClipboard(const std::string& text);
     void setTitle(const std::string& title);
-    void close();                     // as if the user had
+    void close();                     // closes the window as if the user had
     void setCaptured(bool captured);  // hide the pointer and take all its motion
     bool captured() const { return mCaptured; }
     Gamepad gamepad() const;  // the first one's state now; without one, not present
@@ -123,7 +123,7 @@ private:
     // What the window system says of it. It is asked once between two calls of handleEvents: each answer
     // takes a turn to the X server and back.
     struct Told {
-        unsigned turn = 0;  // of handleEvents
+        unsigned turn = 0;  // number of the handleEvents call
         bool minimised = false;
         glm::ivec2 pixels{0};
         ScreenRect place;

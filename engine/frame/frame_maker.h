@@ -31,7 +31,7 @@ inline FrameWay wayOf(const WarpSetting& setting) {
     return {nameOf(setting.method), setting};
 }
 
-// What the parts of a frame took.
+// Times of the parts of a frame.
 struct FrameTimings {
     double both_ms = 0;                     // the whole frame
     double left_ms = 0, right_ms = 0;       // each eye; 0 where they are made together
@@ -67,7 +67,7 @@ public:
     // make().
     virtual RightEyeTimings makeRight(const StereoViews& views, const EyeImage& left, const FrameWay& way,
                                       EyeImage& right) = 0;
-    // What the way adds to an eye's edges, once the right eye was made: EdgeRays::smooth.
+    // Smooths an eye's edges in the given way, once the right eye was made: EdgeRays::smooth.
     virtual EdgeTimings smoothEdges(const EyeView& view, const FrameWay& way, EyeImage& image) = 0;
     // The holes of the last right eye, by makeRight() or FrameMaker::make().
     virtual RightHoles holes() const = 0;
@@ -86,7 +86,7 @@ public:
     virtual std::string_view exactMethod() const = 0;
     // The methods that a comparison runs when none are named, in the order of methods().
     virtual std::vector<std::string_view> compared() const { return {methods().begin(), methods().end()}; }
-    // What these methods make, as in "right eye": the rest is the same for all.
+    // Names the pictures that these methods make, as in "right eye": the rest is the same for all.
     virtual std::string_view whatMethodsMake() const = 0;
 
     // Makes both eyes; sizes the images. time: seconds, for what moves by itself. Throws Error for a method
@@ -102,8 +102,8 @@ public:
     // one); nothing where there is nothing to weigh.
     virtual std::optional<FramePlan> measure(std::span<const StereoViews>) { return std::nullopt; }
     // Returns the way that meets a wish for quality at the least cost, measured on frames like these
-    // (quality_plan.h). method: to be kept, or "" for any. Nothing where methods have no such dial. Throws
-    // Error.
+    // (quality_plan.h). method: to be kept, or "" for any. Returns nothing where methods have no such dial.
+    // Throws Error.
     virtual std::optional<QualityPlan> meet(const QualityWish&, std::string_view /*method*/,
                                             std::span<const StereoViews>) {
         return std::nullopt;

@@ -52,7 +52,8 @@ void packMean(const Plane<float>& even, const Plane<float>& odd, int count, Plan
     });
 }
 
-// The squares by which the halves' means differ: a sum for each row, so that it does not depend on threads.
+// Returns the sum of squared differences between the means of the halves. Each row is summed by itself, so
+// that the result does not depend on the number of threads.
 double squaresApart(const Plane<float>& even, const Plane<float>& odd, int count) {
     const float perEven = 1.0f / static_cast<float>((count + 1) / 2),
                 perOdd = 1.0f / static_cast<float>(count / 2);

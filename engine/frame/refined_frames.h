@@ -25,9 +25,9 @@ public:
     // Takes in place of the first frame one that was made of these views, with its rays through the centres.
     void begin(const EyePair& made);
 
-    // The mean colours of all frames since the last restart, at least one. All other planes, and who made
-    // them how, are those of the first, whose rays go through the centres of pixels. Times are those of the
-    // last. Worked out when asked.
+    // Returns the mean colours of all frames since the last restart, at least one. All other planes, and the
+    // record of which method made them, are those of the first frame, whose rays go through the centres of
+    // pixels. Times are those of the last frame. Computed when asked for.
     EyePair& mean();
     const FrameTimings& timings() const { return mMean.timings; }  // the last frame's
     int count() const { return mCount; }                           // frames, which is rays a pixel
@@ -39,13 +39,13 @@ public:
     // were seen. Without any, 0.1 of a step and less, it says less than there is, since frames are rounded.
     // Infinite before the second frame.
     double error_levels() const;
-    // The same error as a PSNR; 0 before the second frame, kMostPsnr_db at most.
+    // Returns error_levels() as a PSNR; 0 before the second frame, kMostPsnr_db at most.
     double error_db() const;
 
 private:
     // Sums of linear light.
     struct Sums {
-        Plane<float> even, odd;  // of frames 0, 2, 4 .. and 1, 3, 5 ..
+        Plane<float> even, odd;  // sums of frames 0, 2, 4 .. and 1, 3, 5 ..
     };
     EyePair& next() { return mCount == 0 ? mMean : mMade; }
     void gather();

@@ -23,7 +23,7 @@
 namespace stereonav {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::numeric_limits<std::uint32_t>::max();  // of a .glb
+constexpr std::size_t kMaxFileBytes = std::numeric_limits<std::uint32_t>::max();  // largest size of a .glb
 constexpr std::size_t kDescriptionAt = 20;  // byte of a .glb where its first chunk has its JSON
 constexpr std::size_t kDeepestNode = 1000;
 constexpr std::size_t kLongestName = 60;  // bytes of what a message repeats
@@ -230,7 +230,7 @@ std::vector<MetNode> nodesOfScene(const GltfFile& file) {
     const auto& nodes = file.model.nodes;
     std::vector<MetNode> met;
     struct Way {
-        std::size_t at = 0, child = 0;  // of `met`; which of its children is next
+        std::size_t at = 0, child = 0;  // place in `met`; which of its children is next
     };
     std::vector<Way> way;  // from a root down
     const auto meet = [&](int node, int above) {

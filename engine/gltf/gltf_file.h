@@ -36,7 +36,7 @@ struct GltfFile {
 // describes is held against the memory first (gltf_size.h). Throws Error naming the file and what is wrong.
 GltfFile readGltf(const std::filesystem::path& file);
 
-// Whether a name ends like a glTF file's: .gltf or .glb, in any case.
+// Returns whether a name ends like a glTF file's: .gltf or .glb, in any case.
 bool hasGltfExtension(const std::filesystem::path& file);
 
 // Returns an accessor's elements as numbers, `components` a piece; normalised integers become [0, 1] or [-1,

@@ -97,7 +97,7 @@ public:
     }
 
 private:
-    // What values in a list or object take, by what they are.
+    // Bytes that each value in a list or object takes, by its kind.
     struct Level {
         double part = kPartBytes, number = kNumberBytes;
     };
@@ -125,7 +125,7 @@ private:
         if (name == "extras" || name == "extensions") inside = {kPartBytes + kNamedBytes, kNamedBytes};
         mLevels.push_back(inside);
     }
-    // Whether an entry of that list is being read, and nothing within it.
+    // Returns whether an entry of that list is being read, and nothing within it.
     bool isEntryOf(const char* list) const { return mLevels.size() == 3 && mList == list; }
 
     const double mBinary;

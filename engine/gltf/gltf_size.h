@@ -1,5 +1,5 @@
-// What a glTF file's description would take as tinygltf's model, told before any of it is made: `{},` in a
-// list is three bytes in the file, and more than a thousand in the model.
+// The memory that a glTF file's description would take as tinygltf's model, estimated before any of it is
+// made: `{},` in a list is three bytes in the file, and more than a thousand in the model.
 #pragma once
 
 #include <cstddef>

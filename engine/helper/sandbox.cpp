@@ -14,7 +14,8 @@
 namespace stereonav {
 namespace {
 
-// What memory, clocks, locks and ends of processes need; read and write reach what is open already.
+// System calls for memory, clocks, locks and the end of processes; read and write reach only what is open
+// already.
 constexpr int kAllowedCalls[] = {
     SCMP_SYS(read),        SCMP_SYS(write),           SCMP_SYS(writev),         SCMP_SYS(sendto),
     SCMP_SYS(close),       SCMP_SYS(munmap),          SCMP_SYS(mremap),         SCMP_SYS(brk),

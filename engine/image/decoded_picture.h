@@ -22,13 +22,13 @@ struct DecodedPicture {
     }
 };
 
-// Returns what the helper answered for a picture with that head, which may lie on its side; nothing where it
-// is no such picture.
+// Returns the picture in the helper's answer. head: of the picture file; the picture may lie on its side.
+// Nothing where the answer is no such picture.
 std::optional<DecodedPicture> decodedPictureOf(std::string answer, const PictureHead& head);
 
-// Unpacks a picture. format: what the content's first bytes say, and not Radiance. pixelBytes: what the
-// caller makes of a pixel. Sizes are bounded, and memory asked for in both processes, before anything is
-// unpacked. Throws Error with file and place, and Cancelled.
+// Unpacks a picture. format: as the content's first bytes state it; not Radiance. pixelBytes: bytes that the
+// caller will take for each pixel. Sizes are bounded, and memory is asked for in both processes, before
+// anything is unpacked. Throws Error with file and place, and Cancelled.
 DecodedPicture decodePicture(PictureFormat format, std::string_view content, std::size_t pixelBytes,
                              const std::string& file, const std::string& place);
 

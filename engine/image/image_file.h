@@ -38,7 +38,7 @@ LinearImage readLinearImage(const std::filesystem::path& file);
 // (engine/base/file.h). Throws Error.
 void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image,
                      Flush flush = Flush::ToDisk);
-// Whether there is a way to write pictures with this extension, as in ".png".
+// Returns whether there is a way to write pictures with this extension, as in ".png".
 bool canWritePicture(const std::string& extension);
 
 }  // namespace stereonav

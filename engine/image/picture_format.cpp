@@ -14,7 +14,7 @@ constexpr FirstBytes kFirstBytes[] = {
     {"\xff\xd8\xff"sv, PictureFormat::Jpeg},
     {"II*\0"sv, PictureFormat::Tiff},
     {"MM\0*"sv, PictureFormat::Tiff},
-    {"II+\0"sv, PictureFormat::Tiff},  // of more than 4 GB
+    {"II+\0"sv, PictureFormat::Tiff},  // BigTIFF, for more than 4 GB
     {"MM\0+"sv, PictureFormat::Tiff},
     {"BM"sv, PictureFormat::Bmp},
     {"#?"sv, PictureFormat::Radiance},

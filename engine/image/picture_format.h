@@ -21,7 +21,7 @@ inline constexpr int kMostPictureSide = 65536;
 inline constexpr long long kMostPicturePixels = 1ll << 28;
 bool isPictureSize(long long width, long long height);
 
-// What a file says of its picture before anything is unpacked.
+// The header of a picture file, read before anything is unpacked.
 struct PictureHead {
     long long width = 0, height = 0;
     int sampleBytes = 1;  // bytes of a channel: 1, 2, or 4 of floats

@@ -87,7 +87,7 @@ std::optional<PictureHead> webpHead(std::string_view content) {
 // The first directory alone.
 std::optional<PictureHead> tiffHead(std::string_view content) {
     constexpr std::uint64_t kWidth = 256, kHeight = 257, kBits = 258, kColours = 262, kShort = 3, kLong = 4,
-                            kLong8 = 16, kLogarithms = 32844;  // of light: unpacked to floats
+                            kLong8 = 16, kLogarithms = 32844;  // logarithms of light: unpacked to floats
     constexpr std::uint64_t kMostFields = 4096;
     const HeadBytes file{content, content.starts_with("II")};
     const bool big = file.number(2, 2) == 43;

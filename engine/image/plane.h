@@ -36,8 +36,8 @@ public:
         return *this;
     }
 
-    // Changes the size in pixels. Keeps the memory when it is the same; new memory is zero. Throws
-    // std::bad_alloc.
+    // Changes the size in pixels. An unchanged size keeps the pixels; another one allocates new memory,
+    // filled with zeros. Throws std::bad_alloc.
     void resize(int width, int height) {
         if (width == mWidth && height == mHeight) return;
         mWidth = width;

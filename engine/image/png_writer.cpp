@@ -10,7 +10,7 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr int kLevel = 4;  // of deflate: 1 fastest .. 9 smallest
+constexpr int kLevel = 4;  // level of deflate: 1 fastest .. 9 smallest
 
 [[noreturn]] void failPng(png_structp, png_const_charp) {
     throw Error("", "picture", "can not be compressed", "free memory");

@@ -92,7 +92,7 @@ int gapBelow(int eyeHeight) {
 int packedHeight(int eyeHeight) {
     return 2 * eyeHeight + gapBelow(eyeHeight);
 }
-// Rows of the largest eye that is packed into so many.
+// Returns the rows of the largest eye that is packed into a picture of `height` rows.
 int packedEyeHeight(int height) {
     const long long rows = std::max(height, 0);
     int eye = static_cast<int>(rows * kEyeRowsAGapRow / (2 * kEyeRowsAGapRow + 1));  // a row too few at most

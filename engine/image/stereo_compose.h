@@ -95,7 +95,7 @@ using AnaglyphMatrix = std::array<std::array<float, 6>, 3>;
 // All modes, in their order.
 std::span<const OutputModeInfo> outputModes();
 const OutputModeInfo& infoOf(OutputMode mode);
-// Whether one picture can hold both eyes in this mode; else it is of windows alone.
+// Returns whether one picture can hold both eyes in this mode; else it is of windows alone.
 bool fitsInPicture(OutputMode mode);
 // Returns the mode of FFmpeg's short names (tbl and abl alike) or of the long ones; nullopt for any other.
 std::optional<OutputMode> outputModeFromName(std::string_view name);
@@ -124,7 +124,7 @@ struct EyeArea {
     bool operator==(const EyeArea&) const = default;
 };
 // Returns where the eye that comes first and the other one lie in a picture of this mode and size; the same
-// place twice where they share it. Empty where the picture is too small for two.
+// place twice where they share it. Both are empty where the picture is too small for two.
 std::array<EyeArea, 2> eyeAreas(OutputMode mode, int width, int height);
 
 // Composes the picture of two eyes. Squeezed modes average pairs of pixels in linear light; interleaved modes

@@ -146,7 +146,7 @@ Bytes exifSegment(int width, int height) {
 
 constexpr std::string_view kMpfName{"MPF\0", 4};
 constexpr std::string_view kMpfVersion = "0100";
-constexpr std::uint32_t kDisparity = 0x020002, kRepresentative = 0x20000000;  // of an entry's attribute
+constexpr std::uint32_t kDisparity = 0x020002, kRepresentative = 0x20000000;  // bits of an entry's attribute
 
 // Fields of the eye `number`, counted from the left, 1 or 2; the left one is what the other is measured
 // against.

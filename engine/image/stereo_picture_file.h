@@ -11,13 +11,13 @@
 
 namespace stereonav {
 
-// What a .mpo says of how its two eyes were placed; NaN: unknown.
+// Placement of the two eyes as a .mpo states it; NaN: unknown.
 struct EyePlacement {
     double separation_m = 0;         // 0 or more
     double convergence_degrees = 0;  // between the two axes of view
 };
 
-// Whether the extension is .jps or .mpo, in small letters or capitals.
+// Returns whether the extension is .jps or .mpo, in small letters or capitals.
 bool isJps(const std::filesystem::path& file);
 bool isMpo(const std::filesystem::path& file);
 

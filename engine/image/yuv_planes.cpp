@@ -10,12 +10,12 @@
 namespace stereonav {
 namespace {
 
-constexpr int kYuvShift = 16;  // of weights; sums of eight weighted bytes stay below 2^28
+constexpr int kYuvShift = 16;  // bits of weights; sums of eight weighted bytes stay below 2^28
 constexpr int kPairShift = 3;  // eight parts make a pair: four to a row
 
 struct YuvWeights {
-    std::array<int, 3> y, u, v;  // of r, g, b
-    std::array<int, 3> columns;  // of a pair: the one before its own two, and these
+    std::array<int, 3> y, u, v;  // weights of r, g, b
+    std::array<int, 3> columns;  // weights of a pair's columns: the one before its own two, and these
     int black;
 };
 
@@ -32,7 +32,7 @@ YuvWeights weightsOf(YuvRule rule) {
     const double toU = chroma / (2 * (1 - blue)), toV = chroma / (2 * (1 - red));
     w.u = {scaled(-toU * red), 0, scaled(toU * (1 - blue))};
     w.v = {scaled(toV * (1 - red)), 0, scaled(-toV * blue)};
-    w.u[1] = -w.u[0] - w.u[2];  // and gray is gray
+    w.u[1] = -w.u[0] - w.u[2];  // so that grey stays grey
     w.v[1] = -w.v[0] - w.v[2];
     w.columns = video ? std::array{1, 2, 1} : std::array{0, 2, 2};
     w.black = video ? 16 : 0;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kLooks = 8;  // at each side
 constexpr double kOutliers =
-    0.05;  // of the pictures: a frame that came very late now and then is none to plan for
+    0.05;  // share of the pictures: a frame that came very late now and then is none to plan for
 
 // The value that all but the largest ones do not exceed.
 double mostOf(std::vector<double> values) {

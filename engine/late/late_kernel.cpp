@@ -18,7 +18,7 @@ constexpr float kSame = 0.03f;        // relative: inverse depths of one surface
 constexpr float kFront = 1.1f;
 
 struct Place {
-    F u, v;  // of the picture that was cast
+    F u, v;  // pixel of the picture that was cast
 };
 
 // Rays of a vector of pixels.
@@ -31,7 +31,7 @@ STEREONAV_INLINE Rays raysOf(const LateMove& move, F x, float y) {
     const auto row = [&](int n) {
         return mulAdd(x, F(move.rows[n][0]), F(move.rows[n][1] * y + move.rows[n][2]));
     };
-    // What lies beside or behind the picture that was cast gets its border.
+    // Places beside or behind the picture that was cast get its border.
     const F z = row(2), forward = max(z, F(1e-6f));
     const F one = approxReciprocal(forward);
     const F a = row(0) * one, b = row(1) * one;
@@ -61,7 +61,7 @@ STEREONAV_INLINE I bothHalves(F share) {
 }
 
 struct Corner {
-    I x, y;  // of the upper left one of four neighbours
+    I x, y;  // upper left pixel of four neighbours
     F right, down;
 };
 STEREONAV_INLINE Corner cornerOf(const LateSource& source, const Place& place) {
@@ -166,7 +166,7 @@ STEREONAV_INLINE void storePixels(std::uint32_t* to, I color, int count) {
         store(to, color, firstLanes(count));
 }
 
-// Whether a place is outside of what was cast.
+// Returns whether a place is outside of what was cast.
 STEREONAV_INLINE M isBeside(const LateSource& source, const Place& place) {
     return (place.u < F(0.0f)) | (place.v < F(0.0f)) | (place.u > F(static_cast<float>(source.width))) |
            (place.v > F(static_cast<float>(source.height)));

@@ -17,7 +17,7 @@ namespace {
 constexpr float kSmooth = 0.3f;   // pixels that neighbours move apart: less is one surface
 constexpr float kLittle = 0.5f;   // pixels between the nearest and the farthest: no search is worth it
 constexpr float kNothing = 0.1f;  // pixels: as if all were equally far
-constexpr float kAhead = 1e-3f;   // of the viewing axis: less is beside what was seen
+constexpr float kAhead = 1e-3f;   // along the viewing axis: less is beside what was seen
 constexpr int kNarrowings = 3;
 
 const LateKernels& kernelsFor(SimdTarget target) {
@@ -164,7 +164,8 @@ LatePlan LateEye::planOf(const LateMove& move, int x0, int y0, int x1, int y1, f
     length = std::sqrt(length);
     LatePlan plan{mFarthest, std::min(mNearest, nearestSeen), 0};
     float jump = 0;
-    // What depths are seen says where it may lie, which says what depths are seen.
+    // The depths in the tile bound the places that it shows, and these places bound the depths: a few rounds
+    // narrow both.
     for (int round = 0; round < kNarrowings; ++round) {
         float left = 1e30f, right = -1e30f, top = 1e30f, bottom = -1e30f;
         for (const Corner& corner : corners)

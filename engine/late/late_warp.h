@@ -18,7 +18,7 @@ namespace stereonav {
 // Returns where a pixel of `to` lies in the picture of `from`.
 LateMove lateMove(const EyeView& from, const EyeView& to);
 
-// What is worked out once for each picture that was cast.
+// An eye's picture prepared for the late warp, once for each picture that was cast.
 class LateEye {
 public:
     // Works out what warp() needs of a picture. depth: metres along the viewing axis; infinite is the sky;

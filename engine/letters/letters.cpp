@@ -33,7 +33,7 @@ int glyphOf(const stbtt_fontinfo& font, char32_t code) {
     return glyph != 0 ? glyph : stbtt_FindGlyphIndex(&font, static_cast<int>(kNoLetter));
 }
 
-// Both ends of those numbers of a letter that lie in a picture of `size`.
+// Returns the range of a letter's rows or columns that lie in a picture of `size`.
 std::pair<int, int> within(int first, int count, int size) {
     return {std::max(0, -first), std::min(count, size - first)};
 }

@@ -15,12 +15,12 @@ namespace stereonav {
 constexpr double kEarthRadius = 6371008.8;  // metres: the mean one of WGS 84 (IUGG)
 constexpr double kUsualRefraction = 0.13;   // share of the curvature: Gauss's coefficient, in the Earth's air
 
-// What ground lies on.
+// The body that ground lies on: the Earth or another one.
 struct Body {
     double meanRadius = 0;  // metres, as its reference system has it; 0: not said
 
-    // Whether it is the Earth, as all is that does not say otherwise: its ellipsoids and spheres are all
-    // alike, Venus is 5 % smaller.
+    // Returns whether the body is the Earth, as every body is that does not say otherwise: its ellipsoids and
+    // spheres are all alike, Venus is 5 % smaller.
     constexpr bool isEarth() const {
         constexpr double kAlike = 0.005;
         return meanRadius <= 0 ||

@@ -59,7 +59,7 @@ void castPacket(RTCScene scene, const glm::vec3& origin, float tNear, const glm:
     }
 }
 
-// What Embree tells while it builds, on any of its threads; never less than before.
+// Reports Embree's progress while it builds, on any of its threads; never less than before.
 class BuildProgress {
 public:
     explicit BuildProgress(Progress& progress) : mProgress(progress) { tell(0); }

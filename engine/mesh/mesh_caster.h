@@ -30,7 +30,7 @@ public:
     glm::dvec3 low() const;            // world, of the box around everything
     glm::dvec3 high() const;
 
-    std::size_t treeBytes() const;  // of Embree, its copy of the triangles too
+    std::size_t treeBytes() const;  // bytes of Embree's tree, its copy of the triangles too
 
     static constexpr int kMostRays = 16;
     int packet() const;  // rays that are cast at once on this processor, 4 to kMostRays
@@ -47,8 +47,8 @@ public:
     MeshRays(const MeshCaster& caster, const EyeView& view);
 
     // The first hit of each of `count` rays (0 to packet()), nearer than farDepth[k] and no nearer than the
-    // view's near depth; hits[k].triangle is MeshHit::kNone where there is none. False where there is none
-    // at all: hits are not written then. direction: unit length along the view axis (rayDirection()). A
+    // view's near depth; hits[k].triangle is MeshHit::kNone where there is none. Returns false where there is
+    // none at all: hits are not written then. direction: unit length along the view axis (rayDirection()). A
     // negative farDepth[k] marks a ray to leave alone.
     bool cast(const glm::dvec3* direction, const float* farDepth, int count, MeshHit* hits) const;
 

@@ -103,9 +103,9 @@ private:
     const GltfFile& mFile;
     Progress& mProgress;
     TriangleMesh mMesh;
-    std::map<int, int> mTextures;  // of the mesh, by the image that they are of
+    std::map<int, int> mTextures;  // the mesh's textures, by the number of their image
     MemoryParts mPictures;
-    std::vector<TexturePlaces> mTexturePlaces;  // of each material's base colour texture
+    std::vector<TexturePlaces> mTexturePlaces;  // by material: places in its base colour texture
 };
 
 // A mesh that several nodes show is there several times. No accessor counts for more elements than its buffer
@@ -163,7 +163,7 @@ void MeshReader::readMaterials() {
         if (texture.index >= 0) material.texture = readTexture(texture.index, material);
         mMesh.materials.push_back(material);
     }
-    mMesh.materials.emplace_back();  // of primitives without one
+    mMesh.materials.emplace_back();  // material of primitives without one
     mTexturePlaces.emplace_back();
 }
 

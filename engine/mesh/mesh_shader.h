@@ -1,4 +1,4 @@
-// What colour a mesh has where a ray meets it: light from a sun with its ambient share, on both sides.
+// Shading of a mesh where a ray meets it: light from a sun with its ambient share, on both sides.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -17,7 +17,7 @@ struct MeshHit {
 };
 
 struct MeshLight {
-    glm::dvec3 toSun{0, 0, 1};  // as long as its light is strong: a unit, nothing once it has set
+    glm::dvec3 toSun{0, 0, 1};  // its length is the light's strength: 1, and 0 once the sun has set
     float ambient = 1;          // 0..1, the share of light that comes from everywhere
     // 0..1, how far the sun reaches around: 0 is Lambert's cosine; 1 falls off to nothing only at the far
     // side, so that shapes show there too (half Lambert, Mitchell et al. 2006, without its square).

@@ -27,13 +27,13 @@ std::vector<const ChartPoint*> shownOf(const ChartSeries& series) {
     return shown;
 }
 
-// The characters of UTF-8 text: bytes that do not go on with one.
+// Returns the width of UTF-8 text: counts bytes that do not continue a character.
 double widthOf(const std::string& text) {
     const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
     return kGlyph * static_cast<double>(letters);
 }
 
-// The middle of long names left out, at whole characters of UTF-8.
+// Returns the text without its middle where it is long, cut at whole characters of UTF-8.
 std::string shortened(const std::string& text, std::size_t most) {
     std::vector<std::size_t> starts;
     for (std::size_t n = 0; n < text.size(); ++n)

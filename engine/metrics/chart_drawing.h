@@ -14,7 +14,7 @@ namespace stereonav {
 struct ChartPoint {
     std::string name;
     Spread x, y;
-    bool isDefault = false;  // of the program: drawn with a ring
+    bool isDefault = false;  // whether it is the program's default: drawn with a ring
 };
 
 struct ChartSeries {
@@ -68,7 +68,7 @@ struct LabelBox {
 };
 struct LabelWish {
     std::string text;
-    double x = 0, y = 0;  // of the point, pixels
+    double x = 0, y = 0;  // place of the point, pixels
 };
 // Returns for each wish, in their order, a box near its point that is inside the frame and clear of all
 // points and boxes before, and of what is avoided if that can be; width 0 where there is no such place.

@@ -10,9 +10,9 @@
 namespace stereonav {
 namespace {
 
-constexpr double kAutomaticRatio = 6;   // of values, from which on a scale is logarithmic
-constexpr double kMargin = 0.07;        // of the scale, beyond the values
-constexpr double kLeastDecades = 0.25;  // of a logarithmic scale
+constexpr double kAutomaticRatio = 6;   // ratio of values from which on a scale is logarithmic
+constexpr double kMargin = 0.07;        // share of the scale, beyond the values
+constexpr double kLeastDecades = 0.25;  // decades of a logarithmic scale
 constexpr std::size_t kMostTicks = 7;
 
 std::string tickText(double value) {

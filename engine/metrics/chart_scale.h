@@ -33,7 +33,7 @@ public:
 
 private:
     void choose(double least, double most);
-    double mLow = 0, mHigh = 1;  // of the values, or of their logarithms to base 10
+    double mLow = 0, mHigh = 1;  // range of the values, or of their logarithms to base 10
     bool mLogarithmic = false;
 };
 

@@ -246,10 +246,10 @@ private:
     RightFromLeft* const mRightFromLeft;  // null: methods make both eyes
     const ComparisonSetting& mSetting;
     Runner mExact, mDefault{""};
-    EyeImage mSmoothLeft;  // of mExact, where edges have rays
-    Truths mTruth;         // of the frame at hand; empty: there is no finer one
+    EyeImage mSmoothLeft;  // mExact's left eye, where edges have rays
+    Truths mTruth;         // truths of the frame at hand; empty: there is no finer one
     bool mFlickers = false;
-    Plane<PackedColor> mBesideTruth;  // of what is judged
+    Plane<PackedColor> mBesideTruth;  // truth of what is judged, in the neighbouring frame
     Plane<float> mColumns;            // columnsInRightEye
     std::vector<Runner> mRunners;
 };

@@ -35,7 +35,7 @@ struct ComparisonSetting {
 struct MethodFigures {
     std::string name;
     double left_ms = 0;  // one eye by itself, which every method needs
-    // What the other costs on top of it: the warp, or splat of depths, and what is cast or swept after it.
+    // Times of the other eye on top of it: the warp, or splat of depths, and what is cast or swept after it.
     double warp_ms = 0, fill_ms = 0, right_ms = 0;
     double full_right_ms = 0;    // the right eye by itself, in the same run
     double pair_ms = 0;          // both eyes, from the first ray to the last pixel
@@ -57,8 +57,8 @@ struct MethodFigures {
     double butteraugli = 0, butteraugli_max = 0, edge_butteraugli = 0, flat_butteraugli = 0;
 };
 
-// What one method made of one frame. The edge mask of every method is that of the default method's
-// holes and the truth's depth edges, so that their edge figures compare.
+// One method's pictures of one frame. The edge mask of every method is that of the default method's holes and
+// the truth's depth edges, so that their edge figures compare.
 struct MethodPicture {
     std::string_view method;
     const EyeImage &left,

@@ -19,7 +19,7 @@ bool beats(const Way& a, const Way& b) {
     return a.time.count > 0 && beats(placeOf(a), placeOf(b));
 }
 
-// Whether a beats b by more than repeats of one measurement usually differ.
+// Returns whether a beats b by more than repeats of one measurement usually differ.
 bool clearlyBeats(const Way& a, const Way& b) {
     return beats(a, b) && (a.time.median < b.time.low || a.error < b.error * (1 - kSameError));
 }

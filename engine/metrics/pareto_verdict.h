@@ -30,8 +30,8 @@ struct ParetoVerdict {
     bool onFront = false;
     // Not on the front, but nothing beats it by more than the spread of its time and kSameError of its error.
     bool withinNoise = false;
-    // Those that beat it: the fastest, and the share of time it saves; the one with the least error, and the
-    // share of error it saves. "" where none does.
+    // The ways that beat this one: the fastest, and the share of time it saves; the one with the least error,
+    // and the share of error it saves. "" where none does.
     std::string faster, better;
     double timeSaved = 0, errorSaved = 0;  // shares, 0 to 1
 };

@@ -28,7 +28,7 @@ void checkSize(const Plane<A>& wanted, const Plane<B>& plane, const char* what) 
 // The two pixels that a column lies between.
 struct Between {
     int low, high;
-    float share;  // of the high one
+    float share;  // share of the high one
 
     explicit Between(float column)
         : low(static_cast<int>(column)), high(low), share(column - static_cast<float>(low)) {

@@ -29,7 +29,7 @@ struct Rivalry {
     // the right eye's interpolated between two pixels; kIdenticalPsnr_db (image_difference.h) at most, NaN
     // where both see nothing.
     double psnr_db = 0;
-    double edge_psnr_db = 0;  // the same for those alone with a pixel of the mask in the right eye
+    double edge_psnr_db = 0;  // psnr_db over those pixels alone that have one of the mask in the right eye
     double seen_percent = 0;  // pixels that both eyes see, of the left eye's
 };
 

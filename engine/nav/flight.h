@@ -9,7 +9,7 @@
 
 namespace stereonav {
 
-// What the pilot wants during one step. Values outside their range are clamped, NaN counts as 0.
+// The pilot's input during one step. Values outside their range are clamped, NaN counts as 0.
 struct FlightInput {
     double forward = 0, right = 0, up = 0;  // -1 to 1, shares of the speed
     double yawRate = 0;                     // radians a second, clockwise seen from above
@@ -50,8 +50,8 @@ public:
     virtual double lowestAt(const glm::dvec3& /*place*/) const {
         return -std::numeric_limits<double>::infinity();
     }
-    // Whether the viewer, with the head as it is, finds room everywhere on the straight way. Of ground it
-    // says nothing: that is lowestAt().
+    // Returns whether the viewer, with the head as it is, finds room everywhere on the straight way. Of
+    // ground it says nothing: that is lowestAt().
     virtual bool wayIsClear(const glm::dvec3& /*from*/, const glm::dvec3& /*to*/) const { return true; }
     // Goes straight to a pose nearby, at rest there, as far as there is room: along walls, never through
     // them.
@@ -66,10 +66,10 @@ public:
     virtual double alongNear(const glm::dvec3& /*place*/) const {
         return std::numeric_limits<double>::quiet_NaN();
     }
-    // Whether `forward` goes to where the line starts.
+    // Returns whether `forward` goes to where the line starts.
     virtual bool goesBack() const { return false; }
     // Lets `forward` go along the line the other way from now on; the view turns by half a turn while time
-    // passes. False where nothing leads it.
+    // passes. Returns false where nothing leads it.
     virtual bool turnRound() { return false; }
 };
 

@@ -17,17 +17,17 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kFarthestGoal = 1e9;                    // metres, each coordinate
-constexpr double kSecondsOfWay = 0.9;                    // of what takes a second at the flight's speed
-constexpr double kTurnSpeed = 1.8;                       // radians a second on average
-constexpr double kGoalSubstep = 0.01;                    // seconds
+constexpr double kFarthestGoal = 1e9;  // metres, each coordinate
+constexpr double kSecondsOfWay = 0.9;  // seconds for a way that takes one second at the flight's speed
+constexpr double kTurnSpeed = 1.8;     // radians a second on average
+constexpr double kGoalSubstep = 0.01;  // seconds
 constexpr double kLongestStepTo = kLongestFlightTo + 4;  // seconds
 constexpr double kLineLag = 0.25;                        // seconds: a guided flight's damping
 constexpr double kLineGain = 2.0;                        // 1 / seconds, of what it is behind its course
-constexpr double kRest = 0.02;                           // of the flight's speed
+constexpr double kRest = 0.02;                           // share of the flight's speed
 constexpr double kPatience = 3.0;                        // seconds more than planned, on a line
 constexpr double kTolerance = 0.02;                      // seconds of flight: so near is there
-constexpr double kWayTolerance = 0.002;                  // of the way along a line, the same
+constexpr double kWayTolerance = 0.002;                  // share of the way along a line, the same
 constexpr double kUpright = 80 * pi / 180, kLevelRoll = 0.002;  // radians: what counts as a level head
 
 // Place, speed and acceleration from 0 to 1: all but the place are 0 at both ends.
@@ -152,7 +152,7 @@ FlightTo::State FlightTo::stepAlong(Flight& flight, double dt) {
     const double speed = course.speed * way / mLineSeconds +
                          kLineLag * course.acceleration * way / (mLineSeconds * mLineSeconds) +
                          kLineGain * (course.place * way - done);
-    // It may brake, but not go back: that could lead back over a place where the line is cut.
+    // The flight may brake, but not go back: that could lead back over a place where the line is cut.
     const double kept = std::exp(-dt / kLineLag), brake = -mLineSpeed * kept / (1 - kept);
     const double wished = std::max(speed, brake);
     mLineSpeed = wished + (mLineSpeed - wished) * kept;

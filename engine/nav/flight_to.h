@@ -39,11 +39,11 @@ private:
     State stepDirect(Flight& flight);
     State endLine(Flight& flight, State state);
 
-    // Along the line first, where there is such a leg.
+    // The first leg, along the line, where there is one.
     bool mOnLine = false;
     double mLineStart = 0, mLineGoal = 0, mLineSeconds = 0;  // metres, seconds
     double mLineSpeed = 0;                                   // metres a second, towards the goal
-    // Then straight to a pose, where there is one.
+    // The second leg, straight to a pose, where there is one.
     std::optional<Pose> mGoal;
     Pose mFrom;
     FlightWay mWay;

@@ -1,5 +1,5 @@
-// Over ground the way's height is a closing of what the ground asks for, as that of a terrain's own flight:
-// the highest need within a window, smoothed within a window of half its width. So it is nowhere below the
+// Over ground the way is raised by a morphological closing of the needed rise, like a terrain's own flight:
+// the largest need within a window, smoothed over a window of half its width. So it is nowhere below the
 // need.
 #include "engine/nav/flight_way.h"
 
@@ -13,7 +13,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kPieces = 1024;  // of a way over ground: finer than a frame's step in the shortest flight
+constexpr int kPieces = 1024;  // pieces of a way over ground: finer than frames of the shortest flight
 constexpr int kWindow = 96;    // pieces to each side that a rise is spread over
 constexpr int kBendPieces = 48;
 constexpr int kBendSides = 12;
@@ -24,7 +24,7 @@ int windowAt(int k, int most) {
     return std::min({most, k, kPieces - k});
 }
 
-// The most of each place's window.
+// Returns the largest need within each place's window.
 std::vector<double> widened(const std::vector<double>& needs) {
     std::vector<double> most(needs.size());
     for (int k = 0; k <= kPieces; ++k) {
@@ -34,7 +34,8 @@ std::vector<double> widened(const std::vector<double>& needs) {
     return most;
 }
 
-// Weights fall to 0 at the window's ends, so that nothing kinks.
+// Returns weighted means over half of each place's window. Weights fall to 0 at its ends, so that the way has
+// no kinks.
 std::vector<double> smoothed(const std::vector<double>& values) {
     std::vector<double> means(values.size());
     for (int k = 0; k <= kPieces; ++k) {
@@ -67,7 +68,7 @@ std::vector<glm::dvec3> overGround(const Flight& flight, const glm::dvec3& from,
 
 std::vector<glm::dvec3> bend(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& aside) {
     const glm::dvec3 middle =
-        0.5 * (from + to) + 2.0 * aside;  // of the control polygon: half of it is reached
+        0.5 * (from + to) + 2.0 * aside;  // middle of the control polygon: half of it is reached
     std::vector<glm::dvec3> places(kBendPieces + 1);
     for (int k = 0; k <= kBendPieces; ++k) {
         const double t = k / double(kBendPieces);

@@ -28,7 +28,7 @@ constexpr int kLooksAhead = 6;                 // places looked at in that time
 constexpr double kHeightRate = 0.8;            // e-foldings a second of the followed height
 constexpr double kHighestFollow = 1e9;         // metres
 constexpr double kFastestTurn = 20.0;          // radians a second
-constexpr double kMostMultiplier = 1e6;        // of the speed
+constexpr double kMostMultiplier = 1e6;        // factor on the speed
 constexpr double kLongestSubstep = 1.0 / 120;  // seconds: turning and moving are composed
 
 void checkPositive(const char* name, double value, const char* advice) {

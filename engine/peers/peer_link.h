@@ -1,5 +1,5 @@
-// What carries bytes between the processes of a run: MPI's module (engine/peers/mpi), or in tests a queue.
-// Nothing here waits, so that who waits can sleep, and hear of a stop.
+// Carries bytes between the processes of a run: MPI's module (engine/peers/mpi), or in tests a queue. Nothing
+// here waits, so that who waits can sleep, and hear of a stop.
 #pragma once
 
 #include <memory>
@@ -28,7 +28,8 @@ public:
     virtual void send(int to, PeerKind kind, PeerBytes bytes) = 0;
     // Returns what came, if anything has.
     virtual std::optional<PeerMessage> next() = 0;
-    // Whether something is on its way to or from here, so that next() is worth calling without a pause.
+    // Returns whether something is on its way to or from here, so that next() is worth calling without a
+    // pause.
     virtual bool busy() = 0;
     // Ends the link, as the last call of every process.
     virtual void leave() = 0;

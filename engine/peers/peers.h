@@ -74,10 +74,10 @@ private:
     PeerMessage waitFor(PeerKind kind) { return waitFor(kind, kind); }
 
     std::unique_ptr<PeerLink> mLink;   // null: alone
-    std::unique_ptr<PieceDesk> mDesk;  // of the first of several
+    std::unique_ptr<PieceDesk> mDesk;  // null but for the first of several
     int mRank = 0, mCount = 1, mThreads = 0;
     bool mSame = true;
-    int mPhase = 0;               // of serve()
+    int mPhase = 0;               // number of calls of serve()
     std::deque<PeerBytes> mTold;  // what came before it was asked for
 };
 

@@ -52,7 +52,7 @@ private:
     PeerLink& mLink;
     std::thread mThread;
     std::atomic<bool> mEnd = false, mFailed = false;
-    std::atomic<bool> mHeard = false;  // of the failure, by this process's own work
+    std::atomic<bool> mHeard = false;  // whether this process's own work has been told of the failure
     mutable std::mutex mMutex;
     std::condition_variable mNews;
     std::vector<Asking> mAsking;

@@ -1,4 +1,4 @@
-// What is painted over the surfaces of a finished picture: contour lines, what was seen before. Each eye is
+// Painters over the surfaces of a finished picture: contour lines, tints of what was seen before. Each eye is
 // painted by its own depths after it was made, so nothing painted is ever warped, both eyes show it at the
 // same places of the surface, and pictures without it pay nothing.
 #pragma once

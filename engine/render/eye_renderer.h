@@ -56,9 +56,9 @@ public:
         renderPixels(view, bounds, pixels, image);
     }
 
-    // Whether renderPixels wants to find, in the viewDepth of each pixel it casts, a depth before which the
-    // ray meets nothing (0: unknown), as far as the other eye saw (W9 of docs/ledger.md). Neighbours' depths
-    // mean nothing then.
+    // Returns whether renderPixels wants to find, in the viewDepth of each pixel it casts, a depth before
+    // which the ray meets nothing (0: unknown), as far as the other eye saw (W9 of docs/ledger.md).
+    // Neighbours' depths mean nothing then.
     virtual bool startsAtKnownDepth() const { return false; }
 
     // Returns false only if no ray through the rectangle hits anything before its view depth maxDepth(x) =
@@ -67,9 +67,9 @@ public:
     // true may mean nothing is there.
     virtual bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
                                   double parallaxScale) const = 0;
-    // The same question, for rectangles that lie in each other. freeDepth: a view depth up to which no ray
-    // through the rectangle is known to hit anything (0: unknown), raised by what this call finds; what it is
-    // then holds in every part of the rectangle.
+    // Answers what mayHitBeyondEdge() does, for rectangles that lie in each other. freeDepth: a view depth up
+    // to which no ray through the rectangle is known to hit anything (0: unknown), raised by what this call
+    // finds; what it is then holds in every part of the rectangle.
     virtual bool mayHitBeyondEdgeFrom(const EyeView& view, PixelRect rect, double column,
                                       double parallaxScale, double& freeDepth) const {
         (void)freeDepth;
@@ -79,7 +79,7 @@ public:
     // Whether, and from what, colours have to be evaluated again for the other eye. Images that carry
     // those planes get them written by the calls above.
     virtual ViewDependence viewDependence() const { return ViewDependence::None; }
-    // Whether colours are evaluated again by shadeAgain.
+    // Returns whether colours are evaluated again by shadeAgain.
     bool viewDependent() const {
         return viewDependence() == ViewDependence::Highlight || viewDependence() == ViewDependence::Normal;
     }
@@ -92,7 +92,8 @@ public:
         (void)view, (void)y, (void)x0, (void)x1, (void)image;
     }
 
-    // Whether the air before what is seen differs visibly between two eyes that are so many metres apart.
+    // Returns whether the air before what is seen differs visibly between two eyes that are `separation`
+    // apart, metres.
     virtual bool airDiffers(double separation) const {
         (void)separation;
         return false;
@@ -104,8 +105,8 @@ public:
         (void)from, (void)view, (void)y, (void)image;
     }
 
-    // Whether a pixel's colour is gathered from several depths, so that it can not be warped as a whole.
-    // viewDepth is then where the ray first meets anything.
+    // Returns whether a pixel's colour is gathered from several depths, so that it can not be warped as a
+    // whole. viewDepth is then where the ray first meets anything.
     virtual bool translucent() const { return false; }
     // Casts a tile as renderTile does, but image.viewDepth holds, for each pixel, a depth before which
     // nothing is expected (0: unknown, kMissDepth: nothing at all): the ray starts there with one jump (W12;

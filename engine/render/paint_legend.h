@@ -1,4 +1,4 @@
-// What the colours mean that a scene's surfaces are painted in, and what of it has a name.
+// The legend of the colours that a scene's surfaces are painted in, and names of things that are painted.
 #pragma once
 
 #include <glm/vec2.hpp>

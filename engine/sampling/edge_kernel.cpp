@@ -27,8 +27,8 @@ struct Bend {
     STEREONAV_INLINE M beyond(float share) const { return by > F(share) * largest; }
 };
 
-// Whether a channel of the pixel differs from that of one of its neighbours by more than `most`. Channels are
-// compared where they lie in the colour.
+// Returns whether a channel of the pixel differs from that of one of its neighbours by more than `most`.
+// Channels are compared where they lie in the colour.
 STEREONAV_INLINE M differs(const Neighbours<I>& color, int most) {
     const auto channel = [&](int shift) {
         const I field(1023 << shift);

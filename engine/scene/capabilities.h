@@ -1,4 +1,5 @@
-// What some scenes can do beyond being flown through. A scene offers what it can (Scene::offered).
+// Capabilities that only some scenes have, beyond being flown through. A scene offers what it can
+// (Scene::offered).
 #pragma once
 
 #include <cstdint>
@@ -43,9 +44,9 @@ class TurningLight {
 public:
     virtual ~TurningLight() = default;
     virtual SunPlace place() const = 0;
-    // A sky all around: its elevation is how far it is tilted.
+    // Returns whether the light is a sky all around, whose elevation is how far it is tilted.
     virtual bool isSky() const { return false; }
-    // Cheap where it stands there already.
+    // Turns the light to a place; cheap where it is there already.
     virtual void turnTo(const SunPlace& place) = 0;
 };
 
@@ -53,13 +54,13 @@ public:
 class SeenLight {
 public:
     virtual ~SeenLight() = default;
-    // What a frame saw is lit next; returns at once.
+    // Lights next what a frame saw; returns at once.
     virtual void seen(const EyeView& view, const EyeImage& image) = 0;
     // Counts changes, after which the last frame is to be drawn again.
     virtual std::uint64_t changes() const = 0;
     // Waits until all that was seen last is lit, for pictures.
     virtual void waitUntilDone() const {}
-    // Whether a picture is to wait for it: it begins without light.
+    // Returns whether a picture has to wait for the light, since it begins without any.
     virtual bool beginsDark() const { return false; }
 };
 
@@ -79,7 +80,8 @@ public:
 class LateDetail {
 public:
     virtual ~LateDetail() = default;
-    // Whether the frame that was made last lacks some. Both to the thread that makes frames.
+    // Returns whether the frame that was made last lacks some detail. For the thread that makes frames, as is
+    // waitForAll().
     virtual bool late() const = 0;
     // From now on frames wait for it.
     virtual void waitForAll() = 0;
@@ -91,7 +93,7 @@ public:
     virtual ~PictureLight() = default;
     // Throws Cancelled.
     virtual void light(const StereoViews& views, EyeImage& left, EyeImage& right, Progress& progress) = 0;
-    // What was done, a line each.
+    // Returns notes on what was done, a line each.
     virtual const std::vector<std::string>& notes() const = 0;
 };
 
@@ -100,7 +102,7 @@ class LightModels {
 public:
     virtual ~LightModels() = default;
     virtual const std::vector<std::string>& names() const = 0;
-    virtual int now() const = 0;  // of names()
+    virtual int now() const = 0;  // index into names()
     virtual void choose(int model) = 0;
 };
 
@@ -112,7 +114,7 @@ public:
     virtual std::string name() const = 0;  // one of these
 };
 
-// It moves by itself, by the time that frames are made at.
+// Offered by a scene that moves by itself, by the time that frames are made at.
 struct Animation {};
 
 // Frames that may be made with less work, and less exactly, while something moves.
@@ -131,10 +133,10 @@ public:
     // Distance to what is near, of the head and of eyes as far apart as they get, metres.
     virtual double clearanceAt(const Pose& head) const = 0;
     virtual double largestSeparation() const = 0;  // by hand, metres; may be infinite
-    // The window's eyes follow from the start.
+    // Returns whether the window's eyes follow the room from the start.
     virtual bool followsAtStart() const = 0;
-    // What tells pictures and videos of the room, whose eyes come together where it is narrow; null: theirs
-    // stay as they are.
+    // Returns the renderer by which pictures and videos measure the room, so that their eyes come together
+    // where it is narrow; null: their eyes stay as they are.
     virtual const EyeRenderer* wallForPictures() const = 0;
 };
 
@@ -159,12 +161,12 @@ struct LineOnMap {
     glm::dvec3 right{1, 0, 0}, up{0, 0, 1};  // unit world directions of the map's axes
 };
 
-// It lies in this box.
+// The box that the scene lies in.
 struct SceneBox {
     glm::dvec3 low{0.0}, high{0.0};  // world, metres
 };
 
-// Seen from straight above, north up.
+// A picture of the scene from straight above, north up.
 struct MapPicture {
     Plane<PackedColor> picture;  // row 0 northernmost
     glm::dvec2 northWest{0.0};   // world x, y of the outer corner of its first pixel
@@ -182,21 +184,22 @@ struct MapPicture {
 class MapFromAbove {
 public:
     virtual ~MapFromAbove() = default;
-    // The longer side has `most` pixels, at least 1. On any thread, also while frames are made. Throws
-    // Cancelled.
+    // Makes a picture whose longer side has `most` pixels, at least 1. On any thread, also while frames are
+    // made. Throws Cancelled.
     virtual MapPicture makeMap(int most, Progress& progress) const = 0;
 };
 
-// It lies on the Earth. Radians, WGS 84: north of the equator, east of Greenwich.
+// A place on the Earth. Radians, WGS 84: north of the equator, east of Greenwich.
 struct PlaceOnEarth {
     double latitude = 0, longitude = 0;
 };
 class OnEarth {
 public:
     virtual ~OnEarth() = default;
-    // None where its reference system has no such place. From any thread.
+    // Returns the place on the Earth; nothing where the scene's reference system has no such place. From any
+    // thread.
     virtual std::optional<PlaceOnEarth> placeAt(const glm::dvec3& world) const = 0;
-    // World x, y.
+    // Returns world x, y.
     virtual std::optional<glm::dvec2> worldAt(const PlaceOnEarth& place) const = 0;
     // Where north is at a world place, radians clockwise from the world's y: what is added to an azimuth of
     // the Earth (a sun's) to have one of the world. 0 where that is not known.
@@ -214,7 +217,7 @@ struct AmbientChoice {
     bool operator==(const AmbientChoice&) const = default;
 };
 
-// The same volume, seen differently. What is not set stays.
+// A change of how a volume's surface is shown. What is not set stays as it is.
 struct SurfaceChange {
     std::optional<double> isovalue;
     std::optional<bool> translucent;
@@ -228,7 +231,7 @@ struct SurfaceChoices {
     double isovalueStep = 0;
     bool translucent = false;
     std::vector<std::string> transfers;    // "": that of the options
-    std::string transfer;                  // of them: where translucent
+    std::string transfer;                  // the present one of transfers, where translucent
     std::optional<AmbientChoice> ambient;  // none: it has none
     std::vector<std::string> ambientMethods;
     double smallestRadius = 0, largestRadius = 0;  // metres

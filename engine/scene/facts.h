@@ -1,5 +1,5 @@
-// What there is to say of a scene: figures with their names and units, as a tree. Text for people, the rows
-// of a report and JSON (engine/scene/facts_json.h) are prints of the same facts.
+// Facts about a scene: figures with their names and units, as a tree. Text for people, the rows of a report
+// and JSON (engine/scene/facts_json.h) are prints of the same facts.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,10 @@ using FactValue = std::variant<std::monostate, bool, std::int64_t, double, std::
                                FactNumbers, FactWords, Facts, std::vector<Facts>>;
 
 struct Fact {
-    std::string key;  // of the value in JSON; "": not in JSON
+    std::string key;  // key of the value in JSON; "": not in JSON
     FactValue value;
-    std::string unit;  // of the value, "mm"; "": it has none, or the text says it
-    // What people read it under, "": it goes on with what is before. None: not in the text.
+    std::string unit;  // unit of the value, "mm"; "": it has none, or the text says it
+    // The label in text; "": the fact continues the one before. None: not in the text.
     std::optional<std::string> label;
     std::string text;  // "": the value and its unit, as they are
 };
@@ -60,7 +60,7 @@ private:
 // Lines "  label       text\n". A group (Facts) with a label has it as a heading, on a line of its own; the
 // facts of groups and of lists of groups follow, whether the group has a label or not.
 std::string linesOf(const Facts& facts);
-// The same without headings: label, text.
+// Returns label and text of each of these lines, without headings.
 std::vector<std::pair<std::string, std::string>> rowsOf(const Facts& facts);
 
 }  // namespace stereonav

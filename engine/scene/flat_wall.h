@@ -28,7 +28,7 @@ struct FlatMark {
     std::string label;
 };
 
-// What wall of this colour, linear RGB, looks like at a place where it is painted. From many threads.
+// Returns the painted colour of wall that has this colour, linear RGB, at a place. From many threads.
 using FlatTint = std::function<glm::vec3(const glm::dvec3& world, const glm::vec3& color)>;
 
 // From any thread. Pixels count from the top left corner of the wall; columns go along the line.
@@ -36,11 +36,11 @@ class FlatPicture {
 public:
     virtual ~FlatPicture() = default;
     virtual int width() const = 0;     // pixels
-    virtual int height() const = 0;    // of the wall, without the scale below it
+    virtual int height() const = 0;    // pixels of the wall, without the scale below it
     virtual double pixel() const = 0;  // metres of the wall, the side of a pixel
     // The wall in its light, and its scale. tint: null where nothing is painted.
     virtual Plane<PackedColor> picture(const FlatTint& tint) const = 0;
-    // Nothing beside the wall.
+    // Returns the place on the wall that a pixel shows; nothing beside the wall.
     virtual std::optional<FlatPlace> placeAt(int x, int y) const = 0;
     // Where the wall next to a place shows: once, more often, or not at all; nowhere if that wall is farther
     // than `within` metres.
@@ -55,7 +55,8 @@ public:
     // Takes seconds, on any thread, also while frames are made. What it makes lives no longer than the scene.
     // Throws Error, Cancelled.
     virtual std::shared_ptr<const FlatPicture> makeFlat(Progress& progress) const = 0;
-    // The same wall seen along the line, twice: ahead from its start, above; below back from its end.
+    // Makes a picture of the wall as seen along the line, twice: above looking ahead from its start, below
+    // looking back from its end.
     virtual std::shared_ptr<const FlatPicture> makePanorama(Progress& progress) const = 0;
 };
 

@@ -18,7 +18,8 @@ public:
     virtual double fromOther(double along) const = 0;
     // How unlike matched places are: 0 of a way with itself.
     virtual double cost() const = 0;
-    // Whether both may be the same way; where they are not, their places have nothing to do with each other.
+    // Returns whether both may be the same way; where they are not, their places have nothing to do with each
+    // other.
     virtual bool matches() const = 0;
 };
 
@@ -32,7 +33,7 @@ public:
     virtual Pose poseOnLine(double along, bool back) const = 0;
 };
 
-// Whether who looks so from a place `along` the way looks towards its start.
+// Returns whether who looks so from a place `along` the way looks towards its start.
 bool looksBack(const MatchingLine& line, double along, const Pose& eye);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// What a scene says of a line over its surface, for the window's measuring.
+// Measures a line over a scene's surface, for the window.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -12,7 +12,7 @@
 
 namespace stereonav {
 
-// What is being worked out beside the frames.
+// Paint that is being computed beside the frames.
 struct PaintWork {
     double fraction = 0;
     std::string what;
@@ -23,13 +23,16 @@ struct PaintWork {
 class LivePaint {
 public:
     virtual ~LivePaint() = default;
-    // Whether it can be had without another scene. "": nothing is painted by that key.
+    // Returns whether the scene can be painted so without being loaded again. "": nothing is painted by that
+    // key.
     virtual bool takes(const std::string& key, const std::string& text) const = 0;
-    // What was asked for last: what could not be had, or was cancelled, goes back to what is shown.
+    // Returns the paint that was asked for last. What could not be had, or was cancelled, goes back to what
+    // is shown.
     virtual std::string now(const std::string& key) const = 0;
     // Returns at once. Throws Error for texts that the option does not take.
     virtual void ask(const std::string& key, const std::string& text) = 0;
-    // What is seen from so high above the ground there, world x, y: `paint` has its text when it is there.
+    // Asks for a paint of what is seen from a place, world x, y, at `height` above the ground: `paint` has
+    // its text when it is there.
     virtual void askSeenFrom(const glm::dvec2& place, double height) = 0;
 
     // Another one whenever what is painted changes: the frame is to be made again.

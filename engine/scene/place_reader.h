@@ -1,4 +1,4 @@
-// What a scene says of a place on its surface, for the line under the pointer.
+// Facts of a place on a scene's surface, for the line under the pointer.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,9 +11,9 @@ namespace stereonav {
 class PlaceReader {
 public:
     virtual ~PlaceReader() = default;
-    // Facts of a world place at or near the surface, with a label each, and texts that are short enough for
-    // one line together. None where nothing is there. From any thread; quick enough for each motion of a
-    // pointer.
+    // Returns facts of a world place at or near the surface, with a label each, and texts that are short
+    // enough for one line together. Returns nothing where nothing is there. From any thread; quick enough for
+    // each motion of a pointer.
     virtual Facts readPlace(const glm::dvec3& world) const = 0;
 };
 

@@ -21,7 +21,7 @@ struct StudyValues {
     std::function<ValueCounts(Progress&)> count;
 };
 
-// What the study was shown as when it was read, which options say.
+// The surface that options gave when the study was read.
 struct BegunSurface {
     std::optional<double> isovalue;  // none: it can not be moved
     bool isovalueChosen = false;     // no option says it

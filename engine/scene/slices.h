@@ -20,9 +20,9 @@ struct SlicePieces {
         std::string text;       // what it is and why it was taken or left; "": nothing is worth a word
         bool sure = true;
     };
-    VoxelRuns runs;  // of the study's grid
+    VoxelRuns runs;  // runs of voxels, in the study's grid
     Components parts;
-    std::vector<Piece> list;           // of each component
+    std::vector<Piece> list;           // one for each component
     std::optional<double> fluidAbove;  // values above it are tagged fluid, which is chosen too; none in masks
 
     int at(const glm::ivec3& voxel) const { return parts.at(runs, voxel); }  // -1: none
@@ -45,7 +45,7 @@ public:
     virtual const MaskVolume* lumen() const = 0;
     // World places that it was found from.
     virtual const std::vector<glm::dvec3>& seeds() const = 0;
-    // What somebody changed in the pieces that were taken.
+    // Returns the user's changes to the pieces that were taken.
     virtual const PieceChoices& pieceChoices() const = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a scene measures where a person clicks on its surface, for the window's list of findings.
+// Measures a scene's surface where a person clicks, for the window's list of findings.
 #pragma once
 
 #include <filesystem>
@@ -24,13 +24,13 @@ struct SurfaceFinding {
     std::string comment;
     bool measured = false;            // what follows is known
     bool found = false;               // there is something: else `note` says why not
-    std::string note;                 // of this one alone; "": none
+    std::string note;                 // note on this one alone; "": none
     double diameter = 0;              // metres
     std::vector<std::string> lines;   // what else is told of it, short
     std::vector<glm::dvec3> outline;  // world places on the surface, to be drawn as points
-    std::vector<glm::dvec3> across;   // the same of its longest diameter, from end to end
+    std::vector<glm::dvec3> across;   // places along its longest diameter, from end to end
     glm::dvec3 middle{0.0};           // world, metres
-    std::optional<Pose> view;         // of eyes that see it, where nothing is in the way
+    std::optional<Pose> view;         // pose of eyes that see it, where nothing is in the way
     std::shared_ptr<const Own> own;   // never null of one that the scene made
 };
 using FindingRefs = std::vector<const SurfaceFinding*>;
@@ -40,10 +40,10 @@ class SurfaceFindings {
 public:
     virtual ~SurfaceFindings() = default;
 
-    // One that is not measured yet; quick.
+    // Returns a finding that is not measured yet; quick.
     virtual SurfaceFinding at(const glm::dvec3& place, const std::string& comment) const = 0;
-    // The same, measured. study: whose values are told, null: without. The first call makes what it takes,
-    // which takes seconds. Throws Error, Cancelled.
+    // Returns the finding, measured. study: whose values are told, null: without. The first call prepares the
+    // measuring, which takes seconds. Throws Error, Cancelled.
     virtual SurfaceFinding measured(const SurfaceFinding& finding,
                                     const std::shared_ptr<const SliceStudy>& study,
                                     Progress& progress) const = 0;
@@ -51,20 +51,21 @@ public:
     virtual std::vector<SurfaceFinding> candidates(const std::shared_ptr<const SliceStudy>& study,
                                                    Progress& progress) const = 0;
 
-    // A note for each of a list, in which two may be of one thing; "": none.
+    // Returns a note for each finding of the list, where two may be one thing; "": none.
     virtual std::vector<std::string> notesOn(const FindingRefs& list) const = 0;
     virtual std::string summaryOf(const FindingRefs& list) const = 0;  // one line
     virtual std::string notice() const = 0;                            // one line that goes with all of it
-    // The document that keeps a list, and the list of one, not measured. name: of its file, for the Error.
+    // Return the document that stores a list; and the list that a document stores, not measured. name: of the
+    // document's file, for the Error.
     virtual std::string documentOf(const FindingRefs& list) const = 0;
     virtual std::vector<SurfaceFinding> listOf(const std::string& document,
                                                const std::filesystem::path& name) const = 0;
-    // One HTML page of a list. Throws Error, Cancelled.
+    // Returns an HTML page of a list. Throws Error, Cancelled.
     virtual std::string pageOf(const FindingRefs& list, const std::shared_ptr<const SliceStudy>& study,
                                Progress& progress) const = 0;
-    // Why there can be no DICOM structured report of a list; "": there can. Quick.
+    // Returns why there can be no DICOM structured report of a list; "": there can. Quick.
     virtual std::string whyNoReport() const = 0;
-    // The bytes of that report's file. Throws Error.
+    // Returns the bytes of that report's file. Throws Error.
     virtual std::string reportOf(const FindingRefs& list) const = 0;
 };
 

@@ -1,5 +1,5 @@
-// What a scene's surfaces are painted with in pictures that are shown or written. Comparisons and reports
-// leave it out: it is the same for every way of making a frame.
+// Painters of a scene's surfaces in pictures that are shown or written. Comparisons and reports leave paint
+// out: it is the same for every way of making a frame.
 #pragma once
 
 #include <memory>

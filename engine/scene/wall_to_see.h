@@ -13,7 +13,7 @@
 
 namespace stereonav {
 
-// What counts as seen, and what is listed.
+// Rules for what counts as seen, and for which unseen parts are listed.
 struct WallLooking {
     double within = 0.1;                // metres from the eye, > 0
     double angle = 1.4835298641951802;  // radians, 85 degrees: off the wall's normal, in (0, pi / 2]
@@ -29,17 +29,18 @@ struct UnseenPart {
     std::optional<Pose> view;  // a view that shows it; none where there is no room for an eye
 };
 
-// What was seen of it so far. Used by one thread at a time, also while frames are made; the scene outlives
+// The wall that was seen so far. Used by one thread at a time, also while frames are made; the scene outlives
 // it.
 class WallSeen {
 public:
     virtual ~WallSeen() = default;
-    // Adds what these show. Throws Cancelled.
+    // Adds the wall that these eyes show. Throws Cancelled.
     virtual void look(std::span<const EyeView> eyes, Progress& progress) = 0;
-    // Nothing is seen any more. Throws Error where a number is out of range.
+    // Forgets what was seen and judges by other rules from now on. Throws Error where a number is out of
+    // range.
     virtual void judgeBy(const WallLooking& looking) = 0;
-    virtual double percent() const = 0;                             // of the wall's area
-    virtual std::vector<UnseenPart> unseen() const = 0;             // largest first
+    virtual double percent() const = 0;                  // share of the wall's area seen, in percent
+    virtual std::vector<UnseenPart> unseen() const = 0;  // largest first
     virtual std::shared_ptr<const EyePainter> painter() const = 0;  // tints what was not seen until now
 };
 

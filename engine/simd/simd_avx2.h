@@ -299,7 +299,8 @@ struct ToFront {
     STEREONAV_INLINE F operator()(F a) const { return _mm256_permutevar8x32_ps(a.v, order); }
     STEREONAV_INLINE I operator()(I a) const { return _mm256_permutevar8x32_epi32(a.v, order); }
 };
-// The other way: the lanes of m get a's first, in their order; the others any of a's numbers.
+// The reverse of ToFront: the lanes of m get a's first numbers, in their order; the others any of a's
+// numbers.
 STEREONAV_INLINE I fromFront(I a, M m) {
     return _mm256_permutevar8x32_epi32(a.v, lanesOfBytes(kLaneOrders.rank[bits(m)]));
 }

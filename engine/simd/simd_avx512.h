@@ -261,7 +261,7 @@ struct ToFront {
     STEREONAV_INLINE F operator()(F a) const { return _mm512_maskz_compress_ps(lanes, a.v); }
     STEREONAV_INLINE I operator()(I a) const { return _mm512_maskz_compress_epi32(lanes, a.v); }
 };
-// The other way: the lanes of m get a's first, in their order; the others any number.
+// The reverse of ToFront: the lanes of m get a's first numbers, in their order; the others any number.
 STEREONAV_INLINE I fromFront(I a, M m) {
     return _mm512_maskz_expand_epi32(m.v, a.v);
 }

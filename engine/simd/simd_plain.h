@@ -199,7 +199,7 @@ STEREONAV_INLINE M operator>(I a, I b) {
 STEREONAV_INLINE M operator==(I a, I b) {
     return {a.v == b.v};
 }
-// Whether 0 <= a <= last.
+// Returns whether 0 <= a <= last.
 STEREONAV_INLINE M within(I a, I last) {
     return {(a.v >= 0) & (a.v <= last.v)};
 }

@@ -1,5 +1,5 @@
-// What kernels over rows of pixels need beside simd.h: operations across the lanes of neighbouring vectors,
-// and on the two sixteen-bit halves of each lane. The plain form is the meaning of the others.
+// Operations for kernels over rows of pixels, beside simd.h: across the lanes of neighbouring vectors, and on
+// the two sixteen-bit halves of each lane. The plain form is the meaning of the others.
 #pragma once
 
 #include "engine/simd/simd.h"

@@ -6,7 +6,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kUsedShare = 0.95;  // of the limits: eyes that move see a little nearer or farther
+constexpr double kUsedShare = 0.95;  // share of the limits: eyes that move see a little nearer or farther
 
 bool within(const ParallaxRange& parallax, double nearest, double farthest) {
     return parallax.near >= nearest && parallax.far <= farthest;

@@ -11,7 +11,7 @@ namespace stereonav {
 constexpr int kContrastClasses = 41;
 constexpr std::uint8_t kNoContrast = 255;  // the class of a hole
 
-// What the kernel reads of three rows, and the classes that it writes.
+// Three rows that the kernel reads, and the classes that it writes.
 struct ContrastRow {
     const std::uint32_t *above, *row, *below;             // packed colours; at the border the row itself
     const std::uint8_t *holesAbove, *holes, *holesBelow;  // 255 where nothing is known; the same

@@ -14,8 +14,8 @@ struct DepthSplatRow {
     float* depth;         // metres; in: the nearer of two survivors, 0 unknown; out: where a ray may start
     std::uint8_t* holes;  // out: 255 where nothing is known
     int width;            // pixels
-    float share;          // by which depths are shortened,
-    float rangeShare;     // and by which the difference between the pixel and the two beside it is taken off
+    float share;          // share by which depths are shortened
+    float rangeShare;     // share of the difference to the two pixels beside it that is taken off
     float* scratch;       // width + 2 numbers
 };
 

@@ -56,7 +56,7 @@ ContrastCounts findContrast(const Plane<std::uint32_t>& color, const Plane<std::
     const int tasks = (color.height() + kRowsOfTask - 1) / kRowsOfTask;
     std::vector<ContrastCounts> parts(static_cast<std::size_t>(tasks));
     parallelFor(tasks, [&](int task) {
-        std::array<long long, 256> counts{};  // of every byte: no branch for holes
+        std::array<long long, 256> counts{};  // one for each value of a byte: no branch for holes
         for (int y = task * kRowsOfTask; y < std::min((task + 1) * kRowsOfTask, color.height()); ++y) {
             contrast(rowOf(color, holes, classes, y));
             const std::uint8_t* row = classes.row(y);

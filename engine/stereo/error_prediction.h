@@ -24,8 +24,8 @@ struct ErrorCalibration {
     // margin[c], is not exceeded by 95 of 100 frames.
     std::array<double, kContrastClasses + 1> margin{};
 
-    // Returns what is expected for a frame of so many pixels, whose classes from `cast` on are exact; squared
-    // sRGB byte steps.
+    // Returns the mean square error that is expected for a frame of `pixels` pixels whose classes from `cast`
+    // on are exact; squared sRGB byte steps.
     double expectedMeanSquare(const ContrastCounts& counts, double pixels, int cast = kContrastClasses) const;
     // Returns the PSNR that 95 % of frames exceed; kMostPsnr_db where nothing is expected.
     double boundPsnr_db(const ContrastCounts& counts, double pixels, int cast = kContrastClasses) const;

@@ -32,7 +32,7 @@ struct FramePlan {
     std::size_t bytes = 0;  // held for both eyes and the hole mask
     std::string reason;     // one sentence with the figures
 
-    // Whether the right eye is warped rather than cast in full.
+    // Returns whether the right eye is warped rather than cast in full.
     bool warps() const { return method != RightEyeMethod::Full; }
 };
 
@@ -41,9 +41,9 @@ FramePlan planFromCosts(const FrameCosts& costs, int width, int height, ViewDepe
                         RightEyeMethod warp = kDefaultRightEyeMethod);
 
 // Measures a few calibration frames (all views of one size, at least one), in their order, and decides. Takes
-// about `budget_ms`, but three frames at least, where there are so many; the first is made once before it is
-// timed. warp: the method that is weighed against the full cast; none: defaultMethodFor(renderer). Throws
-// Error without views.
+// about `budget_ms`, but three frames at least, or all where there are fewer; the first is made once before
+// it is timed. warp: the method that is weighed against the full cast; none: defaultMethodFor(renderer).
+// Throws Error without views.
 FramePlan planFrame(const EyeRenderer& renderer, std::span<const StereoViews> views,
                     std::optional<RightEyeMethod> warp = std::nullopt, double budget_ms = 300.0);
 

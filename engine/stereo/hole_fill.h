@@ -46,7 +46,7 @@ private:
     void cutBand(const Plane<std::uint8_t>& mask, int band);
 
     std::vector<PixelIndex> mPixels;  // kBandWidth * height for each band
-    std::vector<int> mHoles;          // of each band
+    std::vector<int> mHoles;          // number of holes in each band
     std::vector<Task> mTasks;
 };
 

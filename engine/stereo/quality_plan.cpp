@@ -111,7 +111,7 @@ Outcome refined(const MeasuredWarps& measured, const MeasuredWarp& warp, double 
     return outcome;
 }
 
-// Whether b is to be taken in place of a, which comes before it in the list.
+// Returns whether b is to be taken in place of a, which comes before it in the list.
 bool isBetter(const Outcome& b, const Outcome& a, bool leastError) {
     if (b.fits != a.fits) return b.fits;
     if (!b.fits) return b.plan.both_ms < a.plan.both_ms;

@@ -13,7 +13,7 @@
 
 namespace stereonav {
 
-// What --quality, --target-psnr and --target-ms ask for.
+// Wishes of --quality, --target-psnr and --target-ms.
 struct QualityWish {
     std::optional<double> quality =
         std::nullopt;  // share of the first way's expected squared error to be removed, 0 to 1
@@ -31,7 +31,7 @@ struct MeasuredWarp {
     // Pixels of each frame by the contrast around them, without holes; empty for the full cast, which has no
     // setting.refinement.calibration either.
     std::vector<ContrastCounts> counts;
-    std::vector<double> holes;  // of each frame: pixels that the way casts itself
+    std::vector<double> holes;  // for each frame: pixels that the way casts itself
     double right_ms = 0;        // mean of the frames, of each the least of its repeats
     double ray_ns = 0;          // expected for each pixel cast in addition
 };

@@ -23,12 +23,12 @@ STEREONAV_INLINE M unlike(M a, M b) {
     return andNot(a, b) | andNot(b, a);
 }
 
-// What a block of left pixels needs to know of the blocks to its right.
+// Data of the blocks to the right, for a block of left pixels.
 struct ToTheRight {
-    F column;                     // of the next block
-    F leftmost;                   // of all blocks, in every lane
+    F column;                     // column of the next block
+    F leftmost;                   // least column of all blocks, in every lane
     I begin;                      // first right pixel whose centre is not left of it, in every lane
-    M survives, met, wide, link;  // of the next block
+    M survives, met, wide, link;  // masks of the next block
 };
 
 STEREONAV_INLINE M linksOf(const ResampleRow& row, int i, F depth, F gap, M survives, ToTheRight& right) {

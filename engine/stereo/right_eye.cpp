@@ -187,7 +187,7 @@ struct RightEye::State {
     void warp(const EyeRenderer& renderer, const WarpJob& job);
     void copy(const WarpJob& job);
     void refine(const WarpJob& job, RightEyeTimings& timings);
-    // Both give the number of pixels that were not known.
+    // Return the number of pixels that were not known.
     long long fill(const EyeRenderer& renderer, const WarpJob& job);
     long long castFromDepths(const EyeRenderer& renderer, const WarpJob& job) const;
 };

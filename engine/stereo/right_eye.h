@@ -46,7 +46,7 @@ struct WarpSetting {
     Schedule fillSchedule = Schedule::Dynamic;  // Dynamic sorts the bands by their number of holes
 };
 
-// What a right eye took, and how many of its pixels were cast.
+// Times of a right eye, and the number of its pixels that were cast.
 struct RightEyeTimings {
     double warp_ms = 0, fill_ms = 0;  // DepthSplat: splatting, and casting every pixel
     // Pixels cast again, of width * height. DepthSplat: those cast without knowing where to start.

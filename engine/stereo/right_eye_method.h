@@ -51,11 +51,11 @@ RightEyeMethod defaultMethodFor(const EyeRenderer& renderer);
 // walls, wrong where layers are seen through each other, which is where selective casts.
 std::vector<RightEyeMethod> methodsFor(const EyeRenderer& renderer);
 
-// Whether pixels that the warp does not reach are left as they are: nothing is cast.
+// Returns whether pixels that the warp does not reach are left as they are: nothing is cast.
 bool leavesHoles(RightEyeMethod method);
-// Whether every pixel is cast, from a depth that the left eye tells.
+// Returns whether every pixel is cast, from a depth that the left eye tells.
 bool castsFromDepths(RightEyeMethod method);
-// Whether warped pixels may be cast as well, for a wish of quality (Refinement).
+// Returns whether warped pixels may be cast as well, for a wish of quality (Refinement).
 bool hasQualityDial(RightEyeMethod method);
 // Returns nullopt for an unknown name.
 std::optional<RightEyeMethod> rightEyeMethodFromName(std::string_view name);

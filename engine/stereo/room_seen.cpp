@@ -10,8 +10,8 @@ namespace stereonav {
 namespace {
 
 constexpr double kComfortSeconds = 1.0;  // time constant
-constexpr double kComfortShare = 0.95;   // of the parallax that is warned of
-constexpr double kReleased = 1e-4;       // of the separation: less is no limit any more
+constexpr double kComfortShare = 0.95;   // share of the parallax that is warned of
+constexpr double kReleased = 1e-4;       // share of the separation: less is no limit any more
 
 }  // namespace
 

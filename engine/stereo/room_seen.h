@@ -41,7 +41,7 @@ using StereoFollower = std::function<StereoSetting(double free, double depth, do
 // together until their parallax is comfortable, slowly.
 class ComfortLimit {
 public:
-    // Notes that a picture was made with eyes so far apart, metres.
+    // Notes that a picture was made with eyes `separation` apart, metres.
     void observe(double separation, const ParallaxRange& parallax);
     // Returns the setting with its eyes as near to each other as is comfortable; dt: seconds since the last.
     StereoSetting limited(StereoSetting wanted, double dt) { return limited(wanted, dt, kLeastShare); }

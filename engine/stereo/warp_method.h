@@ -1,5 +1,5 @@
-// What one way to the right eye is: how it warps a row, and what follows from that. Shared among
-// right_eye.cpp and the method_*.cpp.
+// A way of making the right eye: how it warps a row, and what follows from that. Shared among right_eye.cpp
+// and the method_*.cpp.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct WarpScratch {
     std::vector<float> column, inverse, accumulators;  // rows for ResampleRow and SplatRow
     std::vector<std::int32_t> source;
 
-    // Resizes for rows of so many pixels; accumulators are there where `splats`.
+    // Resizes for rows of `width` pixels; makes accumulators where `splats` is true.
     void resize(int width, bool splats);
 };
 
@@ -38,7 +38,7 @@ struct WarpJob {
     // The rows' shift (pixels) and scale (pixels * metres): ResampleRow.
     float shift() const { return static_cast<float>(views.shiftAtInfinity); }
     float scale() const { return static_cast<float>(views.parallaxScale); }
-    // Whether normals, from which colours follow, are moved from eye to eye in place of colours.
+    // Returns whether normals, from which colours follow, are moved from eye to eye in place of colours.
     bool movesNormals() const { return dependence == ViewDependence::Normal; }
     const Plane<std::uint32_t>& from() const { return movesNormals() ? left.normal : left.color; }
     Plane<std::uint32_t>& to() const { return movesNormals() ? right.normal : right.color; }
@@ -47,7 +47,7 @@ struct WarpJob {
 // Warps row y: writes job.to(), job.right.viewDepth and job.mask, every pixel of the row.
 using WarpRowFunction = void (*)(const WarpJob& job, ResampleFunction resample, WarpScratch& scratch, int y);
 
-// What becomes of the pixels that the warp marked.
+// Treatment of the pixels that the warp marked.
 enum class AfterWarp {
     Cast,            // holes are cast
     Leave,           // holes are left black

@@ -1,5 +1,6 @@
-// What JSON would take of a parser, told before one sees it: values within values take its stack, as do
-// copies of them and their end, and each value takes memory, many times what it takes in the file.
+// Estimates the stack and memory that JSON would take of a parser, before one reads it: values within values
+// take its stack, as do copies of them and their end, and each value takes memory, many times what it takes
+// in the file.
 #pragma once
 
 #include <string>

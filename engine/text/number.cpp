@@ -7,8 +7,8 @@
 namespace stereonav {
 namespace {
 
-// Whether digits that no double holds are too large for one. Their magnitude is that of the first digit that
-// is not 0, and the exponent.
+// Returns whether digits that no double holds are too large for one. Their magnitude is that of the first
+// digit that is not 0, and the exponent.
 bool tooLarge(std::string_view digits) {
     long long exponent = 0;
     const std::size_t e = digits.find_first_of("eE");

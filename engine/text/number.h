@@ -13,8 +13,8 @@ enum class Plus { Refused, Allowed };  // before a number
 // double holds is 0 or infinite. Returns none, and leaves `rest` as it was, where it begins with something
 // else.
 std::optional<double> takeNumber(std::string_view& rest, Plus plus = Plus::Refused);
-// Returns the whole text as a number; also "inf" and "nan", and 0 where no double is so small. None where it
-// is something else or beyond all doubles.
+// Returns the whole text as a number; also "inf" and "nan", and 0 where no double is so small. Returns
+// nothing where it is something else or beyond all doubles.
 std::optional<double> numberOf(std::string_view text, Plus plus = Plus::Refused);
 
 // Takes the whole number that the text begins with, as takeNumber() does.

@@ -10,7 +10,7 @@ namespace stereonav {
 
 inline constexpr std::size_t kLongestWords = 500, kLongestLine = 4000;  // bytes
 
-// Whether a letter is drawn, or is a blank. Control characters (C0, DEL, C1), marks and overrides of
+// Returns whether a letter is drawn, or is a blank. Control characters (C0, DEL, C1), marks and overrides of
 // direction, separators of lines, and what is not seen at all or is no character are not printable.
 bool isPrintable(char32_t letter);
 

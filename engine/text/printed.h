@@ -1,4 +1,4 @@
-// What the program says on standard output and standard error. All of it goes through here, but for what a
+// Output of the program on standard output and standard error. All of it goes through here, but for what a
 // document has in its own form (JSON, CSV, SVG): whatever a line holds, it is text alone (printable.h).
 #pragma once
 

@@ -57,9 +57,9 @@ public:
     void readDegrees(const std::string& key, double& value, const NumberRange& rangeDegrees);
 
     // Returns a value as an option of the command line has it: a list of numbers is one text, with commas
-    // between them; a list of anything else one text for each. Empty where the key is absent.
+    // between them; a list of anything else one text for each. Returns nothing where the key is absent.
     std::vector<std::string> texts(const std::string& key);
-    // Whether the value is true or false.
+    // Returns whether the value is true or false.
     bool isFlag(const std::string& key) const;
     // Returns the key's line, from 1; 0 where the key is absent.
     int line(const std::string& key) const;

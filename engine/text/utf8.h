@@ -17,19 +17,19 @@ struct Letter {
 // Returns the letter that starts at a byte of the text. A byte that starts none, a form longer than need be,
 // a surrogate and what lies beyond U+10FFFF are kNoLetter, of one byte.
 Letter letterAt(std::string_view text, std::size_t at);
-// Whether a byte of the text started no letter: U+FFFD itself takes three.
+// Returns whether the letter stands for a byte that starts no letter: U+FFFD itself takes three.
 inline bool isNoLetter(const Letter& letter) {
     return letter.code == kNoLetter && letter.bytes < 3;
 }
-// Whether a byte goes on with a letter that began before it.
+// Returns whether a byte goes on with a letter that began before it.
 inline bool isInsideLetter(char byte) {
     return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
 }
 
-// Returns the text up to so many bytes, cut between two letters.
+// Returns the first `most` bytes of the text, cut between two letters.
 std::string_view firstBytes(std::string_view text, std::size_t most);
 
-// Returns the text up to so many letters, with an ellipsis in the place of those that were cut off.
+// Returns the first `most` letters of the text, with an ellipsis in the place of those that were cut off.
 std::string firstLetters(const std::string& text, std::size_t most);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// What is kept of active cells, brick by brick: records, or a dense brick's normals. Shared among
+// Stored data of active cells, brick by brick: records, or a dense brick's normals. Shared among
 // engine/volume/*.cpp only.
 #pragma once
 

@@ -22,7 +22,7 @@ struct FourRows {
 // 65,535 that two 16-bit numbers may lie apart.
 constexpr float kValueRounding = 0x1p-4f;
 
-// Whether any voxel of the cell or of those around it is at most `value`.
+// Returns whether any voxel of the cell or of those around it is at most `value`.
 bool anyAround(const GreyVolume& volume, int i, int j, int k, int value) {
     const glm::ivec3 first = glm::max(glm::ivec3(i, j, k) - 1, 0),
                      last = glm::min(glm::ivec3(i, j, k) + 2, volume.frame.size - 1);

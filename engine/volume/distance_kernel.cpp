@@ -1,6 +1,7 @@
 // Least squared distance over the lines of a plane, kLanes columns side by side, for one instruction set.
-// The parabolas of Felzenszwalb and Huttenlocher 2012, but no envelope: what is d away can not help a voxel
-// whose distance is below d already, and lumens are narrow, so lines are tried outwards until none can help.
+// Takes the least of the parabolas of Felzenszwalb and Huttenlocher 2012, but without their lower envelope: a
+// line at distance d can not improve a voxel whose distance is already below d, and lumens are narrow, so
+// lines are tried outwards until none can improve any.
 #include "engine/simd/simd.h"
 #include "engine/volume/distance_kernel_types.h"
 
@@ -19,7 +20,8 @@ STEREONAV_INLINE float squareOf(int n) {
     return static_cast<float>(n) * static_cast<float>(n);
 }
 
-// The least over all lines for kLanes columns of one line, `start` being its own squared distances.
+// Returns the least squared distance over all lines, for kLanes columns of one line. start: the line's own
+// squared distances.
 STEREONAV_INLINE F leastOverLines(const DistancePlane& plane, const float* at, int line, F start) {
     F least = start;
     if (plane.seedsBelow) least = min(least, F(squareOf(line + 1) * plane.weight));
@@ -46,7 +48,8 @@ STEREONAV_INLINE F leastOverLines(const DistancePlane& plane, const float* at, i
     return least;
 }
 
-// The root taken in single precision is at most one unit above what it should be; doubles tell.
+// Returns the distance in whole units, rounded down. The root in single precision is at most one unit too
+// large, which double precision corrects.
 STEREONAV_INLINE I inUnits(F squared, const DistanceUnits& units) {
     const F length = min(sqrt(squared) * F(units.perLength), F(static_cast<float>(kMost)));
     const I q = truncateToInt(length * F(1.000001f) + F(1e-6f));

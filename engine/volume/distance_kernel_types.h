@@ -1,4 +1,4 @@
-// What the distance transform's kernels are given: plain numbers only, since they are compiled for several
+// Arguments of the distance transform's kernels: plain numbers only, since they are compiled for several
 // instruction sets.
 #pragma once
 
@@ -19,7 +19,7 @@ struct DistancePlane {
     bool seedsBelow = true, seedsAbove = true;  // whether line -1, and line `lines`, is all seeds
 };
 
-// Columns come in chunks of so many: the most lanes that a kernel has.
+// Columns in a chunk: the most lanes that a kernel has.
 constexpr int kDistanceChunk = 16;
 
 // Squared distances to units: the largest q with q * q * squaredUnit <= squared * keep.

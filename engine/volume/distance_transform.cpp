@@ -137,8 +137,8 @@ private:
             }
     }
 
-    // Whether what lies next to the first voxel of a range, or to the last, is a seed: always unless it is
-    // beyond the volume.
+    // Returns whether what lies next to the first voxel of a range, or to the last, is a seed: always unless
+    // it is beyond the volume.
     bool seedsBelow(const Range& range) const { return mOutsideIsSeed || range.begin > 0; }
     bool seedsAbove(const Range& range, int axis) const {
         return mOutsideIsSeed || range.end < mMask.frame.size[axis];
@@ -278,11 +278,11 @@ private:
     float mMostSquared = 0;  // in smallest spacings
     DistanceKernels mKernels;
     std::vector<Range> mRows;  // columns of set voxels, by row
-    Range mBox[3];             // of set voxels, by axis
+    Range mBox[3];             // range of set voxels, by axis
     float mWeight[3] = {1, 1, 1};
     int mStride = 0;
     Range mBlock;               // lines of the box
-    LazyArray<float> mSquares;  // of these
+    LazyArray<float> mSquares;  // squared distances of those lines
 };
 
 }  // namespace

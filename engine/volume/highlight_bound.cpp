@@ -6,7 +6,8 @@
 namespace stereonav {
 namespace {
 
-// Light that a place sends whatever its normal is. Colours of transfer functions may be black.
+// Returns the least light that a place sends, whatever its normal is; 0 with a transfer function, whose
+// colours may be black.
 double leastLight(const VolumeLook& look) {
     const bool opennessAlone = look.occlusion.openness && !look.baked.light;
     if (!look.transfer.empty() || opennessAlone) return 0;
@@ -18,7 +19,7 @@ double leastLight(const VolumeLook& look) {
 
 double faintHighlightCosine(const VolumeLook& look) {
     if (!(look.specular > 0)) return 0;
-    const double share = kFaintHighlight / 1023;  // of a channel's square root
+    const double share = kFaintHighlight / 1023;  // share of a channel's square root
     const double faint = std::max(share * share, 2 * share * std::sqrt(leastLight(look)));
     return std::pow(faint / look.specular, 1.0 / std::max(look.shininess, 1e-3f));
 }

@@ -59,13 +59,13 @@ STEREONAV_INLINE Turns turnsOf(const Cubic& f) {
     const F first = q * approxReciprocal(F(3.0f) * f.c3), second = f.c1 * approxReciprocal(q);
     return {select(falling, first, second), select(falling, second, first), discriminant > zero};
 }
-// Whether the local maximum lies in (0, 1) and is >= 0.
+// Returns whether the local maximum lies in (0, 1) and is >= 0.
 STEREONAV_INLINE M topsOut(const Cubic& f, const Turns& turns) {
     const F zero(0.0f);
     return turns.bent & (turns.high > zero) & (turns.high < F(1.0f)) & (f.at(turns.high) >= zero);
 }
 
-// Whether firstRoot finds one.
+// Returns whether firstRoot() finds a root.
 STEREONAV_INLINE M hasRoot(const Cubic& f, M m) {
     const F zero(0.0f);
     return m & ((f.c0 >= zero) | (f.at(F(1.0f)) >= zero) | topsOut(f, turnsOf(f)));

@@ -9,7 +9,7 @@ namespace stereonav::STEREONAV_ISA {
 
 constexpr float kEnoughLeft = 1.0f / 1024;  // share of the light: less than a packed step
 
-// What a ray has gathered.
+// Light and transmittance that a ray has gathered.
 struct Composite {
     F red, green, blue;  // linear RGB
     F through;           // share of what lies behind that passes
@@ -115,7 +115,7 @@ STEREONAV_INLINE F spreadOf(const Composite& sum) {
 
 // Returns what was gathered before the background, as a packed colour.
 STEREONAV_INLINE I compositeColor(const VolumeData& data, const Composite& sum) {
-    // What is left at the end is too little to see; the rest is what the background shows through.
+    // A transmittance below kEnoughLeft counts as 0; else the background shows through by it.
     const F through = select(sum.through < F(kEnoughLeft), F(0.0f), sum.through);
     const Light behind = backgroundOf(data.light);
     return packLight({mulAdd(through, behind.red, sum.red), mulAdd(through, behind.green, sum.green),

@@ -93,7 +93,7 @@ STEREONAV_INLINE V3 downOf(const CellData& cells, const Corners& c, const V3& p)
                    mulAdd(weight, corner.z, sum.z)};
         }
     }
-    // Nothing tells a side: up.
+    // Where nothing tells a side the normal points up.
     sum.z = select(dot(sum, sum) > F(1e-12f), sum.z, one);
     const F agreeing = clamp((agree - F(kApart)) * F(1 / (kAgree - kApart)), zero, one);
     // Not where the mix is of the other side.

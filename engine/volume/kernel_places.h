@@ -1,5 +1,5 @@
-// What is kept of active cells (surface_cells.h): where it lies, and the values at a cell's corners. Included
-// by kernels only.
+// Looks up the stored data of active cells (surface_cells.h): where it lies, and the values at a cell's
+// corners. Included by kernels only.
 #pragma once
 
 #include "engine/volume/kernel_rays.h"

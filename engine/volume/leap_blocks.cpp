@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    // Whether a cell ends leaps: it is active, or not in the region, where codes were not written.
+    // Returns whether a cell ends leaps: it is active, or not in the region, where codes were not written.
     bool endsLeaps(std::uint8_t code) const {
         return code == kActiveYet || (code == 0 && mSetting.region != nullptr);
     }
@@ -182,7 +182,7 @@ private:
         return false;
     }
 
-    // Whether something that ends leaps may be within the exact reach of the box.
+    // Returns whether something that ends leaps may be within the exact reach of the box.
     bool isNear(const glm::ivec3& first, const glm::ivec3& end) const {
         return anyGroup(first, end, [&](int i, int j, int k) { return mFar.at(i, j, k) < reach(); });
     }
@@ -266,10 +266,10 @@ private:
     const GreyVolume& mVolume;
     const SurfaceSetting& mSetting;
     SurfaceCells& mCells;
-    VolumeFrame mFrame;  // of cells
+    VolumeFrame mFrame;  // frame of the cells
     glm::ivec3 mGroups;
     double mSmallest = 1, mUnit = 1;  // metres
-    DistanceVolume mFar;              // of groups
+    DistanceVolume mFar;              // distances by group
     MaskVolume mInside;               // groups with a cell of the region, where there is one
     int mDivisor = 1;
 };

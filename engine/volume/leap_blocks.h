@@ -26,7 +26,7 @@ constexpr std::size_t kCellsOfBrick = 4096;
 void codeLeapsByBlocks(const GreyVolume& volume, const SurfaceSetting& setting, Progress& progress,
                        SurfaceCells& cells);
 
-// Whether a code stands for an active cell, until settleCodes().
+// Returns whether a code stands for an active cell, until settleCodes().
 bool isMarkedActive(std::uint8_t code);
 
 // Gives active cells kCellActive, and the memory of codes back that far bricks took.

@@ -1,7 +1,7 @@
-// What a ray caster needs of a volume, in the order it needs it: how far a ray may leap from a cell, and,
-// in the cells that hold the surface (or anything that is not transparent), the cell's eight values and
-// normals in one cache line. Where most cells are such ones, normals are kept for each corner once, and
-// values are the volume's own: a ninth of the memory, for some more places in it that a ray asks for.
+// Data of a volume for a ray caster, in the order of use: how far a ray may leap from a cell, and, in the
+// cells that hold the surface (or anything that is not transparent), the cell's eight values and normals in
+// one cache line. Where most cells are such ones, normals are kept for each corner once, and values are the
+// volume's own: a ninth of the memory, for some more places in it that a ray asks for.
 //
 // Cell (i, j, k) is the box between voxels (i, j, k) and (i + 1, j + 1, k + 1).
 #pragma once
@@ -34,7 +34,7 @@ struct BrickLayout {
     }
 };
 
-// What is kept of an active cell.
+// Stored data of an active cell.
 struct alignas(64) CellRecord {
     std::int16_t values[8];  // at corner x + 2 y + 4 z, stored numbers
     std::uint32_t
@@ -91,10 +91,10 @@ struct SurfaceCells {
     // The cell's number in `records`; nothing where it has none there.
     std::optional<std::size_t> recordNumber(const glm::ivec3& cell) const;
     std::size_t bytesHeld() const;  // pages in use
-    SurfaceCells share() const;     // the same in the same memory (LazyArray::share)
+    SurfaceCells share() const;     // cells over the same memory (LazyArray::share)
 };
 
-// What a surface is, and how its cells are found.
+// The definition of a surface, and how its cells are found.
 struct SurfaceSetting {
     float isovalue = 0;  // stored numbers of the volume
     // Cells are active when the range of their values meets [lowest, highest], ends included. For the
@@ -109,7 +109,7 @@ struct SurfaceSetting {
     // Left out: kCellsAtOnce, or kRegionAtOnce with a region.
     std::optional<std::size_t> atOnce = std::nullopt;
     static constexpr std::size_t kCellsAtOnce = std::size_t{1} << 25, kRegionAtOnce = std::size_t{1} << 28;
-    // Without a region, bricks with so many active cells are dense ones.
+    // Number of active cells from which on a brick is dense, without a region.
     std::uint32_t denseFrom = kDenseFrom;
     static constexpr std::uint32_t kDenseFrom = 640, kNeverDense = 4097;
 };

@@ -97,7 +97,7 @@ Bounds boundsOf(const Box& box, const glm::dvec3& p, double slack) {
 // The search would not end for a tolerance of 0; in the smallest spacing.
 constexpr double kLeastTolerance = 1e-6;
 
-// Blocks of so many cells along each side are looked through.
+// Cells along each side of the smallest block that is looked through.
 constexpr int kSmallestBlock = 2;
 
 // A box that may hold the nearest surface, and the cell that it is of.
@@ -213,7 +213,7 @@ private:
         return glm::dot(away, away);
     }
 
-    // Whether a cell's code says that none is active up to `reach` cells from it along all axes.
+    // Returns whether a cell's code says that none is active up to `reach` cells from it along all axes.
     bool isFree(const glm::ivec3& cell, int reach) const {
         if (cell.x < 0 || cell.y < 0 || cell.z < 0 || cell.x > mLast.x || cell.y > mLast.y ||
             cell.z > mLast.z)

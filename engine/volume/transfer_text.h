@@ -12,7 +12,7 @@ namespace stereonav {
 // Most points of a curve in a word: more belong into a file.
 constexpr std::size_t kMostCurvePoints = 256;
 
-// Whether the text is a curve, right or wrong, and no file's name.
+// Returns whether the text is a curve, right or wrong, and no file's name.
 bool isCurveText(std::string_view text);
 // Reads a curve. Throws Error, named `source`, with the point's place.
 TransferFunction transferFromCurve(std::string_view text, const std::string& source);

@@ -20,7 +20,7 @@ struct ValueCounts {
     double highest() const;
 };
 
-// Counts values. border: so many voxels at each face are left out. near: of the same frame, only what lies
+// Counts values. border: voxels at each face that are left out. near: of the same frame, only what lies
 // within some voxels of what is inside it counts; null: all. Any thread; throws Cancelled.
 ValueCounts countValues(const GreyVolume& grey, int border, const MaskVolume* near, Progress& progress);
 

@@ -13,7 +13,7 @@ struct ValueSpan {
 };
 
 // Returns the least and the largest value of every voxel, or of some spread evenly where there are more than
-// so many; 0 to 0 without voxels.
+// `mostSamples`; 0 to 0 without voxels.
 ValueSpan rangeOf(const GreyVolume& grey, std::size_t mostSamples = 4'000'000);
 
 // Returns the least and the largest value of the whole grid.

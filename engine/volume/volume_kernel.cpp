@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kBlock = 4;  // pixels a side of a beam
 constexpr int kPacketX = 4, kPacketY = kLanes / 4;
-constexpr int kLargestSide = 64;  // of a rectangle that is cast at once
+constexpr int kLargestSide = 64;  // pixels a side of a rectangle that is cast at once
 constexpr float kLifted = 1.0f;   // voxels: a shadow's end before the surface
 constexpr int kNoNormal = 512 | 512 << 10 | 512 << 20;
 constexpr float kInFront = 1.0f - 4e-6f;  // for the rounding of a beam's end
@@ -133,7 +133,7 @@ struct Packet {
         }
         return select(shade.t < end, F(0.0f), F(1.0f));
     }
-    // The cells that the hits are in.
+    // Returns the cells that the hits are in.
     STEREONAV_INLINE Cells cellsOf(const Rays& r, const Hits& hits) const {
         const F t = select(hits.hit, hits.t, F(0.0f));
         const auto cell = [&](F eye, F direction, F local) {

@@ -19,7 +19,7 @@ struct CellData {
     const std::uint16_t* places = nullptr;
     std::int32_t brickCount[2] = {};  // along x and y
     // The number of the first brick, so that cells of up to 2^20 bricks have indices of 32 bits with a sign:
-    // codes, farCodes, bricks and places begin so many bricks before the pointers.
+    // codes, farCodes, bricks and places begin `firstBrick` bricks before the pointers.
     std::int32_t firstBrick = 0;
     // Dense bricks: normals of corners (null: there are none), and the volume's values, which begin
     // firstVoxel voxels before the pointer.

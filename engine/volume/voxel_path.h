@@ -68,10 +68,10 @@ private:
     double mShortest = 0, mLongest = 0;     // metres
     // The voxel pairs that meet at each face: number in this block, number in the other.
     std::array<std::vector<std::array<std::uint8_t, 2>>, kFaces> mFacePairs;
-    LazyArray<std::uint8_t> mPatterns;  // of blocks: bit x + 2 y + 4 z where a voxel is inside
-    LazyArray<Node> mFirstNode;         // of blocks: number of the first node + 1
-    std::vector<std::uint32_t> mCells;  // of nodes: the block
-    std::vector<std::uint8_t> mParts;   // of nodes: the piece of the block
+    LazyArray<std::uint8_t> mPatterns;  // by block: bit x + 2 y + 4 z where a voxel is inside
+    LazyArray<Node> mFirstNode;         // by block: number of the first node + 1
+    std::vector<std::uint32_t> mCells;  // by node: the block
+    std::vector<std::uint8_t> mParts;   // by node: the piece of the block
 };
 
 // Returns the pieces of a block by its pattern: two bits a voxel, and their number. Voxels are numbered x + 2

@@ -103,7 +103,7 @@ Light bakeLight(const Relief& relief, const vec3& sun) {
     return light;
 }
 
-// What is smooth enough to be kept at the samples and interpolated between them.
+// Properties that are smooth enough to be kept at the samples and interpolated between them.
 struct Site {
     float height = 0, river = 0, drainage = 0;  // metres, half valley floors, square metres
     float east = 0, north = 0;                  // gradient, metres a metre
@@ -111,7 +111,7 @@ struct Site {
     float broad = 0, patch = 0;                 // noise, -1 to 1: kilometres and hundreds of metres
 };
 
-// What a texel adds: finer noise, -1 to 1.
+// Detail of a texel within its cell: finer noise, -1 to 1.
 struct Detail {
     float mx, my;  // metres from the south-west corner
     float grain;

@@ -267,7 +267,7 @@ void castPixels(const CasterScene& scene, const CasterView& view, const CasterBa
                   : RayStream<false>(scene, view, batch, target).cast();
 }
 
-// What shading needs to know of points at known depths.
+// Returns the hits, as shading needs them, at points of known depths.
 template <bool kBent>
 STEREONAV_INLINE Hits hitsAt(const GroundData& ground, const Eye<kBent>& eye, const Rays& rays, F t,
                              M lanes) {

@@ -7,13 +7,13 @@
 
 namespace stereonav {
 
-struct GroundFilter;  // terrain_renderer.h
+struct GroundFilter;  // defined in terrain_renderer.h
 
-// Returns a ground as kernels read it; both must outlive that.
+// Returns a ground as kernels read it. ground and pyramid must outlive the result.
 GroundData groundData(const Heightfield& ground, const HeightPyramid& pyramid);
 
-// Returns colours as kernels read them, by grid coordinates of a ground of that spacing, metres; `color` must
-// outlive that.
+// Returns colours as kernels read them, by grid coordinates of a ground. spacing: metres between the ground's
+// samples. `color` must outlive the result.
 TextureData textureData(const ColorTexture& color, const glm::dvec2& spacing, const GroundFilter& filter);
 
 }  // namespace stereonav

@@ -16,7 +16,7 @@ struct GroundData {
     int width = 0, height = 0;                                 // samples
     const float* maxima = nullptr;                             // all levels of the pyramid
     std::int32_t maximaOffset[16] = {}, maximaPitch[16] = {};  // HeightPyramid's, by level
-    int levels = 0;                                            // of the pyramid
+    int levels = 0;                                            // levels of the pyramid
     float minHeight = 0, maxHeight = 0;
     float maxSlope = 0;                 // metres a metre; infinite with open holes
     double spacingX = 1, spacingY = 1;  // metres between samples
@@ -53,9 +53,9 @@ struct DetailOctave {
     float cell = 1;                // a side of its cells, in cells of the ground
     float lightX = 0, lightY = 0;  // share of the light for a gradient of 1 along the lattice's axes
 };
-// What GroundDetail adds to the shading.
+// Data of GroundDetail, which adds to the shading.
 struct DetailData {
-    const float* values = nullptr;  // of the lattice, -1 to 1, kDetailPitch a row
+    const float* values = nullptr;  // values of the lattice, -1 to 1, kDetailPitch a row
     const float* rough = nullptr;   // at the ground's samples: 0 on level ground, towards 1 on steep ground
     int roughPitch = 0;             // samples from row to row
     int octaves = 0;                // 0: no detail
@@ -73,7 +73,7 @@ struct CoarserGround {
     double scale = 1;                    // grid units for one of the finer: a power of two
 };
 
-// What rays can meet, and the air before it.
+// The ground that rays can meet, and the air before it.
 struct CasterScene {
     GroundData ground;
     DetailData detail;

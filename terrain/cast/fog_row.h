@@ -8,7 +8,7 @@
 namespace stereonav {
 
 struct FogRow {
-    std::uint32_t* color = nullptr;  // as PackedColor
+    std::uint32_t* color = nullptr;  // a row of PackedColor
     // Metres along the view, of the eye that sees the row now; 0: nothing is known, infinite: sky. Both stay
     // as they are. Rows may be read up to the end of their last 16 pixels.
     const float* depth = nullptr;

@@ -11,7 +11,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSlope = 0.19;  // of an octave's relief, of steep ground; its gradient's rms is 0.8 of that
+constexpr double kSlope = 0.19;  // slope of an octave on steep ground; its gradient's rms is 0.8 of it
 constexpr double kFlatter =
     0.93;  // each octave against the one before: natural relief has a Hurst exponent near 0.9
 constexpr double kHalfRough =

@@ -24,7 +24,7 @@ public:
     std::size_t byteCount() const { return sizeof(float) * (mValues.size() + mRough.size()); }
 
 private:
-    std::vector<float> mValues;  // of the lattice, -1 to 1, kDetailPitch a row
+    std::vector<float> mValues;  // values of the lattice, -1 to 1, kDetailPitch a row
     std::vector<float> mRough;   // at samples: 0 on level ground, towards 1 on steep ground
     glm::dvec2 mSpacing;         // metres between samples
     int mWidth;                  // samples of a row

@@ -12,7 +12,7 @@ constexpr int kHoleBlock = 16;
 constexpr int kDenseHoles = kHoleBlock * kHoleBlock * 3 / 8;
 
 constexpr int kLookBack = 24;  // steps towards lower rays searched for a known depth
-constexpr int kProofs = 3;     // of those, how many are tried as proof
+constexpr int kProofs = 3;     // how many of those steps are tried as proof
 
 struct Heading {
     double x, y, slope, run;  // unit horizontal direction, rise over run, horizontal length

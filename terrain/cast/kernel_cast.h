@@ -75,8 +75,7 @@ STEREONAV_INLINE void leaveCell(const Eye<kBent>& eye, Walk<kBent>& w, const Blo
     w.active = andNot(w.active, outside < I(0));
 }
 
-// What was met in cells: lanes, view depths in metres, Hits::approach, curvatureOf(), and heights of the
-// corners.
+// Hits in cells: lanes, view depths in metres, Hits::approach, curvatureOf(), and heights of the corners.
 struct CellHit {
     M hit, unsure;
     F t, approach, curvature;

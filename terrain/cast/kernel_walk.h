@@ -24,7 +24,7 @@ struct Hits {
     F free;      // the ray is above the ground (where there is ground) up to here; 0: not known
 };
 
-// What a round Earth adds: a ray rises by t^2 (bendX x^2 + bendY y^2) metres over level ground, for a
+// The curvature of a round Earth: a ray rises by t^2 (bendX x^2 + bendY y^2) metres over level ground, for a
 // direction of (x, y) grid units a unit of t.
 template <bool kBent>
 struct EyeBend {};
@@ -33,7 +33,7 @@ struct EyeBend<true> {
     double bendX, bendY;  // metres, for t = 1
 };
 
-// What is the same for all rays of a view.
+// Values that are the same for all rays of a view.
 template <bool kBent>
 struct Eye {
     const GroundData* ground;

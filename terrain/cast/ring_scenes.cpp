@@ -16,10 +16,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMaxima = 4.0 / 3;       // of what the finest level of them takes, and of a texture's
+constexpr double kMaxima = 4.0 / 3;       // all levels of maxima, or of a texture, over the finest one
 constexpr int kMargin = 8;                // samples around a part that its colours look at
 constexpr double kColored = 4 * kMaxima;  // bytes a texel
-constexpr double kOfFree = 0.6;           // of the memory that can be had, for rings
+constexpr double kOfFree = 0.6;           // share of the memory that can be had, for rings
 
 double bytesBeside(const Heightfield& ground) {
     constexpr double kLevels = 4.0 / 3, kBoxes = 4 * (1 + kMaxima) * 4.0 / 3;  // a sample

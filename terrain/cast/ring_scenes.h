@@ -40,13 +40,13 @@ public:
     // Chooses the rings for pictures of these views, which differ in the eyes' places alone. Throws Error
     // where levels are stored and can not be read.
     void lookFrom(const EyeView& left, const EyeView& right);
-    // Whether what was chosen differs from the ground itself.
+    // Returns whether what was chosen differs from the ground itself.
     bool any() const { return mShown.rings != nullptr; }
     const GroundRings& rings() const { return *mShown.rings; }                         // where any()
     const Heightfield& ground() const { return mShown.rings->rings.front()->ground; }  // the finest
     // Share of a pixel that the ground of the next picture may be off: the wish's, or more.
     double share() const { return mShareNow; }
-    // Whether finer rings are on their way.
+    // Returns whether finer rings are on their way.
     bool late() const { return mLate; }
     // Counts up, from any thread, when rings that were late are there.
     std::uint64_t arrivals() const { return *mArrivals; }
@@ -92,17 +92,17 @@ private:
     std::shared_ptr<const GroundLevels> mLevels;
     int mWhole = 0;            // level of the scenes that are dressed
     double mBudget = 0;        // bytes of rings of stored levels
-    double mShare, mShareNow;  // of a pixel: wished; kept to
+    double mShare, mShareNow;  // shares of a pixel: the wished one, the one kept to
     PartColors mColors;
     int mColorVersion = 0;
     bool mMayBeLate = false, mLate = false;
 
-    std::vector<RingBox> mBoxes;  // of mSet
+    std::vector<RingBox> mBoxes;  // the boxes of mSet
     Set mSet, mShown;    // all that is there; what of it is cast from here. null rings: the ground itself
     int mSetColors = 0;  // version of the set's colours
     std::vector<CasterScene> mFoggy, mClear;  // finest first
 
-    // What belongs to rings that may be late.
+    // State of rings that may be late.
     std::shared_ptr<std::atomic<std::uint64_t>> mArrivals = std::make_shared<std::atomic<std::uint64_t>>(0);
     std::vector<RingBox> mComing;
     int mComingColors = 0;

@@ -64,13 +64,13 @@ struct TerrainRenderer::State {
     FogRowFunction changeFog;
     Specular specular;
     Fog fog;
-    SkyMap sky;  // of a physical sky whose sun has moved
+    SkyMap sky;  // a physical sky whose sun has moved
     SimdTarget target;
     GroundFilter filter;
     const TerrainIllumination* light;      // null: the plain sun's
     std::unique_ptr<GroundDetail> detail;  // null: none
     std::unique_ptr<RingScenes> rings;     // null: the ground itself is cast
-    PartColors parts;                      // of tiled ground, under `light` without it
+    PartColors parts;                      // colours of tiled ground, under `light` without it
 
     State(const TerrainScene& terrain, SimdTarget wanted, const GroundFilter& read)
         : pyramid(terrain.ground),
@@ -118,7 +118,7 @@ struct TerrainRenderer::State {
         if (rings) rings->dress(scene, clear, filter);
     }
 
-    // The finest of what is cast at that place.
+    // Returns the finest ground that is cast at a place.
     const Heightfield& groundAt(const glm::dvec2& place, const Heightfield& whole) const {
         if (rings && rings->any())
             for (const auto& ring : rings->rings().rings)
@@ -394,7 +394,7 @@ Box frustumBox(const glm::dvec3& eye, const Box& corners, double from, double to
             eye + glm::max(from * corners.high, to * corners.high)};
 }
 
-// Whether any ground below the box's footprint reaches up to its lower side.
+// Returns whether any ground below the box's footprint reaches up to its lower side.
 bool reachesGround(const Heightfield& ground, const HeightPyramid& pyramid, const Box& box) {
     if (box.low.z > ground.maxHeight()) return false;
     const glm::dvec2 low = ground.gridFromWorld(glm::dvec2(box.low)),

@@ -45,7 +45,7 @@ public:
     std::uint64_t arrivals() const;
     // The share of a pixel that rings keep to, and whether finer ones are on their way.
     struct Detail {
-        double share = 0;  // of a pixel; 0: there are no rings
+        double share = 0;  // share of a pixel; 0: there are no rings
         bool late = false;
     };
     Detail ringDetail() const;
@@ -89,8 +89,8 @@ public:
 
 private:
     struct State;
-    // Whether a picture keeps what shading again needs. Its base colours are without the fog then, which each
-    // eye sees through its own distances.
+    // Returns whether a picture keeps what shading again needs. Its base colours are without the fog then,
+    // which each eye sees through its own distances.
     bool keepsBase(const EyeImage& image) const { return viewDependent() && !image.normal.empty(); }
     // Casts what the kernels leave out: landmarks, normals, highlights and the fog before them.
     void castSparse(const EyeView& view, const CasterView& caster, std::span<const PixelIndex> pixels,

@@ -19,7 +19,7 @@ struct StoredLevels {
     glm::dvec2 spacing{1.0};                 // metres between them
     float low = 0, high = 0;                 // metres, of all known samples
     std::uint64_t content = 0;               // identifies the heights of all levels
-    std::vector<std::vector<float>> bounds;  // of each level's blocks, row by row; metres
+    std::vector<std::vector<float>> bounds;  // by level: its blocks' bounds, row by row; metres
     // Writes samples low to low + size - 1 of a level, metres, NaN where missing; from several threads at
     // once.
     std::function<void(int level, const glm::ivec2& low, const glm::ivec2& size, float* heights)> read;
@@ -40,7 +40,7 @@ public:
     int count() const { return static_cast<int>(mLevels.size()); }  // level 0 is the ground
     glm::ivec2 size(int level) const { return mLevels[level].size; }
     glm::dvec2 spacing(int level) const { return mSpacing * double(1 << level); }  // metres
-    glm::dvec2 originWorld() const { return mOrigin; }  // of sample (0, 0) of every level, metres
+    glm::dvec2 originWorld() const { return mOrigin; }  // place of sample (0, 0) of every level, metres
     float minHeight() const { return mLow; }            // metres, of the ground
     float maxHeight() const { return mHigh; }           // metres
     // Returns grid coordinates of level 0 for a place of the world, metres; and whether it is over the
@@ -74,7 +74,7 @@ private:
         glm::ivec2 size{0}, blocks{0};
         std::vector<float> heights;  // empty at level 0, and where they are stored
         std::vector<float> bounds;   // by block, metres
-        float most = 0;              // of the bounds, metres
+        float most = 0;              // the largest of the bounds, metres
     };
     void addLevel();
     LevelRows rowsOf(int level) const;
@@ -83,7 +83,7 @@ private:
     glm::dvec2 mSpacing{1.0}, mOrigin{0.0};  // metres; world
     float mLow = 0, mHigh = 0;               // metres
     std::vector<Level> mLevels;
-    std::uint64_t mContent = 0;  // of stored levels
+    std::uint64_t mContent = 0;  // StoredLevels::content
     std::function<void(int, const glm::ivec2&, const glm::ivec2&, float*)> mRead;
 };
 

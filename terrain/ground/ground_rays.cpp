@@ -16,8 +16,8 @@ namespace {
 constexpr float kNoHit = std::numeric_limits<float>::infinity();
 constexpr int kGridSide = 4096;          // samples a side of one of Embree's grids, which hold 32767
 constexpr double kMostSamples = 3e8;     // 12 bytes each: Embree's buffers end at 4 GiB
-constexpr double kLiftOfCell = 1e-4;     // of the finer spacing
-constexpr double kLiftOfSize = 0x1p-21;  // of the terrain's size: a few roundings of float coordinates
+constexpr double kLiftOfCell = 1e-4;     // share of the finer spacing
+constexpr double kLiftOfSize = 0x1p-21;  // share of the terrain's size: a few roundings of float coordinates
 
 template <typename T, void (*release)(T)>
 class Held {
@@ -128,7 +128,7 @@ struct GroundRays::State {
         }
         rtcReleaseGeometry(geometry);
         if (!filled) failed();
-        // It takes half a minute for the largest grounds.
+        // Building the tree takes half a minute for the largest grounds.
         rtcSetSceneProgressMonitorFunction(
             scene.get(), [](void*, double) { return !stopWished(); }, nullptr);
         rtcCommitScene(scene.get());

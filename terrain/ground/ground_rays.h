@@ -14,12 +14,12 @@ namespace stereonav {
 struct RayPacket {
     static constexpr int kSize = 16;
     alignas(64) float originX[kSize], originY[kSize], originZ[kSize];
-    alignas(64) float directionX[kSize], directionY[kSize], directionZ[kSize];  // of any length
+    alignas(64) float directionX[kSize], directionY[kSize], directionZ[kSize];  // vectors of any length
     alignas(64) float nearest[kSize];   // rays start here, in lengths of the direction
-    alignas(64) float distance[kSize];  // of the hit, likewise, written by intersect(); infinite: a miss
+    alignas(64) float distance[kSize];  // the hit's, likewise, written by intersect(); infinite: a miss
 };
 
-// Returns the bytes that rays over so many samples take: Embree's vertices and the tree over them. Embree's
+// Returns the bytes that rays over `samples` samples take: Embree's vertices and the tree over them. Embree's
 // own blocks count most with small grounds: 1,024 x 1,024 samples took 59 MB more than the vertices, 4,000 x
 // 4,000 no more than that (two threads).
 constexpr double rayBytes(double samples) {
@@ -51,7 +51,7 @@ public:
     double heightAt(const glm::dvec2& world) const;
 
 private:
-    // The same rays over the whole ground, from where they leave this part.
+    // Returns the rays as they go on over the whole ground, from where they leave this part.
     RayPacket beyond(const RayPacket& rays) const;
     std::uint32_t occludedHere(const RayPacket& rays, std::uint32_t active) const;
     void intersectHere(RayPacket& rays, std::uint32_t active) const;

@@ -18,11 +18,11 @@ struct RingBox {
     bool operator==(const RingBox&) const = default;
 };
 
-// What rings are chosen by.
+// Eyes and accuracy by which rings are chosen.
 struct RingWish {
     glm::dvec3 eye{0.0};    // world, metres
     double pixelAngle = 0;  // metres that a pixel covers, for a metre of distance
-    double share = 0.5;     // of a pixel, which a level may be off; 0: the ground itself
+    double share = 0.5;     // share of a pixel that a level may be off; 0: the ground itself
     glm::dvec3 way{0.0};    // metres; also for eyes along this way, from `eye`
     bool sinks = false;     // the ground is seen lower than it lies, over a round Earth
     std::optional<glm::dvec3> other = std::nullopt;  // a second eye, which goes the same way
@@ -35,7 +35,7 @@ struct RingWish {
 // surface has steps of that size.
 std::vector<RingBox> planRings(const GroundLevels& levels, const RingWish& wish);
 
-// Whether `boxes` are at least as fine as `needed`, wherever those are. Both are of one ground, as
+// Returns whether `boxes` are at least as fine as `needed`, wherever those are. Both are of one ground, as
 // planRings() gives them.
 bool coverRings(const std::vector<RingBox>& boxes, const std::vector<RingBox>& needed);
 

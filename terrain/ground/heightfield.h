@@ -30,13 +30,13 @@ public:
         mOrigin = originWorld;
     }
 
-    // Whether there is a cell whose four samples are known: without one there is no ground.
+    // Returns whether there is a cell whose four samples are known: without one there is no ground.
     static bool anyCell(int width, int height, const float* heights);
 
     int width() const { return mWidth; }                // samples, >= 2
     int height() const { return mHeight; }              // samples, >= 2
     glm::dvec2 spacing() const { return mSpacing; }     // metres between samples
-    glm::dvec2 originWorld() const { return mOrigin; }  // of sample (0, 0), metres
+    glm::dvec2 originWorld() const { return mOrigin; }  // place of sample (0, 0), metres
     float minHeight() const { return mMin; }            // metres, of all cells without a hole
     float maxHeight() const { return mMax; }            // metres
     // Returns a Lipschitz constant of the surface: |h(p) - h(q)| <= maxSlope() * |p - q|, in metres a metre.
@@ -50,7 +50,7 @@ public:
 
     glm::dvec2 gridFromWorld(const glm::dvec2& world) const { return (world - mOrigin) / mSpacing; }
     glm::dvec2 worldFromGrid(const glm::dvec2& grid) const { return mOrigin + grid * mSpacing; }
-    // Whether a place lies over the grid, its border included.
+    // Returns whether a place lies over the grid, its border included.
     bool contains(const glm::dvec2& world) const;
 
     // Returns the height in metres at a world position; positions outside are clamped to the border. NaN in a

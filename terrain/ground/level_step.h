@@ -16,15 +16,15 @@ inline glm::ivec2 coarserSize(const glm::ivec2& size) {
 inline glm::ivec2 levelBlocks(const glm::ivec2& size) {
     return (size - 1 + kLevelBlock - 1) / kLevelBlock;
 }
-// Whether there is a level above one of that size, which has a block each way at least.
+// Returns whether there is a level above one of that size, which has a block each way at least.
 inline bool hasCoarser(const glm::ivec2& size) {
     return (size.x < size.y ? size.x : size.y) - 1 >= 2 * kLevelBlock;
 }
 
 // Rows of a level from `first` on, or all of them; row 0 is the southernmost.
 struct LevelRows {
-    const float* heights = nullptr;  // of row `first`, size.x a row; metres
-    glm::ivec2 size{0};              // of the whole level
+    const float* heights = nullptr;  // heights from row `first` on, size.x a row; metres
+    glm::ivec2 size{0};              // size of the whole level
     int first = 0;
 
     const float* row(int j) const { return heights + static_cast<std::ptrdiff_t>(j - first) * size.x; }

@@ -13,7 +13,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kRelativeError = 1e-8;  // of the residual, against that of the guess
+constexpr double kRelativeError = 1e-8;  // residual over that of the guess
 constexpr int kMostIterations = 200;
 constexpr float kStiffness = 1.8f;     // overcorrection; 2 is exact for long waves in one dimension
 constexpr std::size_t kSmallest = 32;  // unknowns of the last level

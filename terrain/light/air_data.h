@@ -24,12 +24,12 @@ struct AirData {
     float hazeTop = 0, hazePerCosine = 0;     // ... and of haze, over (top - perCosine cos)^(3/2)
 };
 
-// What is the same for all rays of an eye.
+// Values that are the same for all rays of an eye.
 struct AirEye {
     float height = 0;                         // metres above the sea, at most kTopOfAir
     float above = 0;                          // metres of the eye above that
     float density[2] = {};                    // molecules, haze: 1 at the sea
-    float share[3] = {};                      // of molecules in the extinction there, by colour
+    float share[3] = {};                      // share of molecules in the extinction there, by colour
     float sunDepth[2] = {}, sunLeft[2] = {};  // depths to the sun: red of molecules, haze; e^- of them
 };
 

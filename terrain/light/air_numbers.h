@@ -1,4 +1,4 @@
-// What air_formula.h needs of plain numbers.
+// Plain numbers for air_formula.h.
 #pragma once
 
 #include <algorithm>

@@ -24,10 +24,10 @@ constexpr double kGlobeRadius = 6371e3;
 constexpr double kSpace = 80e3;  // metres up: air above it is left out of the sky
 constexpr double kSunOfWhite = 45 * kPi / 180;
 constexpr double kLeastLevelLight = 0.02;       // below it the exposure no longer follows
-constexpr double kBrighter = 1.5;               // of ground pictures, in which white is rare, against white
-constexpr double kNightSky = 0.002;             // of level light, what never goes
-constexpr double kScatteredAgain = 0.25;        // of the light that was scattered once, at least
-constexpr glm::vec3 kPlain{0.2f, 0.2f, 0.17f};  // of the plain below the horizon, what it sends back
+constexpr double kBrighter = 1.5;               // factor on the exposure: in pictures of ground white is rare
+constexpr double kNightSky = 0.002;             // share of level light that never goes
+constexpr double kScatteredAgain = 0.25;        // share of the light that was scattered once, at least
+constexpr glm::vec3 kPlain{0.2f, 0.2f, 0.17f};  // albedo of the plain below the horizon
 constexpr int kHeights = 96, kElevations = 512;
 const glm::dvec3 kPowers(1, kGreenOfRed, kBlueOfRed);
 
@@ -255,7 +255,7 @@ glm::vec3 Atmosphere::sky(const glm::vec3& direction) const {
     const double beside = std::acos(std::clamp(cosine, -1.0, 1.0)) - kSunRadius;
     const double share = std::clamp(0.5 - beside / 0.0017, 0.0, 1.0);
     if (share > 0 && e.ground == glm::vec3(0.0f)) {
-        const double perSolidAngle = 1 / (kSunRadius * kSunRadius);  // of light over pi
+        const double perSolidAngle = 1 / (kSunRadius * kSunRadius);  // pi over the sun's solid angle
         for (int c = 0; c < 3; ++c)
             light[c] += static_cast<float>(share * mSunlight[c] * sunlightAt(mSeenFrom, c) * perSolidAngle);
     }

@@ -6,9 +6,9 @@
 // Scattering, SIGGRAPH 1993. Scale heights (8 and 1.2 km), the molecules' extinction, the haze's albedo (0.9)
 // and its phase function are those of E. Bruneton, F. Neyret, Precomputed Atmospheric Scattering, EGSR 2008
 // (section 2.1; g 0.76). The haze's amount is Koschmieder's: at the sea, over the meteorological range, 2 %
-// of a contrast are left (3.912 optical depths of green). No ozone. What scatters more often is a uniform
-// light of the strength that the two-stream approximation of K. N. Liou, An Introduction to Atmospheric
-// Radiation, lets through beyond the rest.
+// of a contrast are left (3.912 optical depths of green). No ozone. Light that is scattered more than once
+// counts as uniform, with the strength that the two-stream approximation of K. N. Liou, An Introduction to
+// Atmospheric Radiation, lets through beyond the rest.
 //
 // Brightness and white follow the scene's look: level ground in the open gets white light of strength 1 with
 // the sun 45 degrees high. Ground is shown as bright until the sun has set; sky and air follow the light
@@ -25,8 +25,8 @@
 
 namespace stereonav {
 
-// What is seen of a light through the air, by colour: the share that is left, 0 to 1, and what the air adds,
-// linear.
+// The effect of the air on light that passes it, by colour: the transmittance, 0 to 1, and the light that the
+// air adds, linear.
 struct AirSeen {
     glm::dvec3 through{1.0}, light{0.0};
 };
@@ -45,7 +45,7 @@ public:
     glm::vec3 sky(const glm::vec3& direction) const;
 
     const AirData& data() const { return mAir; }
-    // worldHeight: metres.
+    // Returns the air data of an eye. worldHeight: metres.
     AirEye eyeAt(double worldHeight) const;
 
 private:

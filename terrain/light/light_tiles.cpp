@@ -27,7 +27,7 @@ struct Head {
     std::uint64_t key = 0;
     std::int32_t width = 0, height = 0, coarsest = 0, finest = 0;
     std::uint64_t content = 0;
-    std::uint64_t check = 0;  // of what is before
+    std::uint64_t check = 0;  // check value of what is before
 };
 
 std::uint64_t tileCheck(const void* data, std::size_t bytes) {

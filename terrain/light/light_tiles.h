@@ -24,7 +24,7 @@ namespace stereonav {
 
 constexpr int kLightTileSide = 256;  // samples along each side of a tile
 
-// What such a file holds.
+// The content of a file of fine light.
 struct FineLightShape {
     TerrainLightSettings settings;  // those of the light that it goes on from, as the key is
     std::uint64_t key = 0;
@@ -36,7 +36,7 @@ struct FineLightShape {
 // Returns the place of the file beside that light.
 std::filesystem::path fineLightPlace(const std::filesystem::path& light);
 bool isFineLight(const std::filesystem::path& file);  // whether it begins as such a file does
-// Whether it goes on from the light with that key.
+// Returns whether the file continues the light with that key.
 bool isFineLightOf(const std::filesystem::path& file, std::uint64_t key);
 
 class LightTiles {
@@ -67,7 +67,7 @@ public:
 
     bool isWhole() const;  // reads all tiles: whether they are undamaged
 
-    // Whether a file that is being made has tile n.
+    // Returns whether a file that is being made has tile n.
     bool has(std::size_t n) const { return mChecks[n] != kNotThere; }
     // Writes bytesOf() a tile's light; no bytes for a tile without a known sample. Throws Error.
     void write(std::size_t n, std::span<const std::byte> bytes);
@@ -83,7 +83,7 @@ private:
         std::size_t first = 0;  // number of its first tile
     };
     LightTiles(const std::filesystem::path& file, const FineLightShape& shape, PlacedFile::For what);
-    bool isRead(int error) const;  // of PlacedFile::read(); false where the file ends. Throws DiskError
+    bool isRead(int error) const;  // error: PlacedFile::read()'s. False at the file's end. Throws DiskError
     bool readIndex();              // whether it is of this shape
     // The bytes of a tile that is there; none where they can not be read, or are damaged.
     std::vector<std::byte> bytesAt(std::size_t n) const;

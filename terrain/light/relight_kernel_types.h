@@ -25,7 +25,7 @@ struct RelightRow {
     float level[3] = {};          // the sky's on open level ground, for openness alone
     float sun[3] = {};            // on a surface that faces it
     float toSun[3] = {};          // unit
-    float horizonWeight[2] = {};  // of the two azimuths' bytes, 1/255 in all
+    float horizonWeight[2] = {};  // weights of the two azimuths' bytes, 1/255 in all
     float inverseSoftness = 1;    // 1 / the sine that the sun's disc spans
     float sunUp = 1;              // share of the disc above the horizontal
     float* sunShown = nullptr;    // where not null: the share of the disc above each sample's horizon
@@ -36,7 +36,7 @@ struct RelightRow {
 // One row of texels: colours times light.
 struct LitTexels {
     int width = 0;
-    const std::uint32_t* albedo = nullptr;  // as PackedColor
+    const std::uint32_t* albedo = nullptr;  // texels as PackedColor
     const float* root[3] = {};              // square roots of the factor by baked sample
     const std::int32_t* sample = nullptr;   // by texel: the sample before it
     const float* next = nullptr;            // likewise: the share of the one after, 0 to 1

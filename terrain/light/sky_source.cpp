@@ -45,7 +45,7 @@ void toneMap(LinearImage& probe, bool sphere) {
     scaled.reserve(probe.pixels.size());
     for (int y = 0; y < probe.height; ++y) {
         const double share = (y + 0.5) / probe.height;
-        const double weight = std::sin(share * std::numbers::pi * (sphere ? 1.0 : 0.5));  // of solid angle
+        const double weight = std::sin(share * std::numbers::pi * (sphere ? 1.0 : 0.5));  // solid angle
         for (int x = 0; x < probe.width; ++x) {
             const float l = luminance(probe.pixels[static_cast<std::size_t>(y) * probe.width + x]);
             scaled.push_back(std::isfinite(l) ? std::max(0.0f, l) : 0.0f);

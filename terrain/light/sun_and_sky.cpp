@@ -20,7 +20,7 @@ constexpr double kReference = 45 * kDegree;  // elevation at which the light is 
 // haze.
 constexpr glm::dvec3 kExtinction(0.11, 0.15, 0.25);
 constexpr float kDarkest = 0.25f;  // level light below which the exposure no longer follows
-constexpr float kNight = 0.01f;    // of the sky's light, what never goes
+constexpr float kNight = 0.01f;    // share of the sky's light that never goes
 
 // Relative air mass: Kasten and Young 1989, eq. 3; elevation in radians, at least -0.5 degrees.
 double airMass(double elevation) {

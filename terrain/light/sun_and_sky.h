@@ -32,7 +32,7 @@ double sunUp(double sine, double radius = kSunRadius);
 struct SunAndSky {
     glm::dvec3 toSun{0, 0, 1};  // unit
     glm::vec3 sun{0.0f};        // irradiance / pi of a surface that faces the sun
-    // What the air leaves of it against a sun 45 degrees high; 0 once it has set.
+    // Transmittance of the air for the sun, relative to that for a sun 45 degrees high; 0 once it has set.
     glm::vec3 sunThroughAir{0.0f};
     SkyRadiance sky;
     double sunRadius = kSunRadius;  // radians; edges of shadows are at least a step of the baked horizon soft

@@ -1,4 +1,4 @@
-// What a terrain's bake has done so far: kept in the cache while it runs, band by band of rows, so that one
+// The finished part of a terrain's bake: kept in the cache while it runs, band by band of rows, so that one
 // that is stopped has next to nothing left to write, and the next run goes on from there.
 #pragma once
 
@@ -35,7 +35,7 @@ std::filesystem::path terrainBakePart(std::uint64_t key);
 std::uint64_t keepBakeBand(std::uint64_t key, std::uint64_t after, const BakeBand& band,
                            const BakeBlocks& blocks);
 
-// What of a bake lies in the cache.
+// The part of a bake that lies in the cache.
 struct BakeKept {
     BakeReached reached;
     std::uint64_t bytes = 0;  // from the start of the file, that hold it

@@ -26,7 +26,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kBakeVersion = 1;  // of what is baked: a change gives other keys
+constexpr int kBakeVersion = 1;  // version of what is baked: a change gives other keys
 constexpr int kBand = 16;        // rows between two looks at the progress
 constexpr int kLargestStride = 1000;
 constexpr std::uint64_t kKeepBytes = 32 << 20;  // done and not kept yet: what a stop has to write at most
@@ -123,8 +123,8 @@ public:
     }
 
 private:
-    // Whether this is one of several processes, but not the first: it bakes rows for that one, and keeps
-    // nothing.
+    // Returns whether this is one of several processes, but not the first: it bakes rows for that one, and
+    // keeps nothing.
     bool helps() const { return mPeers && !mPeers->first(); }
 
     TerrainLight bake() {
@@ -330,7 +330,7 @@ private:
         });
     }
 
-    // The job's share that is done after so many bounces.
+    // Returns the share of the job that is done after `bounces` bounces.
     double fromOf(double bounces) const { return 0.2 + 0.75 * bounces / mSettings.bounces; }
 
     void bakeBounces() {
@@ -371,7 +371,7 @@ private:
     const bool mKeeps;
     bool mKeepingFailed = false;
     BakeReached mDone, mKept;
-    std::uint64_t mKeptBytes = 0;  // of the part's file, that hold mKept
+    std::uint64_t mKeptBytes = 0;  // bytes of the part's file that hold mKept
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ namespace stereonav {
 
 class Peers;
 
-// What is baked.
+// Kinds of light that can be baked.
 enum class TerrainLightKind : std::uint32_t {
     Openness = 1,  // the share of the sky's light that reaches a sample, one byte
     Transfer = 2,  // openness, horizons and harmonics
@@ -39,7 +39,7 @@ enum class TerrainLightKind : std::uint32_t {
 // shape.
 struct TerrainLightSettings {
     TerrainLightKind kind = TerrainLightKind::Transfer;
-    int order = 4;        // of the harmonics, 1..6
+    int order = 4;        // order of the harmonics, 1..6
     int bounces = 2;      // 0..4
     int rays = 32;        // a sample and bounce, towards the ground it sees; a multiple of 16
     int azimuths = 32;    // horizons a sample, 8..64, a multiple of 4
@@ -130,7 +130,7 @@ TerrainLight bakeTerrainLight(const Heightfield& ground, const TerrainLightSetti
 
 // Writes beside the place, then renames. Throws Error.
 void saveTerrainLight(const std::filesystem::path& file, const TerrainLight& light);
-// Whether the file is there and begins as baked terrain light does.
+// Returns whether the file is there and begins as baked terrain light does.
 bool isTerrainLight(const std::filesystem::path& file);
 
 // Reads baked light. Throws Error naming the file: cut off, damaged, of another kind or version, or (where

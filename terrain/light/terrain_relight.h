@@ -43,7 +43,7 @@ public:
     // How light is shown.
     struct Display {
         float exposure = 1;  // factor on the light: exposureOf()
-        float share = 1;     // of the variation of light that shows: 0 leaves colours as they are
+        float share = 1;     // share of the light's variation that shows: 0 leaves colours as they are
     };
     // Lights colours. lit: of the same size and place as albedo; its texels become those of albedo times the
     // light, 1 + share * (exposure * brightness - 1).

@@ -72,7 +72,7 @@ struct GatherSetting {
     int count = 10;  // coefficients
 };
 
-// What ground sends out, known at the samples of a grid.
+// Light that ground sends out, known at the samples of a grid.
 struct SentLight {
     const Heightfield& ground;
     const LightGrid& grid;

@@ -13,10 +13,10 @@ namespace stereonav {
 struct MeshPlace {
     bool known = false;  // whether there is an offset; else the elevation model does not say where it lies
     std::string crs;     // WKT of the reference system that offset is of; "": it is not known
-    glm::dvec2 offset{0.0};    // of the mesh's origin, in the system's units
+    glm::dvec2 offset{0.0};    // the mesh's origin, in the system's units
     double metresPerUnit = 1;  // metres of the mesh for a unit of the system
     double verticalScale = 1;
-    std::string verticalDatum;  // as the elevation model names it; "": it does not
+    std::string verticalDatum;  // name in the elevation model; "": it has none
 };
 
 // Returns one JSON object, the same in the mesh's extras and in the file beside it: "crs" (a name),
@@ -26,7 +26,7 @@ std::string meshPlaceText(const MeshPlace& place);
 
 // Returns "hills.glb.json" for "hills.glb".
 std::filesystem::path meshPlaceFile(const std::filesystem::path& mesh);
-// Whether a mesh written there gets such a file: not in pipes and devices, where nothing lies beside.
+// Returns whether a mesh written there gets such a file: not in pipes and devices, where nothing lies beside.
 bool hasMeshPlaceFile(const std::filesystem::path& mesh);
 
 }  // namespace stereonav

@@ -10,7 +10,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-// Whether d lies inside the circle through a, b, c (counterclockwise). On the circle is outside.
+// Returns whether d lies inside the circle through a, b, c (counterclockwise). On the circle is outside.
 bool inCircle(const glm::ivec2& a, const glm::ivec2& b, const glm::ivec2& c, const glm::ivec2& d) {
     const std::int64_t ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x,
                        cy = c.y - d.y;

@@ -22,7 +22,7 @@ namespace stereonav {
 namespace {
 
 constexpr int kLeastRoom = 1 << 14;
-constexpr double kHoles = 0.1;  // of the progress, where there are any
+constexpr double kHoles = 0.1;  // share of the progress, where there are any
 constexpr double kTriangleBytes =
     160;  // with its share of the vertices, its place in the queue and in the file
 
@@ -83,7 +83,7 @@ private:
     struct Entry {
         double error;
         int triangle;
-        std::uint32_t version;  // of the triangle when it was measured: an older entry is void
+        std::uint32_t version;  // version of the triangle when it was measured: an older entry is void
         bool operator<(const Entry& other) const {
             return error != other.error ? error < other.error : triangle > other.triangle;
         }

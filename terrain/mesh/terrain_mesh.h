@@ -26,7 +26,7 @@ struct TerrainMesh {
 // Cancelled.
 TerrainMesh simplifyTerrain(const Heightfield& ground, double error, Progress& progress);
 
-// Whether a mesh can be written under this name: .glb or .gltf.
+// Returns whether a mesh can be written under this name: .glb or .gltf.
 bool isMeshFileName(const std::filesystem::path& file);
 
 // Writes .glb or .gltf: positions in metres from the world's origin (y up), normals, and the colour

@@ -82,7 +82,7 @@ STEREONAV_INLINE Cell cellAt(const ContourRow& row, F x, F y, M lanes) {
 // The ground as GroundView::at() follows a pixel's ray to it.
 struct Seen {
     F depth, corner, rise;  // height: of a cell's corner, and over that
-    F change;               // of the height from pixel to pixel, metres of the ground
+    F change;               // change of the height from pixel to pixel, metres of the ground
     M found;
 };
 

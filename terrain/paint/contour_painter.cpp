@@ -17,8 +17,8 @@ namespace {
 constexpr double kReliefParts = 5;
 constexpr double kMostLevels = 1e9;  // from zero: beyond, heights have no digits for lines between
 
-// Share of a pixel that a line `width` pixels wide covers, in a pixel whose centre is so many from its
-// middle.
+// Returns the share of a pixel that a line covers. width: of the line; distance: of the pixel's centre from
+// the line's middle; pixels.
 double coverOfLine(double width, double distance) {
     return std::clamp(0.5 * width + 0.5 - distance, 0.0, std::min(1.0, width));
 }
@@ -89,8 +89,8 @@ public:
           mInterval(setting.interval),
           mPerMetre(1 / setting.verticalScale) {}
 
-    // Whether there can be a line in a pixel: most are told by the depths alone. A line's reach, and a pixel
-    // more, as a warped eye's depths may be those of the next one.
+    // Returns whether there can be a line in a pixel: most are told by the depths alone. A line's reach, and
+    // a pixel more, as a warped eye's depths may be those of the next one.
     bool mayHaveLine(int x) const {
         const double height = mHeights.height(x) * mPerMetre;
         if (!(std::abs(height) < kMostLevels * mInterval)) return false;

@@ -34,7 +34,7 @@ constexpr double kContourReach = 0.5 * kIndexContourWidth + 0.5 + 1;
 // Ground whose height changes by less than this share of an interval from pixel to pixel is level.
 constexpr double kContourLevel = 1e-7;
 
-// Returns a nice interval for heights over so many metres, in metres: some 25 lines; 0 for level ground.
+// Returns a round interval for heights that span `relief`, metres: some 25 lines; 0 for level ground.
 double contourIntervalFor(double relief);
 
 struct GroundSeen;

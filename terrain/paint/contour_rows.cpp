@@ -9,7 +9,7 @@ namespace stereonav {
 namespace {
 
 constexpr double kMostCells = 1 << 30, kMostLines = 1 << 22;
-constexpr double kEdgeRoom = 1e-3;  // as GroundView has it
+constexpr double kEdgeRoom = 1e-3;  // the same as in GroundView
 
 template <typename Vector>
 void setFloats(float (&out)[3], const Vector& v) {

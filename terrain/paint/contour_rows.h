@@ -14,8 +14,8 @@ public:
     ContourRows(const Heightfield& ground, const Fog& fog, const ContourSetting& setting, const EyeView& view,
                 SimdTarget target);
 
-    // Whether floats and 32-bit numbers hold the ground: not beyond some 1000 million samples, nor where
-    // lines lie closer than its heights have digits, nor over a round Earth.
+    // Returns whether floats and 32-bit numbers hold the ground: not beyond some 1000 million samples, nor
+    // where lines lie closer than its heights have digits, nor over a round Earth.
     bool fits() const { return mFits; }
     // Paints row y of a finished eye; where fits().
     void paint(EyeImage& image, int y) const;

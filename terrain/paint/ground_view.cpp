@@ -28,7 +28,7 @@ GroundView::GroundView(const Heightfield& ground, const EyeView& view)
 bool GroundView::cellAt(const glm::dvec3& place, Cell& cell) const {
     const glm::dvec2 grid = mGround.gridFromWorld(glm::dvec2(place));
     const int width = mGround.width(), height = mGround.height();
-    // Also of NaN.
+    // Written so that NaN counts as outside.
     if (!(grid.x >= -kBesideEdge && grid.x <= width - 1 + kBesideEdge && grid.y >= -kBesideEdge &&
           grid.y <= height - 1 + kBesideEdge))
         return false;
@@ -102,7 +102,7 @@ GroundView::Way GroundView::searched(const glm::dvec3& ray, double depth, Cell& 
         if (std::abs(now) < least) least = std::abs(now), nearest.t = t;
         before = now, from = t;
     }
-    // It passes by, above a crest or below: the ground next to it.
+    // The ray passes by, above a crest or below: takes the ground next to it.
     over(ray, nearest.t, cell);
     return nearest;
 }

@@ -15,7 +15,7 @@ struct GroundSeen {
     glm::dvec3 place{0.0};      // world, metres, on the ground
     double depth = 0;           // metres along the view
     glm::dvec3 direction{0.0};  // from the eye to the place, for a metre of depth
-    glm::dvec2 gradient{0.0};   // of the bilinear surface there, metres a metre
+    glm::dvec2 gradient{0.0};   // gradient of the bilinear surface there, metres a metre
     // Metres by which the place moves on the tangent plane from this pixel to the next at the right and
     // below.
     glm::dvec3 perX{0.0}, perY{0.0};
@@ -32,9 +32,9 @@ public:
     // Sets what pixel x, y shows. depth: metres, what the eye has in its picture. A warped eye's depth is
     // that of a pixel beside, and any eye's is rounded, so the ray is followed on to the surface itself: by
     // Newton's steps on the cell's tangent plane, and where these lead to other cells by steps along the ray,
-    // to where it first meets the ground within two pixels, or else comes next to it. False where nothing was
-    // hit, beside the ground, in its holes, and where what was hit is not the ground but stands on it:
-    // farther from it than two pixels and a thousandth of the way.
+    // to where it first meets the ground within two pixels, or else comes next to it. Returns false where
+    // nothing was hit, beside the ground, in its holes, and where what was hit is not the ground but stands
+    // on it: farther from it than two pixels and a thousandth of the way.
     bool at(int x, int y, float depth, GroundSeen& seen) const;
 
 private:

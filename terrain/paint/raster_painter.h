@@ -15,7 +15,7 @@ namespace stereonav {
 // A colour at one of equal steps of the value from 0 to 1; linear between them.
 struct PaintStop {
     glm::vec3 color{0.0f};  // linear
-    float share = 0;        // of the colour over what is there, 0 to 1
+    float share = 0;        // share of the colour over what is there, 0 to 1
 };
 
 class RasterPainter final : public EyePainter {

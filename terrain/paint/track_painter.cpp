@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kBandRows = 16;
 constexpr double kMostSag = 0.3;                            // pixels that a chord may leave the ground by
-constexpr int kMostChords = 64;                             // of one cell
+constexpr int kMostChords = 64;                             // chords of one cell
 constexpr double kMarkRing = 2;                             // pixels of a mark's dark ring
 constexpr double kMostApart = 1.5, kMostApartShare = 0.25;  // pixels by which both distances may differ
 
@@ -54,7 +54,7 @@ struct TrackShares {
     float line = 0, casing = 0;
 };
 
-// Whether a pixel, so far from the projected piece, shows the ground that the piece lies on.
+// Returns whether a pixel shows the ground that the projected piece lies on. screen: pixels between them.
 bool showsPiece(const GroundView& ground, const EyeImage& image, const ScreenChord& chord, int x, int y,
                 double screen) {
     GroundSeen seen;
@@ -71,7 +71,7 @@ bool showsPiece(const GroundView& ground, const EyeImage& image, const ScreenCho
     return std::abs(distance - screen) <= kMostApart + kMostApartShare * screen;
 }
 
-// Whether a mark shows: any pixel around its middle does.
+// Returns whether a mark shows: any pixel around its middle does.
 bool showsMark(const GroundView& ground, const EyeImage& image, const ScreenChord& chord) {
     const int x0 = static_cast<int>(std::floor(std::clamp(chord.a.x, -2.0, image.width() + 2.0))),
               y0 = static_cast<int>(std::floor(std::clamp(chord.a.y, -2.0, image.height() + 2.0)));
@@ -218,7 +218,7 @@ void TrackPainter::paint(const EyeView& view, EyeImage& image) const {
             const double reach = reachOf(chord);
             const glm::dvec2 low = glm::min(chord.a, chord.b) - reach,
                              high = glm::max(chord.a, chord.b) + reach;
-            // Also of NaN.
+            // Written so that NaN counts as outside.
             if (!(high.x > 0 && high.y > 0 && low.x < view.width && low.y < view.height)) continue;
             if (!chord.mark || showsMark(ground, image, chord)) chords.push_back(chord);
         }

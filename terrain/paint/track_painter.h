@@ -21,7 +21,7 @@ namespace stereonav {
 constexpr double kTrackWidth = 2.6, kTrackCasing = 4.6, kMarkRadius = 6;
 // A blue, linear, that neither ground nor the colours of slopes have.
 constexpr float kTrackInk[3] = {0.0f, 0.25f, 1.0f};
-constexpr double kCasingShare = 0.65;  // of black beside the line
+constexpr double kCasingShare = 0.65;  // share of black beside the line
 
 class TrackPainter final : public EyePainter {
 public:

@@ -8,10 +8,11 @@ namespace stereonav {
 
 // Returns the files of a folder whose extension is one of elevation models (.tif, .tiff, .hgt, .dem, .asc,
 // .dt0, .dt1, .dt2, .img, .bil, .flt, .bt, .nc, .hgt.zip, .hgt.gz), sorted by name; hidden ones, and those in
-// folders of it, do not count. None where it is no folder.
+// folders of it, do not count. Returns nothing where it is no folder.
 std::vector<std::filesystem::path> elevationFilesIn(const std::filesystem::path& folder);
 
-// Whether it is an SRTM tile as it is sent, N35E138.hgt.zip or .hgt.gz, which is read as it is.
+// Returns whether the file is an SRTM tile as it is distributed, N35E138.hgt.zip or .hgt.gz, which is read
+// without unpacking.
 bool isPackedHeights(const std::filesystem::path& file);
 
 }  // namespace stereonav

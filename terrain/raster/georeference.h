@@ -28,7 +28,7 @@ struct Georeference {
     // Map pixel coordinates to reference coordinates, and back.
     glm::dvec2 fromPixel(const glm::dvec2& pixel) const;
     glm::dvec2 toPixel(const glm::dvec2& reference) const;
-    // Whether rows run east-west and columns north-south, to a hundredth of a pixel.
+    // Returns whether rows run east-west and columns north-south, to a hundredth of a pixel.
     bool axisAligned() const;
 };
 

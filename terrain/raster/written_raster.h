@@ -13,8 +13,8 @@ struct WrittenRaster {
     const Plane<std::uint8_t>* bytes = nullptr;
     const Plane<float>* floats = nullptr;
     double missing = 0;       // value of samples that are not known, in `unit`
-    std::string description;  // of the band
-    std::string unit;         // of the band's values
+    std::string description;  // description of the band
+    std::string unit;         // unit of the band's values
 };
 
 }  // namespace stereonav

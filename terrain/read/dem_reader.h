@@ -25,7 +25,7 @@ struct DemGrid {
     std::string driver;            // "GeoTIFF", ...
     std::string crs;               // name of the source's reference system, "" when it has none
     std::string projection;        // how it was brought to metres
-    std::string verticalDatum;     // of heights, as the file names it; "" where it does not
+    std::string verticalDatum;     // datum of heights, as the file names it; "" where it does not
     glm::dvec2 sourceOffset{0.0};  // reference x, y of the grid's middle, units of the source
     double sourceUnit = 0;        // metres of a unit of sourceOffset; 0: it is not in the source's own system
     long long sourceMissing = 0;  // missing samples of the file itself, before any resampling
@@ -33,18 +33,18 @@ struct DemGrid {
     // Mean radius, metres, of the body that its reference system belongs to; 0 where it names none.
     double bodyRadius = 0;
 
-    // What the file left to be found out, in words; "" where there is nothing to say.
+    // Guesses about things that the file does not say, in words; "" where there is nothing to say.
     std::string band;                // the band that was read, of several
     std::string heightUnit;          // where heights were not plain metres
     std::string missingValue;        // what marks missing samples
     std::vector<std::string> notes;  // what else was guessed or left aside, a line each, with the file's name
 
     bool georeferenced = false;  // whether the file says where it lies
-    Georeference source;         // of the file's samples
-    Georeference grid;           // of these samples, north up; the same as source unless resampled
+    Georeference source;         // place of the file's samples
+    Georeference grid;           // place of these samples, north up; the same as source unless resampled
 };
 
-// Returns the bytes that a caller will hold at once for so many samples, the heights among them.
+// Returns the bytes that a caller will hold at once for `samples` samples, the heights among them.
 using BytesForSamples = std::function<double(double samples)>;
 // Reads an elevation model. verticalScale: factor on the heights. A sample is missing where it is the file's
 // nodata value, or without one what is customary (-32768 of 16 bits, -9999 far below all else), masked, NaN,
@@ -59,13 +59,13 @@ using BytesForSamples = std::function<double(double samples)>;
 DemGrid readDem(const std::filesystem::path& file, double verticalScale, Progress& progress,
                 const BytesForSamples& after = {});
 
-// What the file's header says; no sample is read.
+// Facts from the file's header; no sample is read.
 struct DemGlance {
     int width = 0, height = 0;                                // samples of the file
     glm::dvec2 step{1.0};                                     // between samples, in `unit`
-    std::string unit;                                         // of the plan: "m", "degrees", "units"
+    std::string unit;                                         // unit of the plan: "m", "degrees", "units"
     std::string driver, crs, band, heightUnit, missingValue;  // DemGrid's
-    std::string type;                                         // of a sample, as GDAL calls it: "Int16"
+    std::string type;                                         // type of a sample, as GDAL calls it: "Int16"
 };
 // Reads the header. Throws Error as readDem() does where the header is enough to refuse it.
 DemGlance glanceAtDem(const std::filesystem::path& file);

@@ -74,15 +74,15 @@ public:
     // ground that is resampled only samples around those of the grid count.
     void checkHeights(double verticalScale) const { mReader->checkHeights(verticalScale); }
 
-    // Whether samples lie in compressed blocks, of which each row takes many, and there are no overviews: bad
-    // for who reads a few samples.
+    // Returns whether samples lie in compressed blocks, of which each row takes many, and there are no
+    // overviews: bad for who reads a few samples.
     bool isPacked() const { return mReader->isPacked(); }
 
     // Decodes blocks of the file spread evenly over it, as many as time_ms gives, for who reads a few
     // samples; from then on read() gives what they hold and what `fill` puts between them. It is missing
-    // where most of what was read nearby is. False where blocks are too large or too slow for the fewest of
-    // them (most_ms), all samples are read, or the format is decoded from its beginning: then nothing is
-    // changed. Throws as read() does.
+    // where most of what was read nearby is. Returns false where blocks are too large or too slow for the
+    // fewest of them (most_ms), all samples are read, or the format is decoded from its beginning: then
+    // nothing is changed. Throws as read() does.
     bool readSpread(double time_ms, double most_ms, const FillBetween& fill) {
         return mReader->readSpread(time_ms, most_ms, fill);
     }

@@ -43,16 +43,16 @@ std::unique_ptr<RasterPicture> openRasterPicture(const std::filesystem::path& fi
 // the two reference systems.
 PixelMap mapPixels(const Georeference& target, const Georeference& source, const std::filesystem::path& file);
 
-// Whether the two rasters share ground. Throws Error as mapPixels does.
+// Returns whether the two rasters share ground. Throws Error as mapPixels does.
 bool overlap(const Georeference& a, const Georeference& b, const std::filesystem::path& file);
 
 // Returns where the places of a world lie whose grid this is, north up, with `spacing` metres a pixel; the
-// world's origin is the grid's middle. Null where its reference system does not say, or belongs to another
-// body.
+// world's origin is the grid's middle. Returns null where its reference system does not say, or belongs to
+// another body.
 std::unique_ptr<EarthPlaces> earthPlaces(const Georeference& grid, const glm::dvec2& spacing);
 
-// Returns the same places in the reference system of the file, `source`, that the grid was made of. Null
-// where there is no way between the two systems.
+// Returns the same places in the reference system of the file, `source`, that the grid was made of. Returns
+// null where there is no way between the two systems.
 std::unique_ptr<ReferencePlaces> referencePlaces(const Georeference& source, const Georeference& grid,
                                                  const glm::dvec2& spacing);
 

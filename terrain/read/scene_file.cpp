@@ -151,7 +151,7 @@ SceneFile readSceneFile(const fs::path& toml) {
         scene.landmarks.push_back(readLandmark(section, folder));
     readStart(document.section("start"), scene);
     readFlightAndStereo(document.section("flight"), document.section("stereo"), folder, scene);
-    document.section("options").leave();  // of the program
+    document.section("options").leave();  // the program's, read elsewhere
     document.finish();
     return scene;
 }

@@ -51,12 +51,12 @@ struct LandmarkFile {
 struct SceneFile {
     std::filesystem::path file;  // the TOML file, or the DEM when there is none
     bool builtIn = false;        // the generated terrain
-    std::uint64_t seed = 1;      // of the generated terrain
+    std::uint64_t seed = 1;      // seed of the generated terrain
     int builtInSize = 513;       // samples a side of the built-in ground
     std::filesystem::path dem;
     double verticalScale = 1.0;  // factor on heights, > 0
     GroundTiles tiles = GroundTiles::Auto;
-    // Where tiles have to be made, coarser ground of so many samples a side is given until they are; 0: none.
+    // Samples a side of the coarser ground that is given while tiles have to be made; 0: none.
     int standInSide = 0;
     bool openHoles = false;                 // leave nodata open instead of filling it
     std::filesystem::path image;            // "" for hypsometric tint

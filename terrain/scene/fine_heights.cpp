@@ -8,7 +8,7 @@
 namespace stereonav {
 
 std::shared_ptr<const Heightfield> FineHeights::around(const glm::dvec2& world) const {
-    constexpr int kCells = 128, kMargin = 2;  // of a part: half a tile, and samples around it
+    constexpr int kCells = 128, kMargin = 2;  // cells of a part, half a tile, and samples around it
     constexpr std::size_t kMostParts = 16;
     const glm::ivec2 last = mLevels->size(0) - 1;
     const glm::dvec2 grid = glm::clamp(mLevels->gridFromWorld(world), glm::dvec2(0), glm::dvec2(last - 1));

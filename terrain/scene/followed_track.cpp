@@ -40,7 +40,7 @@ private:
     std::vector<double> mAlong;
 };
 
-// Means over so many neighbours either side, as many as there are.
+// Returns the means over `reach` neighbours on either side, fewer at the ends.
 template <typename Value>
 std::vector<Value> averaged(const std::vector<Value>& values, int reach) {
     const int count = static_cast<int>(values.size());
@@ -54,7 +54,7 @@ std::vector<Value> averaged(const std::vector<Value>& values, int reach) {
     return means;
 }
 
-// The highest ground within so many samples either side.
+// Returns the highest ground within `reach` samples on either side.
 std::vector<double> highestAround(const std::vector<double>& heights, int reach) {
     const int count = static_cast<int>(heights.size());
     std::vector<double> highest;
@@ -64,8 +64,8 @@ std::vector<double> highestAround(const std::vector<double>& heights, int reach)
     return highest;
 }
 
-// The highest of the ground along a straight way, by the parabolas that it is between cells' edges; none
-// where all of it is a hole.
+// Returns the greatest height of the ground along a straight way. Between the edges of cells the ground is a
+// parabola. None where all of the way is a hole.
 double highestAlong(const Heightfield& ground, const glm::dvec2& from, const glm::dvec2& to) {
     const glm::dvec2 a = ground.gridFromWorld(from), b = ground.gridFromWorld(to);
     std::vector<double> cuts{0, 1};

@@ -35,7 +35,7 @@ private:
     double mAmbient = 0;      // factor where the sun does not reach
 };
 
-// Returns the bytes that tintedGround() holds at once for ground of so many samples.
+// Returns the bytes that tintedGround() holds at once for ground of `samples` samples.
 double bytesOfTint(double samples);
 
 // Returns tints by height, place and slope (ground_tint.h), lit; two texels a sample each way. Throws
@@ -47,7 +47,7 @@ GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, con
 ColorTexture tintedPart(const Heightfield& part, const Heightfield& whole, const TerrainLook& look,
                         const TintPlace& place, double density, Progress& progress);
 
-// What ground under a picture is coloured by, whole or in parts.
+// The colours of ground under a picture, whole or in parts.
 struct PicturedGround {
     std::shared_ptr<const LaidPicture> picture;
     TerrainLook look;
@@ -62,9 +62,9 @@ struct PicturedGround {
 // Throws Error that names the image, among others where it does not overlap; Cancelled.
 GroundColor picturedGround(const Heightfield& ground, const PicturedGround& pictured, double mostDensity,
                            Progress& progress);
-// Colours of a part of a ground, of any level: texels as fine as the picture's pixels, so many at most, or a
-// texel a sample where that is more. Tint alone beyond the picture. From any thread. Throws Error where the
-// picture can not be read.
+// Returns the colours of a part of a ground, of any level: texels as fine as the picture's pixels,
+// `mostTexels` at most, or a texel a sample where that is more. Tint alone beyond the picture. From any
+// thread. Throws Error where the picture can not be read.
 ColorTexture picturedPart(const Heightfield& part, const Heightfield& whole, const PicturedGround& pictured,
                           double mostTexels);
 

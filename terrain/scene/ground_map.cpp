@@ -14,9 +14,9 @@ namespace stereonav {
 namespace {
 
 constexpr int kReads = 4;             // heights a pixel, each way
-constexpr double kUsualSlope = 0.35;  // of a relief that is well seen
+constexpr double kUsualSlope = 0.35;  // slope of a relief that is well seen
 constexpr double kMostRaised = 6;     // times that flatter ground is raised by for its shades
-constexpr double kShadeShare = 0.8;   // of the light's variation that is laid over colours
+constexpr double kShadeShare = 0.8;   // share of the light's variation that is laid over colours
 constexpr int kHatch = 3;             // pixels of a hatch's stripe
 constexpr float kHatchDark = 0.02f, kHatchLight = 0.16f;  // linear
 constexpr const char* kDrawing = "drawing the map";
@@ -96,7 +96,7 @@ double shadeOf(const glm::dvec2& slope) {
 struct MapColors {
     const ColorTexture& texture;
     bool shaded = false;  // by the relief: there is no sun in them
-    double level = 0;     // of the texture
+    double level = 0;     // level of the texture
 };
 
 // Under baked light the shown colours change with the sun; those without light stay.

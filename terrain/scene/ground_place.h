@@ -1,4 +1,4 @@
-// What an elevation model says of one place.
+// An elevation model's data at one place.
 #pragma once
 
 #include <glm/vec2.hpp>

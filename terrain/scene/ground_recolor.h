@@ -17,11 +17,11 @@ struct BuiltInOrigin {
     int size = 0;  // samples a side
 };
 
-// What colours are made of, beside the ground.
+// The sources of the ground's colours, beside the ground itself.
 struct GroundColorSource {
     TerrainLook look;                       // the look that the scene was loaded with
     bool alone = false;                     // without the sun's light: whoever shows them lights them
-    double verticalScale = 1;               // of the heights: so many times those of the file
+    double verticalScale = 1;               // heights over those of the file
     GroundPaint paint = GroundPaint::None;  // the paint that the scene was loaded with
     std::optional<BuiltInOrigin> builtIn;
     TintPlace tint;
@@ -41,7 +41,7 @@ struct SunAngles {
     double azimuth = 0, elevation = 0;  // radians, TerrainLook's
     bool operator==(const SunAngles&) const = default;
 };
-// Whether ground in that paint is to be made again where the sun turns.
+// Returns whether ground in that paint is to be made again where the sun turns.
 bool turnsWithSun(GroundPaint paint, const GroundColorSource& source);
 // Returns the colours in that paint. sun: for the paint; the ground's own colours are under that of
 // source.look. Throws Error, Cancelled.

@@ -52,7 +52,7 @@ constexpr std::array<Stop, 8> kPolar{{{0, 149, 169, 196},
                                       {2000, 218, 226, 239},
                                       {3000, 239, 243, 252},
                                       {4000, 241, 245, 254}}};
-constexpr double kGrassEnds = 2000, kGreyEnds = 5000;  // of the scales: at the tree line, at the snow line
+constexpr double kGrassEnds = 2000, kGreyEnds = 5000;  // metres on the scales: tree line, snow line
 
 const vec3 kOnGround(0.40f, 0.395f, 0.345f);  // from paper to ground, which is darker and warmer
 constexpr float kSaturation = 1.25f;
@@ -64,7 +64,7 @@ constexpr double kLowestLand = -450;
 
 constexpr double kReach = 6;        // samples around that tell hollows from ridges
 constexpr int kZones = 17;          // nodes from south to north
-constexpr double kMostSpan = 1500;  // of the scales, that stretching may lead up to
+constexpr double kMostSpan = 1500;  // metres on the scales that stretching may lead up to
 
 vec3 linearOf(const Stop& s) {
     return vec3(linearFromSrgb(s.red / 255.0f), linearFromSrgb(s.green / 255.0f),
@@ -135,7 +135,7 @@ double rangeStep(double low, double high, double x) {
 // How far a sample lies below those around it, at `reach` samples: -1 on ridges to 1 in hollows.
 float hollowOf(const Heightfield& ground, int reach, int i, int j) {
     constexpr int kX[8] = {1, 1, 0, -1, -1, -1, 0, 1}, kY[8] = {0, 1, 1, 1, 0, -1, -1, -1};
-    const int across = (7 * reach + 9) / 10;  // as far on the diagonals
+    const int across = (7 * reach + 9) / 10;  // the same distance on the diagonals
     double sum = 0;
     int known = 0;
     for (int k = 0; k < 8; ++k) {

@@ -26,7 +26,7 @@
 
 namespace stereonav {
 
-// What is known of the place of the ground.
+// The ground's place on the Earth, as far as it is known, and its vertical scale.
 struct TintPlace {
     double verticalScale = 1;       // the ground's heights for one of the file's
     std::vector<double> latitudes;  // radians, evenly from the southern edge to the northern; empty: unknown
@@ -47,7 +47,8 @@ public:
     // which must outlive this. place: that of the whole.
     GroundTint(const Heightfield& part, const TintPlace& place, const Heightfield& whole);
 
-    // What is kept at the samples and bilinear between them; beyond the edge it counts on.
+    // Properties that are kept at the samples and interpolated bilinearly; beyond the ground's edge those of
+    // the nearest sample count.
     struct Site {
         glm::vec2 gradient{0.0f};  // metres a metre, as Heightfield::normalAt() has it
         float hollow = 0;          // -1 on ridges to 1 in hollows
@@ -63,7 +64,7 @@ public:
     static constexpr double kBytesPerSample = sizeof(Site);
 
 private:
-    // What follows from a latitude.
+    // Tree line, snow line and colours of a latitude.
     struct Zone {
         GrowthLines lines;
         double poleward = 0;            // y of the direction to the nearer pole: 1, -1, near the equator 0
@@ -80,7 +81,7 @@ private:
     double mMetresPerStep = 1;           // the wider spacing
     bool mPlaced = false, mSeaFloor = false;
     double mLow = 0, mPerMetre = 0;                // metres, 1/metre: the range of heights without a place
-    double mStretch = 1, mMiddle = 0, mShift = 0;  // of the scales: wider about a middle; metres
+    double mStretch = 1, mMiddle = 0, mShift = 0;  // how the scales are stretched about a middle; metres
     float mRockFrom = 0.6f, mRockFull = 1.2f;      // slopes, metres a metre
     std::vector<Zone> mZones;                      // evenly from south to north
     std::vector<Site> mSites;

@@ -32,8 +32,8 @@ public:
         GroundPicture picture;
     };
     // Returns what a texture of that size over a ground needs, averaged down to its texels: from the file's
-    // overviews where it has them. Nothing where the picture does not reach it. From any thread. Throws Error
-    // where the file can not be read any more, or would not fit into memory.
+    // overviews where it has them. Returns nothing where the picture does not reach it. From any thread.
+    // Throws Error where the file can not be read any more, or would not fit into memory.
     std::optional<Pixels> over(const Heightfield& ground, const GroundTextureSize& size) const;
 
     // Returns what was guessed of its colours, a line each.
@@ -47,8 +47,8 @@ private:
     Georeference gridOf(const Heightfield& ground, const GroundTextureSize& size) const;
 
     std::filesystem::path mFile;
-    Georeference mGrid;   // of the model's finest samples
-    glm::dvec2 mSpacing;  // of those, metres
+    Georeference mGrid;   // grid of the model's finest samples
+    glm::dvec2 mSpacing;  // spacing of those, metres
     Georeference mPlace;  // the picture's own, or over the elevation file's extent
     bool mOwn = false;
     glm::dvec2 mDensity{1.0};  // pixels a finest sample

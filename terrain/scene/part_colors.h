@@ -21,7 +21,7 @@ struct PartColors {
     double bytesMeanwhile = 24;  // bytes a texel, while a part is made
 
     explicit operator bool() const { return make != nullptr; }
-    // Returns the most texels that a part of that level has, with so many samples.
+    // Returns the most texels that a part of that level with `samples` samples has.
     double texels(double samples, int level) const;
 };
 

@@ -61,7 +61,7 @@ private:
     LightGrid mGrid;
     TerrainLook mLook;
     TerrainRelight::Display mShown;
-    glm::dvec2 mOrigin, mSpacing;            // of the whole: world, metres
+    glm::dvec2 mOrigin, mSpacing;            // grid of the whole ground: world, metres
     std::vector<float> mQuotients;           // three planes of the grid
     std::shared_ptr<const FineLight> mFine;  // null: there is none
     SunAndSky mNow;                          // light that the finer one is under

@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kSegments = 1440;  // of the flight: 60 a second
+constexpr int kSegments = 1440;  // segments of the flight: 60 a second
 constexpr int kWindow = 75;      // segments to each side over which the height is smoothed
 
 // The spiral, in shares of the ground's half extents: from near the border inwards, counter-clockwise
@@ -21,8 +21,8 @@ constexpr int kWindow = 75;      // segments to each side over which the height 
 constexpr double kOuterRadius = 0.74, kInnerRadius = 0.32, kFlightTurn = 1.25 * pi;
 // The view: inwards of the direction of flight, below the horizon, banked for an even turn; radians.
 constexpr double kLookInwards = 0.55, kLookDown = 0.10, kBank = 0.12;
-// And further down from high above the mean ground: by this share of the angle under which it lies half
-// an extent away.
+// From high above the mean ground the view looks further down: by this share of the angle under which it lies
+// half an extent away.
 constexpr double kLookAtGround = 0.8;
 // Share of the climb angle that the view follows.
 constexpr double kFollowClimb = 0.12;

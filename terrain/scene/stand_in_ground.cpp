@@ -65,7 +65,8 @@ private:
             for (int row = 0; row < mHeight; row += mStep) readRow(row);
         return true;
     }
-    // Whether rows take too long; asked after some patience, since the first rows wait for more than a row.
+    // Returns whether rows take too long; asked after some patience, since the first rows wait for more than
+    // a row.
     bool isSlow(double passed_ms, int count) const {
         constexpr double kPatience_ms = 400;
         const double rows = (mHeight - 1.0) / kFewest + 1;
@@ -94,7 +95,7 @@ std::optional<Heightfield> standInGround(const SceneFile& file, const DemGrid& w
         if (!some.read()) return std::nullopt;
         rows.checkHeights(file.verticalScale);
         return some.ground(file);
-    } catch (const Error&) {  // of the samples that were read: all of them may tell more
+    } catch (const Error&) {  // about the samples that were read: all of them may tell more
         return std::nullopt;
     }
 }

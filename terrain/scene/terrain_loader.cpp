@@ -32,17 +32,17 @@
 namespace stereonav {
 namespace {
 
-constexpr double kClearancePerSpacing = 0.25;  // of the wider spacing
-constexpr double kNearPerSpacing = 0.05;       // of the finer spacing: well inside the clearance
+constexpr double kClearancePerSpacing = 0.25;  // share of the wider spacing
+constexpr double kNearPerSpacing = 0.05;       // share of the finer spacing: well inside the clearance
 constexpr double kDefaultPitch = -0.2;         // radians; a start without its own looks a little down
-constexpr double kFallbackShare = 0.25;        // of the shorter side, where the view meets no ground
+constexpr double kFallbackShare = 0.25;        // share of the shorter side, where the view meets no ground
 
 struct LoadedGround {
     DemGrid place;                        // without heights
     std::optional<BuiltInTerrain> built;  // with the heights that it has its colours for, moved from here
 };
 
-// Whether the ground's colours are to be without light.
+// Returns whether the ground's colours are to be without light.
 bool litLater(const SceneFile& file) {
     return file.colorsAlone || !file.light.empty();
 }

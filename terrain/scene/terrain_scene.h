@@ -27,22 +27,22 @@ class FineHeights;          // terrain/scene/fine_heights.h
 class LandmarkSet;          // terrain/scene/landmark.h: meshes cast with Embree
 class TerrainIllumination;  // terrain/scene/terrain_illumination.h: baked light
 
-// What the reader did.
+// A report on how the elevation model was read.
 struct TerrainReport {
     std::string driver;         // "GeoTIFF", "built-in", ...
     std::string sourceCrs;      // name of the source's reference system, "" when it has none
     std::string projection;     // how it was brought to metres: "as it is", "local ..."
-    std::string verticalDatum;  // of the source's heights, "" where it names none
-    // What was found out of the file, in words; "" where there is nothing to say.
+    std::string verticalDatum;  // datum of the source's heights, "" where it names none
+    // Guesses about things that the file does not say, in words; "" where there is nothing to say.
     std::string placedBy;          // control points
     std::string band;              // the band, of several
     std::string heightUnit;        // where heights were not plain metres
     std::string missingValue;      // what marks missing samples
     long long sourceSamples = 0;   // in the file; 0: there is none
-    long long missingSamples = 0;  // of them, missing
-    long long outsideSamples = 0;  // of the ground's, beyond the file's own
-    long long filledSamples = 0;   // of the ground's, filled: missing ones as resampled, and those beyond
-    long long openSamples = 0;     // of the ground's, left open
+    long long missingSamples = 0;  // missing ones among them
+    long long outsideSamples = 0;  // samples of the ground beyond the file's own
+    long long filledSamples = 0;   // samples of the ground that were filled: missing as resampled, or beyond
+    long long openSamples = 0;     // samples of the ground that were left open
     glm::dvec2 sourceOffset{0.0};  // source x, y of the world's origin (metres in the local projection)
     bool placed = false;           // the file says where it lies: sourceOffset tells something
     std::string worldCrs;          // WKT of the system that sourceOffset is of; "": it is not known
@@ -51,8 +51,8 @@ struct TerrainReport {
     std::string colorSource;     // "image winter.jpg 457x499", "hypsometric tint", ...
     bool colorHoldsSun = false;  // some of the colours hold the light of the look's sun
     std::string skySource;
-    std::string lightSource;         // of baked light, "" without
-    std::string tiles;               // of a tiled ground: what lies where; "" of others
+    std::string lightSource;         // source of baked light, "" without
+    std::string tiles;               // on a tiled ground: what lies where; "" on others
     std::vector<std::string> notes;  // what was guessed or left aside, a line each
 };
 
@@ -100,7 +100,7 @@ struct TerrainScene {
     // ground and look.
     std::optional<TintPlace> tint;
     std::optional<GroundColorSource> colorSource;  // none of a picture's
-    std::optional<PicturedGround> pictured;        // of a tiled ground, whose parts are coloured by it
+    std::optional<PicturedGround> pictured;        // colours of a tiled ground's parts
     std::unique_ptr<EarthPlaces> earth;            // null where its file does not say where it lies
     Pose startPose;
     RecordedPath path;  // the scene's own flight

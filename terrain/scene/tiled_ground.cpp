@@ -72,7 +72,7 @@ void makeStore(const std::filesystem::path& dem, DemRows& rows, const TileSource
     writeFileAtomically(
         place,
         [&](const std::filesystem::path& temporary) {
-            constexpr double kOnce = 0.9;  // of the progress: few are read again
+            constexpr double kOnce = 0.9;  // share of the progress: few are read again
             Progress first(progress, 0, kOnce), again(progress, kOnce, 1);
             makeTiles(source, temporary, first);
             if (rows.mustBeReadAgain()) makeTiles(source, temporary, again);
@@ -84,7 +84,7 @@ void makeStore(const std::filesystem::path& dem, DemRows& rows, const TileSource
     progress.report(1, kMaking);
 }
 
-// What tiles are made of, and where they lie.
+// The source of the tiles, and the place of their file.
 struct StorePlan {
     TileSource source;
     std::filesystem::path place;
@@ -125,7 +125,8 @@ std::shared_ptr<const TileStore> storeOrMade(const std::filesystem::path& dem, D
     return std::make_shared<TileStore>(plan.place, plan.source.content);
 }
 
-// The store itself is made by a reader of its own, on whatever thread.
+// Shows a stand-in until the tiles are there. Returns false where there is none. The store is made later by a
+// reader of its own, on any thread.
 bool standsIn(const SceneFile& file, const StorePlan& plan, const DemGrid& dem, TerrainScene& scene) {
     std::optional<Heightfield> ground = standInGround(file, dem);
     if (!ground) return false;
@@ -143,7 +144,8 @@ bool standsIn(const SceneFile& file, const StorePlan& plan, const DemGrid& dem, 
     return true;
 }
 
-// A share of the memory; the rest is for rings, pictures, and all else.
+// Returns the level that is kept in memory. It takes a share of the free memory; the rest is for rings,
+// pictures, and all else.
 int levelInMemory(const GroundLevels& levels) {
     constexpr double kShare = 0.25, kHeightAndMaxima = 4 + 4 * 4.0 / 3;
     const double most = kShare * availableMemory();
@@ -160,7 +162,7 @@ std::shared_ptr<const GroundLevels> levelsOf(const SceneFile& file, std::shared_
     return std::make_shared<GroundLevels>(storedLevels(std::move(store), spacing, file.verticalScale));
 }
 
-// Whether the model has more samples than readDem() takes, whatever the memory.
+// Returns whether the model has more samples than readDem() takes, whatever the memory.
 bool isBeyondMemory(const DemGrid& dem) {
     return dem.width > kMostDemSide || dem.height > kMostDemSide ||
            1ll * dem.width * dem.height > kMostDemSamples;

@@ -14,8 +14,8 @@ class GroundLevels;
 struct TerrainScene;
 
 // Whether the file's ground goes into tiles: where it was wished, or where it takes more memory than can be
-// had and that was not ruled out. bytesOfSamples: what a scene of so many samples holds. Throws Error as
-// readDem() does.
+// had and that was not ruled out. bytesOfSamples: returns the bytes that a scene of `samples` samples holds.
+// Throws Error as readDem() does.
 bool goesIntoTiles(const SceneFile& file, double (*bytesOfSamples)(double samples));
 
 // Sets scene.tiled, and scene.ground to the finest level that leaves room for what lies around an eye. Where
@@ -32,7 +32,7 @@ struct GroundInTiles {
 // Throws as readTiledGround().
 GroundInTiles readGroundInTiles(const SceneFile& file, Progress& progress);
 
-// Returns the finest level that has at most so many samples; the coarsest where none has.
+// Returns the finest level that has at most `mostSamples` samples; the coarsest where none has.
 int levelWithin(const GroundLevels& levels, double mostSamples);
 
 // The most samples held of a whole ground whose finest samples do not fit into memory: more would only take

@@ -16,7 +16,7 @@ struct FanLine {
     double rowAt(double x) const { return row + tangent * x; }
 };
 
-constexpr double kRounding = 1e-9;  // of rows and columns
+constexpr double kRounding = 1e-9;  // tolerance of rows and columns
 
 bool isWhole(double row) {
     return std::abs(row - std::round(row)) < kRounding;

@@ -15,7 +15,7 @@ namespace {
 STEREONAV_INLINE F placesFrom(int first) {
     return laneIndexF() + F(static_cast<float>(first));
 }
-// The lowest one where it is not known.
+// Returns the height, or the lowest float where it is unknown.
 STEREONAV_INLINE F knownOf(F height) {
     return select(height <= F(std::numeric_limits<float>::max()), height,
                   F(std::numeric_limits<float>::lowest()));

@@ -19,7 +19,7 @@ STEREONAV_INLINE F heightOnLine(const float* height, F row, int rows, M lanes) {
     return mulAdd(row - toFloat(below), ends.second - ends.first, ends.first);
 }
 
-// The largest size of what is a number, in any lane.
+// Returns the largest magnitude among finite values in lanes, or `most` where it is larger.
 STEREONAV_INLINE F largerSize(F most, F value, M lanes) {
     const F size = max(value, F(0.0f) - value);
     return max(most, keep(lanes & (size <= F(std::numeric_limits<float>::max())), size));
@@ -84,7 +84,7 @@ void raiseLow(const LowRow& row) {
         const F t0 = mulAdd(edge, F(bins.tangentStep), F(bins.tangent)), t1 = t0 + F(bins.tangentStep);
         const F fall = mulAdd(max(t0 * t0, t1 * t1), F(bins.fallAcross), F(bins.fallAlong));
         const F slope = (min(min(h0, h1), between) - F(bins.slack)) * F(row.inverse) - fall;
-        // What is not known raises nothing: it makes the sum no number.
+        // Unknown heights raise nothing: they make the sum NaN.
         const M firm = (h0 + h1) + between <= F(std::numeric_limits<float>::max());
         store(row.low + b, slope, lanes & firm & (known < slope));
     }

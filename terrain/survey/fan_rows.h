@@ -79,12 +79,12 @@ struct SampleRow {
 
 // A column that lines are walked over, and how its rows lie to those of the column before it.
 struct WalkColumn {
-    std::size_t offset = 0;  // of its heights
+    std::size_t offset = 0;  // place of its heights in WalkRows::heights
     int shift = 0;           // its row k is row k + shift of the column before it
     int top = 0;             // the last row but one of the ground
     float x = 0;             // distance, columns
     float row = 0;           // where the part's first tangent meets it
-    float rowBefore = 0;     // and meets the column before it, in rows of this one
+    float rowBefore = 0;     // where it meets the column before, in rows of this one
 };
 
 // Upper bounds of a few columns, and of these and all nearer ones, in the bins that there were.
@@ -95,7 +95,7 @@ struct WalkBlock {
 
 // Samples of column `at` that lines are walked to: rows in its buffer.
 struct WalkRows {
-    const float* heights = nullptr;       // of all columns
+    const float* heights = nullptr;       // heights of all columns
     const WalkColumn* columns = nullptr;  // from -1 on, whose distance counts as 0
 
     int at = 0, first = 0;         // the first column that has bounds

@@ -129,7 +129,7 @@ void FanSweep::read(int at, Column& column) {
     walked.rowBefore = floatOf(mGround.middle() + std::max(0.0, x - 1) * mFrom - column.start);
     mLastStart = column.start;
     mStored += static_cast<std::size_t>(column.rows);
-    // Those beside it, too.
+    // Holes in the columns beside this one count, too.
     const glm::ivec2 first = mGround.sample(at - 1, column.start - 1),
                      last = mGround.sample(at + 1, column.start + column.rows);
     column.holes = mTask.holes.any(glm::min(first, last), glm::max(first, last));

@@ -46,7 +46,7 @@ private:
     mutable std::optional<SightLines> mLines;
 };
 
-// What all parts of all fans look at.
+// Data that all parts of all fans share.
 struct FanTask {
     const Heightfield& ground;
     const HoleTiles& holes;
@@ -80,8 +80,8 @@ private:
     struct Column {
         int start = 0, rows = 0;
         bool holes = false;
-        float* height = nullptr;  // of mStore
-        std::vector<float> tops;  // of ReadRow
+        float* height = nullptr;  // heights in mStore
+        std::vector<float> tops;  // what ReadRow::tops points to
         std::vector<float> firm;  // where there are holes
     };
 
@@ -93,7 +93,7 @@ private:
     // The bins over a column that lie on the ground, in part at least: first and one past the last.
     glm::ivec2 binsOver(double x) const;
     FanBins binsAt(double x, double fallAt, const glm::ivec2& range, int start, float slack) const;
-    float slackOf(int rows) const;  // of rows in a buffer, so far
+    float slackOf(int rows) const;  // rows: in a buffer, so far
     void raiseLowAt(int at, const Column& column);
     void raiseHighAt(int at, const Column& near, const Column& far);
     double slopeBeside() const;
@@ -130,7 +130,7 @@ private:
     std::vector<float> mStore;       // heights of all columns so far, metres over the eye
     std::size_t mStored = 0;
     bool mHoles = false;  // in any column so far
-    int mLastStart = 0;   // of the column before
+    int mLastStart = 0;   // start of the column before
     std::vector<WalkColumn> mWalkColumns;
     std::vector<int> mWalkRows;
     std::vector<std::uint8_t> mWalkAbove, mTold;

@@ -8,7 +8,7 @@ namespace {
 
 // Lines that differ in their rows alone.
 struct Lines {
-    F excess;  // of the tangent over the part's first one
+    F excess;  // excess of the tangent over the part's first one
     F tangent, rise, bulge;
     F reach;  // distance of the samples
     F slack, target;
@@ -20,7 +20,7 @@ struct Verdict {
 };
 
 struct Corners {
-    F low, middle, high;  // of three rows
+    F low, middle, high;  // corners of three rows
 };
 
 STEREONAV_INLINE Corners cornersAt(const float* heights, I row, M lanes) {
@@ -38,8 +38,8 @@ STEREONAV_INLINE F bulgeOver(F bend, F share) {
 
 constexpr float kBeside = 0x1p-10f;  // rows: nearer to a sample's row, the cells on both sides count
 
-// Whether a line runs so near to a row that it may be another cell's, in which something is not known.
-// f0, f1: its ends over `row`.
+// Returns whether a line runs so near to a row that it may be another cell's, in which something is not
+// known. f0, f1: its ends over `row`.
 STEREONAV_INLINE M besideHole(const float* near, const float* far, I row, F f0, F f1, M lanes) {
     const F low = min(f0, f1), high = max(f0, f1);
     const M under = lanes & (low < F(kBeside));
@@ -84,7 +84,7 @@ STEREONAV_INLINE Verdict piece(const WalkRows& rows, const Lines& lines, int k, 
     } else {
         top = most + bulgeOver(lower, length);
     }
-    // What is not known makes the sum no number.
+    // Unknown heights make the sum NaN.
     const F sum = (c0.low + c0.middle + c0.high) + (c1.low + c1.middle + c1.high);
     const M clear = (top < F(0.0f) - lines.slack) & (sum <= sum);
     const M hidden = lanes & (most > lines.slack) & (sum <= sum);

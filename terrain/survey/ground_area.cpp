@@ -97,7 +97,7 @@ glm::dvec2 volumeOver(const Cell& cell, const Triangle& t, double plane, int hal
            volumeOver(cell, {ab, bc, ca}, plane, halvings - 1);
 }
 
-// What a part of an area comes to, in grid units over the plan.
+// Sums over a part of an area, in grid units over the plan.
 struct PartSum {
     double plan = 0, along = 0, above = 0, below = 0;
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -164,7 +164,7 @@ private:
     struct Edge {
         double low, high, down;
     };
-    // None where the border crosses the cell.
+    // Returns how often the border winds around a cell; nothing where it crosses the cell.
     std::optional<int> timesAround(int i) const {
         double times = 0;
         for (const Edge& edge : mEdges) {

@@ -39,7 +39,7 @@ std::shared_ptr<const SurveyTiles::Tile> SurveyTiles::tile(const glm::ivec2& num
     }
     std::shared_ptr<const Tile> tile = read(number);
     const std::lock_guard lock(mMutex);
-    if (mPlaces[place] != mKept.end()) return mPlaces[place]->tile;  // of another thread, meanwhile
+    if (mPlaces[place] != mKept.end()) return mPlaces[place]->tile;  // another thread kept it meanwhile
     mKept.push_front({place, tile});
     mPlaces[place] = mKept.begin();
     if (mKept.size() > mMost) {

@@ -63,7 +63,7 @@ public:
 
     glm::dvec2 gridFromWorld(const glm::dvec2& world) const { return (world - mOrigin) / mSpacing; }
     glm::dvec2 worldFromGrid(const glm::dvec2& grid) const { return mOrigin + grid * mSpacing; }
-    // Whether a place lies over the grid, its border included.
+    // Returns whether a place lies over the grid, its border included.
     bool contains(const glm::dvec2& world) const;
 
     // Returns the height of a sample, metres; NaN where it is missing. Throws Error where its tile can not be

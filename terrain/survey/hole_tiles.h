@@ -13,7 +13,7 @@ class HoleTiles {
 public:
     explicit HoleTiles(const Heightfield& ground);
 
-    // Whether any may be missing among the samples from `low` to `high`; beside the ground none is.
+    // Returns whether any may be missing among the samples from `low` to `high`; beside the ground none is.
     bool any(const glm::ivec2& low, const glm::ivec2& high) const;
 
 private:

@@ -34,7 +34,7 @@ struct Line {
     double leastOver(double from, double to) const {
         return std::min(at(from), at(to)) - 0.25 * bulge * (to - from) * (to - from);
     }
-    // The share at which it leaves a column (axis 0) or row of blocks.
+    // Returns the share of the line at which it leaves a column (axis 0) or row of blocks.
     double leaves(int axis, int block, int level) const {
         if (step[axis] == 0) return kInfinite;
         return ((step[axis] > 0 ? (block + 1) << level : block << level) - start[axis]) * inverse[axis];

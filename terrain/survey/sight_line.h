@@ -33,9 +33,9 @@ public:
     const Heightfield& ground() const { return mGround; }
     double fall() const { return mFall; }  // 1/metre
 
-    // Whether one place sees the other: x, y in the grid's units, z in metres; on the grid, or above it.
-    // Grazing counts as seen: a line may lie below the ground by what rounding makes of heights. Ground that
-    // is missing hides nothing.
+    // Returns whether one place sees the other: x, y in the grid's units, z in metres; on the grid, or above
+    // it. Grazing counts as seen: a line may lie below the ground by what rounding makes of heights. Ground
+    // that is missing hides nothing.
     bool sees(const glm::dvec3& eye, const glm::dvec3& target) const { return clear(eye, target, 0, 1); }
     // Answers the same for the part of the line from share `from` to share `to` of it, 0 to 1.
     bool clear(const glm::dvec3& eye, const glm::dvec3& target, double from, double to) const;

@@ -16,7 +16,7 @@ struct SunOverGround {
     double azimuth = 0, elevation = 0;  // radians
 };
 
-// Whether the middle of the sun stands free over a sample.
+// Returns whether the middle of the sun stands free over a sample.
 bool sunShinesOn(const SightLines& lines, int i, int j, const SunOverGround& sun);
 
 // Returns, for each sample, the share of these places from which the sun shines, times `hours`; row 0

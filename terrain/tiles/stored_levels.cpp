@@ -21,7 +21,7 @@ float scaledHeight(float height, double by) {
 
 StoredLevels storedLevels(std::shared_ptr<const TileStore> store, const glm::dvec2& spacing,
                           double verticalScale) {
-    constexpr double kRounding = 0x1p-23;  // of a height, both levels' and the ground's
+    constexpr double kRounding = 0x1p-23;  // share of a height, both levels' and the ground's
     StoredLevels levels;
     levels.size = store->size(0);
     levels.spacing = spacing;

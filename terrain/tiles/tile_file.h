@@ -22,8 +22,8 @@ struct TileFileHead {
     std::int32_t width = 0, height = 0;  // samples of the finest level
     float low = 0, high = 0;             // metres, of the finest level
     std::int64_t missing = 0;            // samples of the finest level
-    std::uint64_t indexCheck = 0;        // of bounds and check values
-    std::uint64_t check = 0;             // of what is before
+    std::uint64_t indexCheck = 0;        // check value of bounds and check values
+    std::uint64_t check = 0;             // check value of what is before
 };
 
 // Where the parts lie, which follows from the size alone: samples of the finest level.

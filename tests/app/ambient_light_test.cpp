@@ -70,7 +70,7 @@ std::shared_ptr<Volume<std::uint8_t>> opennessOf(const GreyVolume& field, int ra
 struct Compared {
     int shown = 0;                     // pixels that hold something
     int largest = 0;                   // difference, of 255
-    int brightest = 0, darkest = 255;  // of red, among them
+    int brightest = 0, darkest = 255;  // red values among them
 };
 
 // The picture against what the plain casters make of the scene's look.

@@ -33,7 +33,7 @@ protected:
         mTerrain.tiled->level = 1;
         mTerrain.ground = *mLevels->part(1, glm::ivec2(0), mLevels->size(1));
     }
-    // Whether it was baked before.
+    // Returns whether the light was baked before.
     bool bake() {
         ProgressBar bar(false);
         Telling quiet;

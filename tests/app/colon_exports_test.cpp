@@ -37,8 +37,8 @@ protected:
                     file += char(inside(1.2 * i - 18.6, 0.8 * j - 18, 1.5 * k - 36.75) ? 1 : 0);
         return input(name, file);
     }
-    // Whether a place lies in a tube along z that is round at both ends; its axis goes from -kTubeHalf to
-    // kTubeHalf.
+    // Returns whether a place lies in a tube along z that is round at both ends; its axis goes from
+    // -kTubeHalf to kTubeHalf.
     static bool inTube(double x, double y, double z) {
         return std::hypot(x, y, z - std::clamp(z, -kTubeHalf, kTubeHalf)) < kTubeRadius;
     }

@@ -31,7 +31,7 @@ protected:
         }
         return "";
     }
-    // One triangle, of so many that its description speaks of; its buffer is not there.
+    // A model whose description claims `corners` corners; their buffer is not there.
     std::string gltf(const std::string& corners) const {
         return input("mesh.gltf", R"({"asset":{"version":"2.0"},"accessors":[{"count":)" + corners +
                                       R"(,"componentType":5126,"type":"VEC3"}],"meshes":[{"primitives":)"

@@ -23,7 +23,7 @@ class GroundExports : public ProgramTest {
 protected:
     static constexpr int kWide = 41, kHigh = 31;               // samples
     static constexpr double kStepX = 20, kStepY = 50;          // metres
-    static constexpr double kWest = 600000, kSouth = 5000000;  // of the outer corner
+    static constexpr double kWest = 600000, kSouth = 5000000;  // place of the outer corner
     static constexpr const char* kPlace = "600110,5000225,600610,5001125";
 
     // Metres at a place of the file's system.

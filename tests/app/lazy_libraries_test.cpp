@@ -142,7 +142,7 @@ TEST_F(LazyLibraries, ATerrainHoldsItsGroundAndSkyAlone) {
     }
     EXPECT_EQ(held.size(), 4u) << held;
     const double sum = json.at("terrain").at("bytes"), heap = json.at("process").at("heap_bytes");
-    constexpr double kRest = 2e6;  // of the command line, tables, the libraries: 0.6 MB when measured
+    constexpr double kRest = 2e6;  // bytes of the command line, tables, the libraries: 0.6 MB when measured
     EXPECT_LT(heap, sum + kRest);
     EXPECT_GT(heap, sum);
     EXPECT_EQ(json.at("plan").at("planes"), Json({"color", "depth", "hole mask"}));

@@ -202,7 +202,7 @@ TEST_F(Memory, OfAKeptColonIsChecked) {
     expectRefused(render, {"a colon of 200 x 200 x 200 voxels", "of memory"});
 }
 
-// A surface of so many voxels is found in blocks. 20 MB are the program's own.
+// A surface in a volume this large is found in blocks. 20 MB are the program's own.
 TEST_F(Memory, OfALargeSurfaceIsNoMoreThanWasAskedFor) {
     const std::string study = nrrd("ct.nrrd", {330, 330, 320, 1, "short", ""}, [](int i, int j, int k) {
         return 1000 - 7 * std::max({std::abs(i - 165), std::abs(j - 165), std::abs(k - 160)});

@@ -49,7 +49,7 @@ protected:
         }
         try {
             Progress progress;
-            glanceAt(file, progress);  // as the window does where the pointer rests
+            glanceAt(file, progress);  // the window does so where the pointer rests
         } catch (const Error& error) {
             EXPECT_EQ(linesIn(error.what()), 0);
         }

@@ -139,7 +139,7 @@ TEST_F(Output, WhatIsReadAgainOrNotWrittenInOneGoNeedsAFile) {
 // A limit on the size of files stands for a disk that is full: bytes arrive up to it, then no more.
 TEST_F(Output, AFullDiskIsOneLineAndLeavesTheOldFile) {
     const std::vector<Way> all = ways();  // their inputs are written before the limit holds
-    signal(SIGXFSZ, SIG_IGN);             // of this process, whose output may be longer
+    signal(SIGXFSZ, SIG_IGN);             // for this process, whose output may be longer
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
     for (const Way& way : all) {

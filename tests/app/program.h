@@ -87,7 +87,7 @@ protected:
         return waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
                ended.si_pid == child;
     }
-    // Whether the program handles the signal by now: before that it ends as any program does.
+    // Returns whether the program handles the signal by now: before that it ends as any program does.
     static bool catches(pid_t child, int signal) {
         std::ifstream status("/proc/" + std::to_string(child) + "/status");
         for (std::string line; std::getline(status, line);)

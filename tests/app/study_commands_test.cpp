@@ -105,14 +105,14 @@ TEST_F(StudyCommands, SlicesBesideGroundAreOpenedAndSaySo) {
 }
 
 TEST_F(StudyCommands, EverySeriesHasAPicture) {
-    for (int k = 0; k < 3; ++k) {  // of CT: air above, bone below
+    for (int k = 0; k < 3; ++k) {  // CT: air above, bone below
         DicomSpec s;
         s.slice.position.z = 3 * k;
         s.slice.pixels.assign(30, 24);
         if (k == 1)
             for (std::size_t n = 15; n < 30; ++n) s.slice.pixels[n] = 1574;
         writeDicom(placeOf("s/ct" + std::to_string(k)), s);
-        s = {};  // of MR: rows twice as far apart as columns, from dark to bright
+        s = {};  // MR: rows twice as far apart as columns, from dark to bright
         s.slice.uid = "1.2.3.2";
         s.slice.modality = "MR";
         s.slice.description = "another";

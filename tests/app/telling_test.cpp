@@ -91,13 +91,13 @@ TEST_F(CommandTelling, ErrorsStayOneLine) {
     expectRefused({"render", hills(), "--size", "16x12", "--out", "-", "--json"}, {"--out", "--json"});
 }
 
-// A frame of so many slices takes minutes: each line says how much of it is done.
+// A frame of 65,536 slices takes minutes: each line says how much of it is done.
 TEST_F(CommandTelling, ALongFrameTellsHowMuchOfItIsDone) {
     setenv("STEREONAV_PROGRESS_SECONDS", "0.1", 1);
     for (const Words& words : {Words{"render", "cloud", "--out", "a.png"}, Words{"info", "cloud"}}) {
         Words all = words;
         all.insert(all.end(), {"--slices", "65536", "--light-size", "2048", "--size", "64x48"});
-        std::filesystem::remove(mFolder / "stderr");  // of the run before
+        std::filesystem::remove(mFolder / "stderr");  // left by the run before
         const pid_t child = start(all);
         const auto said = [&] { return contentOf(mFolder / "stderr").find("% of this step"); };
         EXPECT_TRUE(waitFor([&] { return hasEnded(child) || said() != std::string::npos; }));

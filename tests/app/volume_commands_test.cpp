@@ -175,7 +175,7 @@ TEST_F(VolumeCommands, FactsAreTheSameFromTheCache) {
         const bool along = std::hypot(j - 12, k - 12) < 6 && i > 5 && i < 90;
         const bool down = std::hypot(i - 84, k - 12) < 6 && j > 11 && j < 90;
         if (along || down) return -1000;
-        const bool far = j - i > 30;  // of the box, in the corner between both
+        const bool far = j - i > 30;  // part of the box, in the corner between both
         return far && (i + j + k) % 2 ? 1500 : far ? -90 : 40;
     });
     const auto facts = [&](const std::vector<std::string>& more) {

@@ -32,7 +32,7 @@ protected:
         mBefore.empty() ? unsetenv("XDG_CACHE_HOME") : setenv("XDG_CACHE_HOME", mBefore.c_str(), 1);
         fs::remove_all(mFolder);
     }
-    // Adds a file of so many bytes, last used so many hours ago.
+    // Adds a file of `bytes` bytes, last used `hours` hours ago.
     static bool keepFor(const std::string& name, std::size_t bytes, int hours,
                         std::uintmax_t most = kMostKept) {
         const auto write = [&](const fs::path& file) { writeTextFile(file, std::string(bytes, 'x')); };

@@ -1,4 +1,4 @@
-// Helpers that are kept: for whom, and for how long.
+// Helper processes that a pool keeps: which requests they serve, and how long they are kept.
 #include "engine/base/helper_pool.h"
 
 #include <gtest/gtest.h>

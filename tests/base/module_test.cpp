@@ -41,7 +41,7 @@ TEST(Module, IsLoadedWhenItsFunctionsAreAskedForAndStays) {
     const auto before = loadedLibraries();
     const TestModuleFunctions& first = module();
     EXPECT_THAT(loadedLibraries(), Contains(file));
-    if (testing::UnitTest::GetInstance()->test_to_run_count() == 1) {  // as ctest runs it
+    if (testing::UnitTest::GetInstance()->test_to_run_count() == 1) {  // ctest runs each test alone
         EXPECT_THAT(before, Not(Contains(file)));
     }
     EXPECT_EQ(&module(), &first);

@@ -17,7 +17,7 @@ using namespace stereonav;
 
 struct Found {
     double score;
-    int truth;  // of the polyp's size class, -1: none
+    int truth;  // number of the polyp's size class, -1: none
 };
 
 int classOf(const Polyp& polyp) {

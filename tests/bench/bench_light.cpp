@@ -103,7 +103,7 @@ double timeFor(double error, const std::vector<GainPoint>& points) {
         return a.processor_s * std::pow(b.processor_s / a.processor_s, share);
     }
     const GainPoint& last = error > points.front().error ? points.front() : points.back();
-    return last.processor_s * std::pow(last.error / error, 2);  // as for independent samples
+    return last.processor_s * std::pow(last.error / error, 2);  // the error falls as with independent samples
 }
 
 struct Subject {

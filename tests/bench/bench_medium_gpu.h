@@ -17,7 +17,7 @@ namespace stereonav {
 
 struct GpuSweepTime {
     double median_ms = 0, least_ms = 0;  // by the clock
-    double processor_ms = 0;             // of all threads of this process, the least of a frame
+    double processor_ms = 0;             // time of all threads of this process, the least of a frame
 };
 
 // Only one at a time; what it makes lives in its context, which stays current.

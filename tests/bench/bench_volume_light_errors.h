@@ -19,7 +19,7 @@ constexpr int kMostScatters = 4096;  // roulette ends paths long before
 // both errors of a picture have the mean of its error's square without their noise.
 struct MediumTruth {
     Plane<glm::vec4> one, two;
-    double linearNoise = 0, displayNoise = 0;  // of the mean of both: root mean square of pixels and channels
+    double linearNoise = 0, displayNoise = 0;  // the mean's noise: RMS of pixels and channels
     double seconds = 0;
 };
 

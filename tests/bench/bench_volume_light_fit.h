@@ -27,7 +27,7 @@ inline MediumTransfer withIndirect(const MediumTransfer& transfer,
 
 struct IndirectRule {
     std::string name;
-    std::function<glm::dvec3(const glm::vec3& color)> factor;  // of tau; empty: the preset's own
+    std::function<glm::dvec3(const glm::vec3& color)> factor;  // factor on tau; empty: the preset's own
 };
 inline std::vector<IndirectRule> indirectRules() {
     std::vector<IndirectRule> rules{{"preset", {}}};

@@ -18,7 +18,7 @@ namespace stereonav::bench {
 // The least of several runs.
 struct SweepTime {
     double ms = 1e300;            // by the clock
-    double processor_ms = 1e300;  // of all threads together: what else the machine does counts less
+    double processor_ms = 1e300;  // time of all threads together: what else the machine does counts less
     void take(const SweepTime& other) {
         ms = std::min(ms, other.ms);
         processor_ms = std::min(processor_ms, other.processor_ms);

@@ -15,7 +15,8 @@
 
 namespace stereonav::bench {
 
-// Pixels a side for which one is so many times as wide as the finest detail, at the subject's middle.
+// Returns the pixels a side for which one pixel is `width` times as wide as the finest detail, at the
+// subject's middle.
 inline int sizeForWidth(const Medium& medium, double width) {
     const StereoViews stereo = stereoViewsOf(medium, 64);
     const double depth = glm::dot(medium.bounds().center() - stereo.right.eye, stereo.right.forward);

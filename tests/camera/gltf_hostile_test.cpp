@@ -54,7 +54,7 @@ protected:
     std::string errorFor(const std::string& name, const std::string& bytes) const {
         return test::errorOf([&] { readGltf(write(name, bytes)); });
     }
-    // The same where only so many bytes can be had.
+    // Returns the error where only `bytes` of memory can be had.
     std::string errorWithin(const char* bytes, const std::string& name, const std::string& content) const {
         setenv("STEREONAV_MEMORY", bytes, 1);
         const std::string error = errorFor(name, content);

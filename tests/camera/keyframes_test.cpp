@@ -57,7 +57,7 @@ TEST(KeyframeFlight, SpeedsHaveNoSteps) {
     for (unsigned seed = 1; seed < 20; ++seed) {
         const Keyframes keys = someKeyframes(seed, 8);
         const KeyframeCurve curve(keys, true);
-        constexpr double h = 1e-6;  // of a turn as sharp as a hand
+        constexpr double h = 1e-6;  // step within a turn as sharp as a hand
         for (const PathSample& key : keys) {
             const Pose here = curve.at(key.time), before = curve.at(key.time - h),
                        after = curve.at(key.time + h);

@@ -1,5 +1,5 @@
-// The scanner's noise of the built-in colon: every voxel has its own. In the air around the body nothing else
-// differs from voxel to voxel.
+// The scanner's noise in the built-in colon's CT: every voxel has noise of its own. Tested in the air around
+// the body, where nothing else differs from voxel to voxel.
 #include <gtest/gtest.h>
 
 #include "colon/built_in/built_in_colon.h"
@@ -8,7 +8,7 @@
 namespace stereonav::test {
 namespace {
 
-// Rows that lie 20 mm and more before the skin, and behind it.
+// Rows of voxels 20 mm or more in front of the body's skin or behind it.
 constexpr std::array kAirRows{0, 1, 2, 45, 46, 47};
 constexpr glm::ivec3 kNoisySize(64, 48, 40);
 
@@ -20,7 +20,7 @@ GreyVolume noisyColon(std::uint64_t seed) {
     return std::move(builtInColon(setting, quiet).grey);
 }
 
-// A count of voxels in a row that are never alike by chance.
+// Values of eight neighbouring voxels: so many that no two runs are equal by chance.
 using NoiseRun = std::array<double, 8>;
 
 void addRuns(const GreyVolume& grey, const glm::ivec3& step, std::vector<NoiseRun>& runs) {

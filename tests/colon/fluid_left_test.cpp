@@ -40,7 +40,7 @@ const GreyVolume& tubeScan() {
 // step.
 double beforeTheStep(double wall) {
     const double share = (wall - kAirHu) / (kFluidHu - kAirHu);
-    double low = -5, high = 0;  // of the normal distribution: share is below a half
+    double low = -5, high = 0;  // bounds in the normal distribution: share is below a half
     for (int n = 0; n < 60; ++n) {
         const double middle = 0.5 * (low + high);
         (0.5 * std::erfc(-middle / std::sqrt(2.0)) < share ? low : high) = middle;

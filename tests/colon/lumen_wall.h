@@ -1,4 +1,5 @@
-// A lumen given by a signed distance, with what instruments need of it.
+// The wall of a lumen that a signed distance defines: its surface cells, mesh and neighbours, for tests of
+// instruments.
 #pragma once
 
 #include "colon/wall/line_of_sight.h"
@@ -34,7 +35,7 @@ inline double toBall(const glm::dvec3& p, const glm::dvec3& middle, double radiu
     return glm::length(p - middle) - radius;
 }
 
-// A tube along z with flat ends.
+// Returns the signed distance to a tube along z with flat ends, or a bound of it outside the edges.
 inline double toTube(const glm::dvec3& p, double radius, double from, double to) {
     return std::max(std::hypot(p.x, p.y) - radius, std::max(from - p.z, p.z - to));
 }

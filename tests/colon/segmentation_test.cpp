@@ -161,7 +161,7 @@ MaskVolume readRealMask() {
     return pclose(pipe) == 0 && count == mask.values.size() ? std::move(mask) : MaskVolume();
 }
 
-constexpr int kLevel = 200;  // of the mask's rows: fluid lies behind
+constexpr int kLevel = 200;  // row of the mask: fluid lies behind
 
 // Returns the parts of the lumen that lie behind the level; the largest of them is filled.
 Pieces lowParts(const MaskVolume& mask) {

@@ -27,7 +27,7 @@ using testing::HasSubstr;
 using testing::Not;
 using namespace test;
 
-// Packs the slices of a folder through GDCM. False where it does not write that.
+// Packs the slices of a folder through GDCM. Returns false where it does not write that.
 bool pack(const fs::path& from, const fs::path& to, gdcm::TransferSyntax::TSType syntax) {
     fs::create_directories(to);
     for (const auto& entry : fs::directory_iterator(from)) {
@@ -301,14 +301,14 @@ TEST(StudyDicomDamaged, PicturesOfAnotherSizeAreRefused) {
     std::string bytes = fileBytes(folder / "j2k/s1.dcm");
     auto at = bytes.find("\xff\x4f\xff\x51");
     ASSERT_NE(at, std::string::npos);
-    bytes[at + 8] = 0x7f;  // of the width
+    bytes[at + 8] = 0x7f;  // a byte of the width
     writeBytes(folder / "j2k/s1.dcm", bytes);
     EXPECT_THAT(errorOf(folder / "j2k"),
                 HasSubstr("s1.dcm: damaged: its compressed picture has 2130706440 x 7"));
     bytes = fileBytes(folder / "ls/s1.dcm");
     at = bytes.find("\xff\xf7");
     ASSERT_NE(at, std::string::npos);
-    bytes[at + 5] = 0x7f;  // of the height
+    bytes[at + 5] = 0x7f;  // a byte of the height
     writeBytes(folder / "ls/s1.dcm", bytes);
     EXPECT_THAT(errorOf(folder / "ls"), HasSubstr("s1.dcm: damaged: its compressed picture has 8 x 32519"));
 }

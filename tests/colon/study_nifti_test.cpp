@@ -409,7 +409,7 @@ TEST(StudyNiftiBad, DamagedStreamsAreNotTakenForWhole) {
     unsigned state = 7;
     for (short& x : noise) x = static_cast<short>((state = state * 1664525 + 1013904223) >> 16);
     std::string packed = gzipped(niftiFile(noise, placed()));
-    packed[packed.size() - 6] = static_cast<char>(packed[packed.size() - 6] + 1);  // of the checksum
+    packed[packed.size() - 6] = static_cast<char>(packed[packed.size() - 6] + 1);  // a byte of the checksum
     writeBytes(folder / "a.nii.gz", packed);
     expectError(folder / "a.nii.gz", {"damaged", "can not be unpacked"});
 }

@@ -204,7 +204,7 @@ const LumenWall& plate() {
     return wall;
 }
 
-// Whether a vertex is on the plate's lower face (-1) or upper one (1), off its edges.
+// Returns whether a vertex is on the plate's lower face (-1) or upper one (1), off its edges.
 bool isOnFace(const WallMesh& mesh, std::size_t v, int face) {
     const glm::vec3& p = mesh.places[v];
     return std::abs(p.z - face * kPlateHalf) < 1e-4 && p.x < kPlateEdge - 0.001 &&

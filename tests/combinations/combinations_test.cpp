@@ -229,7 +229,7 @@ std::string programDraws(const Outcome& outcome, const std::filesystem::path& pl
 }
 
 TEST_P(Combinations, AreDrawnAsByThePlainOracle) {
-    constexpr int kEach = 6;  // of so many is drawn by the real program, too
+    constexpr int kEach = 6;  // every sixth is drawn by the real program, too
     int drawn = 0;
     ContactSheet sheet(asName(GetParam()));
     for (const Row& row : drawnRows()) {

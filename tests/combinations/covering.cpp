@@ -158,7 +158,7 @@ bool Covering::narrow(const Entry& tuple, Domains& domains) const {
     return propagate(domains);
 }
 
-// Whether the tuple is possible, and not sure to hold.
+// Returns whether the tuple is possible, and not sure to hold.
 bool Covering::bringsNews(const Entry& tuple, const Domains& domains) {
     bool news = false;
     for (int n = 0; n < tuple.size(); ++n) {
@@ -178,7 +178,8 @@ void Covering::take(const Entry& tuple, Domains& domains, Domains& trial) const 
 
 // The first tuple, and then as many others as go with it, in a random order.
 std::optional<Row> Covering::fill(std::vector<Entry>& open, std::uint64_t& random) const {
-    // After so many most others no longer go with it, and are passed over without being shuffled.
+    // Number of tuples that are tried first. After them most others no longer go with the row, and are passed
+    // over without being shuffled.
     constexpr std::size_t kAtFirst = 1000;
     Domains domains = everything();
     if (!narrow(open.front(), domains)) return std::nullopt;

@@ -26,7 +26,7 @@ bool violates(const Row& row, const Clause& clause);
 struct Level {
     int factor, level;
 };
-using Tuple = std::vector<Level>;  // of different factors, by increasing factor
+using Tuple = std::vector<Level>;  // levels of different factors, by increasing factor
 
 class Covering {
 public:

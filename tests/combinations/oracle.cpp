@@ -17,14 +17,14 @@
 namespace stereonav::test {
 namespace {
 
-constexpr double kStepVoxels = 0.5;  // as VolumeCasting
+constexpr double kStepVoxels = 0.5;  // the same as VolumeCasting's
 
 OraclePicture blank(const EyeView& view) {
     return {view.width, view.height,
             std::vector<glm::dvec3>(static_cast<std::size_t>(view.width) * view.height)};
 }
 
-// Whether anything lies between the lamp and a place on the surface, from half a voxel before it.
+// Returns whether anything lies between the lamp and a place on the surface, from half a voxel before it.
 bool inShadow(const VolumeScene& volume, const glm::dvec3& position, const glm::dvec3& lamp) {
     const glm::dvec3 spacing = volume.field.frame.spacing;
     const glm::dvec3 way = lamp - position;

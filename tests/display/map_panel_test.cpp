@@ -17,7 +17,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kMapSide = 400;  // of the window, pixels
+constexpr int kMapSide = 400;  // side of the window, pixels
 
 // Stands still, with walls everywhere in its way.
 class WalledIn final : public Flight {
@@ -141,7 +141,7 @@ protected:
     std::unique_ptr<Window> mWindow;
     std::unique_ptr<Interface> mInterface;
     std::unique_ptr<MapPanel> mPanel;
-    float mSide = 0;  // of the map, units; 0: not there yet
+    float mSide = 0;  // side of the map, units; 0: not there yet
 };
 
 TEST_F(MapPanelTest, AKeyframeIsDraggedOverTheGround) {

@@ -1,4 +1,5 @@
-// Layers over height fields in GLSL against the plain model: noise, holes, colours of their own.
+// Layers over height fields in GLSL against the reference model (plain_sweep.h): noise, holes, colours of
+// their own.
 #include "tests/display/medium_gpu_subject.h"
 
 namespace stereonav::gpu_test {

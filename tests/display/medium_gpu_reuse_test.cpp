@@ -1,5 +1,5 @@
-// The sweep in GLSL keeps programs, targets and textures from frame to frame: whatever was asked for before,
-// a frame is that of the plain model.
+// The sweep in GLSL keeps programs, targets and textures from frame to frame. Whatever was rendered before,
+// each frame must equal the reference model's.
 #include "tests/display/medium_gpu_subject.h"
 #include "tests/medium/asked_sweeps.h"
 
@@ -32,7 +32,7 @@ TEST_F(MediumGpuReuse, AFrameIsByTheBookWhateverCameBefore) {
     };
     expectIt(base);
     for (const auto& changed : test::sweepsBeside(base, field->frame)) {
-        if (changed.what.ends_with("by a little")) continue;  // no picture shows it
+        if (changed.what.ends_with("by a little")) continue;  // too small a change for a picture to show
         SCOPED_TRACE(changed.what);
         expectIt(changed.value);
         if (HasFailure()) return;

@@ -25,10 +25,10 @@ constexpr double kBound = 1.0 / 1024 + 2e-5;
 
 struct GpuCase {
     std::string id, words;
-    double opticalDepth = 1;  // of a decimetre
+    double opticalDepth = 1;  // depth of a decimetre
     int width = 12, height = 9;
     double apart = 0.06;  // metres, of the eyes
-    double distance = 3;  // of the head from the middle
+    double distance = 3;  // metres of the head from the middle
 };
 
 class GpuSweepRow : public testing::TestWithParam<GpuCase> {

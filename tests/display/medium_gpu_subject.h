@@ -1,5 +1,5 @@
-// Small media, views and looks for the tests of the sweep in GLSL, and how it is held against the plain
-// model. Needs no display.
+// Small media, views and looks for the tests of the sweep in GLSL, and its comparison with the reference
+// model (plain_sweep.h). Needs no display.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@
 
 namespace stereonav::gpu_test {
 
-inline const glm::dvec3 kMiddle{51000.25, -30000.5, 800.125};  // of the medium: far from the origin
+inline const glm::dvec3 kMiddle{51000.25, -30000.5, 800.125};  // middle of the medium: far from the origin
 
 inline EyeView viewFrom(const glm::dvec3& eye, const glm::dvec3& at, int width = 24, int height = 20) {
     EyeView view;

@@ -1,5 +1,5 @@
-// The sweep in GLSL against the plain model, on small pictures: every model, light from before, behind and
-// beside, lamps, two eyes, noise, one target and several. Runs without a display.
+// The sweep in GLSL against the reference model (plain_sweep.h), on small pictures: every model, light from
+// before, behind and beside, lamps, two eyes, noise, one target and several. Runs without a display.
 #include <functional>
 #include <random>
 

@@ -27,7 +27,7 @@ namespace {
 
 constexpr const char* kTwoMonitors = "STEREONAV_TWO_MONITORS";        // set in that process
 constexpr PackedColor kLeftColor = 1023u, kRightColor = 1023u << 20;  // left, right eye
-constexpr int kSecondX = 1025, kSecondY = 33;                         // of the second monitor
+constexpr int kSecondX = 1025, kSecondY = 33;                         // corner of the second monitor
 
 Plane<PackedColor> filledEye(PackedColor color, int width, int height) {
     Plane<PackedColor> eye(width, height);

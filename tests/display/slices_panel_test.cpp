@@ -17,7 +17,7 @@
 namespace stereonav {
 namespace {
 
-constexpr int kSlicesAcross = 200, kSlicesDown = 560;  // of the window, pixels
+constexpr int kSlicesAcross = 200, kSlicesDown = 560;  // size of the window, pixels
 
 VolumeFrame slicedFrame() {
     VolumeFrame frame;

@@ -19,8 +19,8 @@
 namespace stereonav {
 namespace {
 
-constexpr int kBox = 400;               // of the window, pixels
-constexpr int kWide = 300, kHigh = 60;  // of the wall
+constexpr int kBox = 400;               // side of the window, pixels
+constexpr int kWide = 300, kHigh = 60;  // pixels of the wall
 
 // A wall in the plane y = 0.01: a pixel is a millimetre, its rows go up along z; the line is the x axis.
 class StraightFlat final : public FlatPicture {

@@ -9,7 +9,7 @@
 namespace stereonav::test {
 namespace {
 
-constexpr std::uint64_t kSample = 1, kMost = 400;  // of a kind and command
+constexpr std::uint64_t kSample = 1, kMost = 400;  // faults of a kind and command
 
 class Faults : public FaultTest {
 protected:

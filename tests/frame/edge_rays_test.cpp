@@ -118,7 +118,7 @@ TEST(EdgeRays, APlaneHasNoEdgeHoweverItIsSeen) {
         for (int x = 0; x < 64; ++x) {
             image.viewDepth.at(x, y) =
                 1 / (1e-4f + 1e-3f * static_cast<float>(y) + 2e-5f * static_cast<float>(x));
-            image.color.at(x, y) = packColor(glm::vec3((x + y) % 2 ? 0.2f : 0.3f));  // of its own
+            image.color.at(x, y) = packColor(glm::vec3((x + y) % 2 ? 0.2f : 0.3f));  // its own
         }
     EdgeSetting setting;
     Plane<std::uint8_t> edges;

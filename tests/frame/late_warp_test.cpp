@@ -80,7 +80,7 @@ int apartOf(PackedColor a, PackedColor b) {
 }
 
 struct Apart {
-    double psnr_db = 0, wrong = 0;  // of 10-bit channels; share of pixels that differ by over 16 steps
+    double psnr_db = 0, wrong = 0;  // for 10-bit channels; share of pixels that differ by over 16 steps
 };
 // mask: pixels where it is set are left out; null: none is.
 Apart apart(const Plane<PackedColor>& a, const Plane<PackedColor>& b,
@@ -175,7 +175,7 @@ TEST(LateWarp, IsAsThePlainForm) {
 
 TEST(LateWarp, OfTheSameViewIsThePicture) {
     const LateScene scene;
-    const EyeView from = startView(101, 67);  // of no whole vectors and tiles
+    const EyeView from = startView(101, 67);  // a size of no whole vectors and tiles
     const EyeImage seen = scene.cast(from);
     for (const SimdTarget target : simdTargets()) {
         LateEye late;

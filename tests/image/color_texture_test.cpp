@@ -80,7 +80,7 @@ TEST(ColorTexture, ReadsPlacesBetweenTexelsAndLevels) {
     for (int k = 0; k < texture.levelCount(); ++k) {
         const ColorTexture::Level level = texture.level(k);
         const double size = 1 << k;
-        const auto gridOf = [&](double x, double y) {  // of texels of that level
+        const auto gridOf = [&](double x, double y) {  // grid coordinates of texels of that level
             return glm::dvec2(-0.5, 2) + glm::dvec2(x, y) * size * glm::dvec2(0.5, 0.25);
         };
         for (int y = 0; y < level.height(); ++y)

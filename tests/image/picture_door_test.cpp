@@ -105,7 +105,7 @@ TEST(PictureDoor, MarksOfOtherFormatsFurtherOnChangeNothing) {
     expectColours(decode(encoded(image, ".bmp")), image);
     // A chunk of text behind a PNG's head; a comment before a JPEG's first segment.
     std::string png = encoded(image, ".png");
-    png.insert(33, "\0\0\0\xc8tEXtKey\0"s + std::string(196, ' ') + "\0\0\0\0"s);  // of a wrong checksum
+    png.insert(33, "\0\0\0\xc8tEXtKey\0"s + std::string(196, ' ') + "\0\0\0\0"s);  // with a wrong checksum
     expectColours(decode(marked(png)), image);
     const std::string jpeg = encoded(image, ".jpg");
     std::string commented = jpeg;

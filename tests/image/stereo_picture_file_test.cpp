@@ -52,7 +52,7 @@ std::size_t segmentOf(const PictureBytes& bytes, std::size_t start, std::uint32_
 
 struct TiffField {
     std::uint32_t type = 0, count = 0;
-    std::size_t at = 0;  // of its value
+    std::size_t at = 0;  // place of its value
 };
 struct TiffDirectory {
     std::map<std::uint32_t, TiffField> fields;

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 constexpr std::uint64_t kKey = 0x123456789abcdefull;
-constexpr std::size_t kHeaderBytes = 232, kBrickBytes = 88;  // as docs/formats.md says
+constexpr std::size_t kHeaderBytes = 232, kBrickBytes = 88;  // sizes as in docs/formats.md
 
 std::string contentOf(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);

@@ -157,7 +157,8 @@ TEST_P(EveryKind, SameBytesForAnyThreadCount) {
     EXPECT_EQ(bytes[0], bytes[2]);
 }
 
-// Cancelled after so many batches, gone on, cancelled again ...: what comes out is as if nothing had been.
+// A bake that is cancelled after some batches, continued, cancelled again and so on gives the same result as
+// one that is never cancelled.
 TEST_P(EveryKind, CancellingKeepsWhatIsDoneAndTheRestGivesTheSameBytes) {
     const int kSamples = 700;
     BakeSums whole = emptySums(GetParam());
@@ -191,7 +192,7 @@ TEST_P(EveryKind, CancellingKeepsWhatIsDoneAndTheRestGivesTheSameBytes) {
         }
         EXPECT_GT(cancelled, 0);
         EXPECT_EQ(sums.fewestSamples(), static_cast<std::uint32_t>(kSamples));
-        sums.estimates = whole.estimates;  // of transfer they depend on how passes were cut
+        sums.estimates = whole.estimates;  // for transfer they depend on how passes were cut
         EXPECT_EQ(bytesOf(sums), bytesOf(whole)) << every;
     }
 }

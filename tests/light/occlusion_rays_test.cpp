@@ -76,7 +76,7 @@ TEST(OcclusionRays, AFloorBeforeAWallHasItsClosedForm) {
         const TracedOpenness open = traceOpenness(volume, {20 - h, 16, 12}, radius * kVoxel, 1024);
         EXPECT_NEAR(open.visible, 1 - (std::acos(c) - c * std::sqrt(1 - c * c)) / kPi, 0.01) << h;
         EXPECT_NEAR(open.obscurance, wallObscurance(c), 0.01) << h;
-        const double cap = std::max(radius / 2 - h, 0.0);  // of the tangent sphere, behind the wall
+        const double cap = std::max(radius / 2 - h, 0.0);  // height of the cap behind the wall
         const double share = cap * cap * (3 * radius / 2 - cap) / (4 * std::pow(radius / 2, 3));
         EXPECT_NEAR(open.sphere, 1 - share, 0.01) << h;
     }

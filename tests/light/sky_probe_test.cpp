@@ -1,4 +1,4 @@
-// Made skies: the sun where it is asked for, closed forms, light that stays finite.
+// Computed skies: the sun is where it is asked for, values match closed forms, light stays finite.
 #include "engine/light/skies/sky_probe.h"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// visit(direction at the middle of the pixel, solid angle, radiance)
+// Calls visit(direction of the pixel's middle, solid angle, radiance) for each pixel.
 void visitPixels(const LightProbe& probe,
                  const std::function<void(const glm::dvec3&, double, const glm::dvec3&)>& visit) {
     for (int j = 0; j < probe.height(); ++j) {
@@ -34,7 +34,7 @@ void visitPixels(const LightProbe& probe,
     }
 }
 
-// Luminance of a white horizontal surface.
+// Returns the luminance of a white horizontal surface under the sky.
 double whiteSurface(const LightProbe& probe) {
     double sum = 0;
     visitPixels(probe, [&](const glm::dvec3& w, double solidAngle, const glm::dvec3& radiance) {
@@ -76,7 +76,7 @@ TEST(SkyProbe, LightIsFiniteAndOfTheCommonLevel) {
         }
 }
 
-// Where the light that the disc adds comes from.
+// The brightest pixel and the centroid of the disc's light lie where the sun is.
 TEST(SkyProbe, SunIsWhereItIsAskedFor) {
     for (const glm::dvec3& sun :
          {sunAt(5, 170), sunAt(35, -179.9), sunAt(50, 0), sunAt(80, 90), sunAt(90, 0)}) {
@@ -96,7 +96,8 @@ TEST(SkyProbe, SunIsWhereItIsAskedFor) {
     }
 }
 
-// The disc's light does not depend on the pixels it falls on, and has the disc's width where they are fine.
+// The disc's light does not depend on the size of the pixels. Where they are fine, the disc has its true
+// width.
 TEST(SkyProbe, SunsLightStaysWithTheResolution) {
     double before = 0;
     for (const int height : {32, 128, 1024}) {
@@ -116,7 +117,8 @@ TEST(SkyProbe, SunsLightStaysWithTheResolution) {
         }
         if (height == 1024) {
             const double disc = kPi * std::pow(0.2665 * kPi / 180, 2);
-            // of a uniform disc; its pixels are two thirds of its radius wide, and blur it
+            // light^2 / squares is the solid angle of a disc of uniform radiance. Pixels are two thirds of
+            // the disc's radius wide, and blur it.
             EXPECT_NEAR(light * light / squares, disc, 0.4 * disc);
         }
         before = direct;
@@ -168,8 +170,8 @@ TEST(SkyProbe, SkyIsTheSameOnBothSidesOfTheSun) {
     EXPECT_LT(peak, 50) << "no disc";
 }
 
-// The zenith's chromaticity as the paper's polynomials give it for 45 degrees and turbidity 2, worked out
-// apart from this program.
+// The zenith's chromaticity for the sun at 45 degrees and turbidity 2, computed apart from this program by
+// the polynomials of Preetham et al. 1999.
 TEST(SkyProbe, ZenithsChromaticityOfThePaper) {
     ClearSky sky;
     sky.sun = sunAt(45, 0);
@@ -183,8 +185,8 @@ TEST(SkyProbe, ZenithsChromaticityOfThePaper) {
     EXPECT_NEAR(Y / (X + Y + Z), 0.243722, 2e-4);
 }
 
-// Zenith to horizon 3 : 1, and the white surface's 7/9 of the zenith's luminance (the integral of
-// (1 + 2 cos) cos / 3 over the hemisphere is 7 pi / 9).
+// The zenith is three times as bright as the horizon, and a white surface has 7/9 of the zenith's luminance
+// (the integral of (1 + 2 cos) cos / 3 over the hemisphere is 7 pi / 9).
 TEST(SkyProbe, OvercastInClosedForm) {
     const LightProbe probe = overcastSkyProbe(0.0, 256);
     visitPixels(probe, [&](const glm::dvec3& w, double, const glm::dvec3& radiance) {

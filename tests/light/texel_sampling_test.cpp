@@ -17,7 +17,7 @@ using namespace test;
 constexpr double kLevel = 4.5;
 
 struct Estimate {
-    double mean = 0, error = 0;  // of luminance, and its standard error
+    double mean = 0, error = 0;  // luminance, and its standard error
 };
 
 // Independent runs: samples of one run of a sequence are not.

@@ -14,7 +14,7 @@ using namespace test;
 
 constexpr int kLitSize = 33, kMiddle = 16;
 
-// Across `axis`, so many voxels thick; the surface through a texel beside it is moved by the texel's
+// A sheet across `axis`, `thick` voxels thick; the surface through a texel beside it is moved by the texel's
 // distance.
 GreyVolume sheetAcross(int axis, double thick) {
     return solidVolume(cubeFrame(kLitSize),

@@ -34,7 +34,7 @@ test::ChanceField trackedLight(const TrackedPicture& picture) {
     return field;
 }
 
-constexpr int kManySamples = 16;  // of which some bring light, so that no pixel is black
+constexpr int kManySamples = 16;  // some of them bring light, so that no pixel is black
 
 TEST(DeltaTrackingChance, EveryPixelHasNumbersOfItsOwn) {
     test::expectUnrelated(trackedLight(chanceOf(67, 23, kManySamples)));

@@ -1,5 +1,5 @@
-// Paths and the plain model, which share nothing but the medium, must meet where both are right: direct light
-// in many thin slabs.
+// Paths and the sweep's reference model, which share nothing but the medium, must meet where both are right:
+// direct light in many thin slabs.
 #include <gtest/gtest.h>
 
 #include <array>

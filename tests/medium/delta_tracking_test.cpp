@@ -48,7 +48,7 @@ double backwardShare(double x, double y) {
 }
 
 struct Angles {
-    double eyeCosine, lightCosine;  // of the ways' z: both down, or the light up
+    double eyeCosine, lightCosine;  // z of the ways: both down, or the light up
 };
 
 class SingleScattering : public testing::TestWithParam<Angles> {};

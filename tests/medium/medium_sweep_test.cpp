@@ -131,7 +131,7 @@ Scene sceneOf(Kind kind, MediumModel model, bool lamp, bool forward, unsigned se
     s.look.indirectShare = 0.7f;
     s.setting.slices = 27;
     s.setting.lightSize = 24;
-    s.setting.sharedWidth = 0;  // as the plain sweep; see sweep_sharing_test.cpp
+    s.setting.sharedWidth = 0;  // the plain sweep shares nothing; see sweep_sharing_test.cpp
     s.eyes = {viewFrom(-4.0 * view, {0, 0, 0}, 0.35, 27, 21), viewFrom(-4.0 * view, {0, 0, 0}, 0.35, 27, 21)};
     s.eyes[1].eye += 0.1 * s.eyes[1].right;
     return s;
@@ -279,7 +279,7 @@ TEST(MediumSweep, agreesOnBakedLight) {
 TEST(MediumSweep, agreesOnBakedLightAtTheEndsOfItsNumbers) {
     const struct {
         float weight, brightest, exposure;
-        double most;  // of the light, which may be far above 1
+        double most;  // largest error of the light, which may be far above 1
     } cases[] = {{1.0f / 1024, 0x1p-18f, 0x1p18f, kTolerance},
                  {1, 0x1p-20f, 0x1p19f, 2 * kTolerance},
                  {1, 1e30f, 1e-6f, kTolerance},

@@ -1,4 +1,4 @@
-// The plain model against closed forms: what it says is docs/volume_light.md.
+// The sweep's reference model against closed forms: it computes what docs/volume_light.md says.
 #include "tests/oracle/plain_sweep.h"
 
 #include <random>

@@ -10,7 +10,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kLayerTolerance = 5e-4;  // as of grids: medium_sweep_test.cpp
+constexpr double kLayerTolerance = 5e-4;  // the same as for grids: medium_sweep_test.cpp
 // Texels are mixed in 14 bits of the root: three steps, twice as much in white.
 constexpr double kColorTolerance = kLayerTolerance + 6.0 / 16384;
 

@@ -51,8 +51,8 @@ struct ShadedScene {
     EyeView eye;
 };
 
-// Pixels of so many voxels at the medium's middle; the light comes over the viewer's shoulder or from behind
-// the medium.
+// A scene whose pixels are `pixel` voxels wide at the medium's middle; the light comes over the viewer's
+// shoulder or from behind the medium.
 ShadedScene sceneOf(Shape shape, Weight weight, double pixel, bool forward, int width = 50, int height = 37) {
     const glm::dvec3 way = glm::normalize(glm::dvec3(-0.5, 0.7, -0.4));
     const double half = 0.5 * width * pixel * kVoxel / 4;

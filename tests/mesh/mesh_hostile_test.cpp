@@ -20,7 +20,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-// A thousand nodes that each show a mesh of so many primitives.
+// A thousand nodes that each show a mesh of `primitives` primitives.
 std::string shown(int primitives) {
     std::string nodes, roots, parts;
     for (int n = 0; n < 1000; ++n) {

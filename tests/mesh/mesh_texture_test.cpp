@@ -196,7 +196,7 @@ TEST_F(TexelsOfAMesh, LieWhereTheirCoordinatesSay) {
 // Which texel is shown where texel n of an endless row would be: written out, after the pictures of glTF's
 // sample TextureSettingsTest.
 int shownTexel(int n, int size, TextureWrap wrap) {
-    std::vector<int> row;  // of a picture before, the picture, and one behind it
+    std::vector<int> row;  // texels of a picture before, the picture, and one behind it
     for (int k = 0; k < size; ++k)
         row.push_back(wrap == TextureWrap::Repeat ? k : wrap == TextureWrap::ClampToEdge ? 0 : size - 1 - k);
     for (int k = 0; k < size; ++k) row.push_back(k);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kStep = 0.25;     // pixels
 constexpr double kJump = 1.5;      // pixels between two steps: more is no surface
 constexpr double kSurface = 0.03;  // relative: inverse depths of one surface beside each other
-constexpr double kFront = 1.1;     // of a neighbour's depth: farther pixels beside it move with it
+constexpr double kFront = 1.1;     // times a neighbour's depth: farther pixels beside it move with it
 constexpr int kMostSteps = 20'000;
 
 struct Seen {

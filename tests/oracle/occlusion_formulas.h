@@ -13,7 +13,7 @@ namespace stereonav {
 // mean), or the one given, above 0. 0 up to the minimum (but see above), 1 from the maximum on.
 double reconstructedOpenness(double value, double minimum, double maximum, double mean, double beta = 0);
 
-// Ends of drawnInOpenness: at most so many standard deviations from the mean.
+// Standard deviations from the mean at which drawnInOpenness() puts its ends at most.
 constexpr double kDrawnInDeviations = 3;
 
 // The same between max(minimum, mean - 3 sigma) and min(maximum, mean + 3 sigma), or as many as given, which

@@ -19,7 +19,7 @@ public:
 
     // Where paths begin: a point of the surface through it.
     struct Start {
-        double isovalue = 0;     // as traced, see tracedIsovalue
+        double isovalue = 0;     // the traced one, see tracedIsovalue
         glm::dvec3 voxel{0.0};   // lifted
         glm::dvec3 normal{0.0};  // unit, world
         std::uint32_t key = 0;   // see path_numbers.h

@@ -25,7 +25,7 @@ struct LightBuffer {
 
     std::vector<glm::dvec3> depths;  // tau_i at the texels of the slab; empty where V11 does not count
 
-    std::vector<float> scattered;  // as it set out, with a ring; empty: 1
+    std::vector<float> scattered;  // light as it set out, with a ring; empty: 1
 
     void start(int w, int h, std::vector<float> setsOut) {
         width = w;
@@ -96,10 +96,10 @@ struct EyePixel {
 // The light at a place: its way, and what reaches it when nothing is between.
 struct Arriving {
     bool lit = false;     // past the light
-    bool inCone = false;  // of a lamp
+    bool inCone = false;  // whether it is in a lamp's cone
     glm::dvec3 way{0.0};
     double share = 1;   // by the falloff
-    double cosine = 1;  // of the way to the axis
+    double cosine = 1;  // cosine of the way with the axis
 };
 
 class Sweep {

@@ -1,5 +1,5 @@
-// The plain model: that of docs/volume_light.md in one thread and double precision, without leaving anything
-// out. Kernels and shaders are tested against it.
+// The reference model of the sweep: docs/volume_light.md in one thread and double precision, without skipping
+// anything. Kernels and shaders are tested against it.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace stereonav {
 
-// One picture an eye of the geometry.
+// Returns one picture for each eye of the geometry.
 std::vector<MediumPicture> plainSweep(const Medium& medium, const MediumLook& look,
                                       const SweepSetting& setting, const SweepGeometry& geometry,
                                       double time = 0);

@@ -129,7 +129,7 @@ TEST(ReportCsv, HasALineAFigure) {
 TEST(ReportComparison, NothingMovedIsNotWorse) {
     const Report report = reportWith(2, 1);
     const ReportComparison comparison = compareReports(asEarlier(report), report);
-    EXPECT_EQ(comparison.changes.size(), 4u);  // of two ways time and error
+    EXPECT_EQ(comparison.changes.size(), 4u);  // time and error of two ways
     for (const ReportChange& c : comparison.changes) EXPECT_EQ(c.verdict, Verdict::Same) << c.id;
     EXPECT_FALSE(comparison.worse());
     EXPECT_TRUE(comparison.gone.empty());

@@ -187,8 +187,8 @@ struct SweepSize {
 
 class SweepSizeRow : public testing::TestWithParam<SweepSize> {};
 
-// Against the plain model. Each of 24 slabs reads light in 15 bits, twice, where two texels are mixed; a
-// forward sweep stops where less than 1/1024 is left.
+// Compares with the reference model (plain_sweep.h). Each of 24 slabs reads light in 15 bits, twice, where
+// two texels are mixed; a forward sweep stops where less than 1/1024 is left.
 TEST_P(SweepSizeRow, IsAsByTheBook) {
     StabilityRow row("image/sweep/" + GetParam().text(),
                      "a cloud in stereo in " + GetParam().text() + " pixels, as by the book",

@@ -54,8 +54,8 @@ bool isSound(const Pose& pose) {
            std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1) < 1e-9;
 }
 
-// Whether a pose is clear of the ground, where there is one, up to the rounding of numbers as large as its
-// heights.
+// Returns whether a pose is clear of the ground, where there is one, up to the rounding of numbers as large
+// as its heights.
 bool isClear(const Pose& pose, const Heightfield& ground, double clearance) {
     const double h = ground.heightAt({pose.position.x, pose.position.y});
     return std::isnan(h) || pose.position.z >= h + clearance - 1e-12 * std::abs(h);

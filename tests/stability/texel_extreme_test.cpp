@@ -112,7 +112,7 @@ TEST(TexelExtreme, LongVoxelsKeepTheShapeOfTheWorld) {
     });
     for (const TexelSampling& sampling : allTargets()) {
         const TexelLighter lighter(volume, volume.frame, skyOf(1, 0), sampling);
-        const TexelSum top = irradianceAt(lighter, {150, 100, 5}, 256);  // of the ball, away from the ground
+        const TexelSum top = irradianceAt(lighter, {150, 100, 5}, 256);  // on the ball, off the ground
         ASSERT_EQ(top.samples, 256);
         EXPECT_NEAR(top.mean.x, 1, 0.02);
         const auto place = lighter.place({150, 100, 5});

@@ -72,14 +72,14 @@ public:
         }
         return found;
     }
-    // Whether some segment may lie at c, within rounding and `more`.
+    // Returns whether some segment may lie at c, within rounding and `more`.
     bool maybeAt(int i, double c, double more) const {
         const auto [low, high] = std::minmax(mColumn[i], mColumn[i + 1]);
         const double doubt = mRounding[i] + mRounding[i + 1] + more;
         return low - doubt <= c && c <= high + doubt;
     }
-    // Whether pixel i is seen by the right eye beyond doubt: no segment may lie in front, and the line does
-    // not turn back there, in front of itself.
+    // Returns whether pixel i is seen by the right eye beyond doubt: no segment may lie in front, and the
+    // line does not turn back there, in front of itself.
     bool surelySeen(int i) const {
         const double right = mColumn[i] + mRounding[i];
         if (i + 1 < width() && mColumn[i + 1] - mRounding[i + 1] <= right) return false;
@@ -89,7 +89,7 @@ public:
         }
         return true;
     }
-    // Whether the link from pixel i to the next holds beyond doubt.
+    // Returns whether the link from pixel i to the next holds beyond doubt.
     bool surelyLinked(int i) const {
         if (i < 0 || i + 1 >= width()) return false;
         const double gap = mColumn[i + 1] - mColumn[i], doubt = mRounding[i] + mRounding[i + 1] + 1e-6;

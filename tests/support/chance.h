@@ -103,7 +103,7 @@ private:
     double mPairs = 0, mA = 0, mB = 0, mAA = 0, mBB = 0, mAB = 0;
 };
 
-// Compares the first numbers of pixels so many columns and rows apart; dy >= 0.
+// Compares the first numbers of pixels dx columns and dy rows apart; dy >= 0.
 inline double lagCorrelation_z(const ChanceField& field, int dx, int dy) {
     PairSums sums;
     for (int y = 0; y + dy < field.height; ++y)

@@ -26,7 +26,7 @@ public:
     FailingReads(const FailingReads&) = delete;
     FailingReads& operator=(const FailingReads&) = delete;
 
-    // Returns how many of so many bytes can be read from there on; for other files all.
+    // Returns how many of `bytes` bytes can be read from `at` on; for other files all.
     static std::size_t readable(int file, std::size_t bytes, off_t at) {
         struct stat is {};
         const std::uint64_t from = static_cast<std::uint64_t>(at), bad = sByte;

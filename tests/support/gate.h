@@ -20,7 +20,8 @@ public:
         mChanged.notify_all();
         mChanged.wait(lock, [this] { return mOpen; });
     }
-    // To be called by the test: waits until so many have come, whether they have passed or not.
+    // To be called by the test: waits until `many` threads have come to the gate, whether they have passed or
+    // not.
     void await(int many = 1) {
         std::unique_lock lock(mMutex);
         ASSERT_TRUE(mChanged.wait_for(lock, kLongestWait, [&] { return mCame >= many; }))

@@ -20,7 +20,7 @@ RasterSpec stored(const std::function<void(GDALDataset&)>& adorn, const char* dr
     return spec;
 }
 
-// Each sample is what is stored, times so many metres.
+// Expects each sample to be the stored number times `metres`.
 void expectTimes(const std::string& of, const std::filesystem::path& file, double metres) {
     SCOPED_TRACE(of);
     const DemGrid dem = readGround(file);

@@ -63,7 +63,7 @@ Ground conesAndPits(int width, int height, double noise) {
     return ground;
 }
 
-// Whether a sample is above (1), or below (-1), all eight around.
+// Returns whether a sample is above (1), or below (-1), all eight around.
 bool isSummit(const Ground& g, int i, int j, float sign) {
     for (int b = -1; b <= 1; ++b)
         for (int a = -1; a <= 1; ++a)

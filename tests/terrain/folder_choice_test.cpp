@@ -69,7 +69,8 @@ protected:
     FolderChoice() { std::filesystem::create_directory(parts()); }
     std::filesystem::path parts() const { return mFolder / "parts"; }
     void write(const std::string& name, const RasterSpec& spec) { writeRaster(parts() / name, spec); }
-    // The hills of so many tiles side by side, read at once and by rows, and that this was told.
+    // Expects the hills of `tiles` tiles side by side, read at once and by rows, and a note on each file that
+    // was left aside.
     void expectHills(const std::string& of, const std::vector<std::string>& aside, int tiles = 1,
                      double over = 300) {
         SCOPED_TRACE(of);

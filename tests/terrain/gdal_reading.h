@@ -86,7 +86,7 @@ struct Compared {
     int missing = 0;  // in both
     int outside = 0;  // beyond the file
     int wrong = 0;
-    std::string first;  // of the wrong ones
+    std::string first;  // first of the wrong ones
 };
 
 // Every sample of the grid with what the library reads at its place: the same float where it is a sample of

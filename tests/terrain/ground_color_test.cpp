@@ -162,7 +162,7 @@ TEST(GroundColor, TilesOfAWebMapAreReprojected) {
     spec.epsg = 3857;
     const double pixel = 156543.03392804097 / (1 << 17), middle = 15 * 111319.49079327358;
     spec.transform = {middle - 50 * pixel, pixel, 0, 5640000, 0, -pixel};
-    const double stretch = 1.41543;  // of the projection at 45.15 N along its x
+    const double stretch = 1.41543;  // stretch of the projection at 45.15 N along its x
     spec.transform[3] =
         6378137 * std::log(std::tan(0.25 * 3.14159265358979 + 0.5 * 45.1537 * 3.14159265358979 / 180));
     spec.value = [&](int c, int, int band) {

@@ -16,7 +16,7 @@
 namespace stereonav {
 namespace {
 
-// Whether a ray from a sample at that sine of elevation meets the mesh.
+// Returns whether a ray from a sample at that sine of elevation meets the mesh.
 bool blocked(const GroundRays& rays, int i, int j, const glm::dvec2& direction, double sine) {
     const Heightfield& ground = rays.ground();
     const glm::dvec2 world = ground.worldFromGrid({i, j});

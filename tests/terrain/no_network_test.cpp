@@ -196,7 +196,7 @@ TEST_F(NoNetwork, OfATagOfATiff) {
             GDALSetMetadataItem(open, "OVERVIEW_FILE", address.c_str(), "OVERVIEWS");
             GDALClose(open);
         }
-        mListener.connections();  // of this test's own writing
+        mListener.connections();  // drops those of this test's own writing
         expectSilence(file);
     }
 }
@@ -238,7 +238,7 @@ TEST_F(NoNetwork, OfFunctionsInADatabase) {
     CPLPushErrorHandler(CPLQuietErrorHandler);
     GDALClose(open);
     CPLPopErrorHandler();
-    mListener.connections();  // of this test's own writing
+    mListener.connections();  // drops those of this test's own writing
     expectSilence(file);
     EXPECT_NE(errorOf([&] { askForPicture(file); }), "") << "the view is not asked";
 }

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kNumbersSide = 16;
-constexpr int kSecretHeight = 0x2122;  // of bytes that are no heights
+constexpr int kSecretHeight = 0x2122;  // number in bytes that are no heights
 
 class OutsideFiles : public testing::Test {
 protected:

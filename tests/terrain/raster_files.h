@@ -65,7 +65,7 @@ struct RasterSpec {
     // Column, row (0 first in the file), band (0 first).
     std::function<double(int, int, int)> value = [](int, int, int) { return 0.0; };
     std::function<void(GDALDataset&)> adorn = [](GDALDataset&) {};  // what else it says, before it is written
-    std::vector<const char*> options;                               // of the driver: "TILED=YES"
+    std::vector<const char*> options;                               // options of the driver: "TILED=YES"
 };
 
 inline std::string wktOfEpsg(const RasterSpec& spec) {

@@ -55,7 +55,8 @@ public:
         mKinds[static_cast<std::size_t>(y) * mField.width + x] = kind;
     }
 
-    // Among places of its kind none has what another one, so many columns and rows away, has.
+    // Expects the values, by their ranks among places of their kind, to be uncorrelated with those at other
+    // columns and rows.
     void expectUncorrelatedInKinds() const {
         ChanceField ranked(mField.width, mField.height);
         std::map<int, std::vector<std::size_t>> places;
@@ -80,7 +81,7 @@ private:
     std::vector<int> mKinds;
 };
 
-// Samples that lie so far from the edges of the ground that they see none, nor do those which they see.
+// Samples from an edge of the ground beyond which a sample sees no edge, nor do the samples that it sees.
 constexpr int kSeesEdge = 16;
 
 BouncedLight innerSamples(const TerrainLight& light) {

@@ -124,7 +124,7 @@ struct Valley {
         const double dx = -u - x, dz = (u - x) * t;
         return (c * dx + s * dz) / std::hypot(dx, dz);
     }
-    // Irradiance / pi under a sky of 1 after so many bounces, at n points of one side, by radiosity.
+    // Irradiance / pi under a sky of 1 after `bounces` bounces, at n points of one side, by radiosity.
     std::vector<double> light(int n, double albedo, int bounces) const {
         std::vector<double> direct, total;
         for (int k = 0; k < n; ++k) direct.push_back(skyShare((k + 0.5) * half / n));

@@ -25,7 +25,7 @@ Pose poseAt(double seconds) {
 
 class FlightRecordingTest : public testing::Test {
 protected:
-    // Flies for so many more seconds, at 10 m/s along x.
+    // Flies for another `seconds`, at 10 m/s along x.
     void fly(FlightRecording& recording, double seconds) {
         for (double flown = 0; flown < seconds; flown += kTurn) {
             mNow += kTurn;

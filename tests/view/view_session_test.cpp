@@ -260,8 +260,8 @@ TEST_F(ViewSessionTest, APathThatIsWorkedOnTakesOneStepBack) {
     EXPECT_EQ(s.paths().path().duration(), own.duration());
 }
 
-// Flies north at full input for so many seconds, towards a wall there; the distance ahead is given with every
-// step.
+// Flies north at full input towards a wall there, and returns the times at which the distance has halved
+// again. The distance ahead is given with every step.
 std::vector<double> timesOfHalving(ViewSession& s, double wall, double first, int count) {
     FlightInput forward;
     forward.forward = 1;

@@ -25,7 +25,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Pictures with so many rows or more take for ever, until they are dropped.
+// A medium whose pictures take for ever from a certain number of rows on, until they are dropped.
 class SlowMedium final : public test::OneMethodFrames {
 public:
     explicit SlowMedium(int endless) : mEndless(endless) {}

@@ -82,7 +82,7 @@ inline std::shared_ptr<const ViewFrame> nextFrame(ViewWorker& worker) {
     return test::waitFor([&] { return worker.takeFrame(); });
 }
 
-// Lets the only thread that makes frames turn: after so many requests it has also done its own work.
+// Lets the only thread that makes frames turn: after these requests it has also done its own work.
 inline void letItTurn(ViewWorker& worker) {
     for (int n = 0; n < 20; ++n) {
         const auto ran = std::make_shared<std::atomic<bool>>(false);

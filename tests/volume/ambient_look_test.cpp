@@ -29,7 +29,7 @@ std::shared_ptr<Volume<std::uint8_t>> randomBytes(const VolumeFrame& frame, unsi
     return bytes;
 }
 
-// A ambientBall of radius 7 voxels that is dense at its middle; opaque at 0, or showing all values above -1.
+// A ball of radius 7 voxels that is dense at its middle; opaque at 0, or showing all values above -1.
 VolumeScene ambientBall(bool translucent) {
     const VolumeFrame frame = slantedFrame({26, 22, 24}, {0.8e-3, 0.7e-3, 0.9e-3});
     VolumeScene scene;

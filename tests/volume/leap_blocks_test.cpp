@@ -21,7 +21,7 @@ namespace {
 using test::greyVolume;
 using test::slantedFrame;
 
-constexpr double kReach = 16, kGroupSide = 4;  // of leap_blocks.h
+constexpr double kReach = 16, kGroupSide = 4;  // the same as in leap_blocks.h
 
 SurfaceCells cellsOf(const GreyVolume& volume, float isovalue, bool blocks,
                      const MaskVolume* region = nullptr) {

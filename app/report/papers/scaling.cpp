@@ -27,7 +27,7 @@ struct Work {
     std::string said;
 };
 
-// Returns 1 to 16 one by one, as far as there are so many, then powers of two, and all.
+// Returns the numbers of threads to try: 1 to 16 one by one, then powers of two, none above `all`, and `all`.
 std::vector<int> allThreads(int all) {
     std::vector<int> counts;
     for (int n = 1; n <= all; n = n < 16 ? n + 1 : 2 * n) counts.push_back(n);

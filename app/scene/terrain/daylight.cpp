@@ -45,7 +45,8 @@ std::optional<TerrainLight> keptLight(const Heightfield& ground) {
     }
 }
 
-// Returns plain sunlight for each baked sample: the mean over the samples that are nearest to it.
+// Returns the light of the plain sun, without cast shadows, for each baked sample: the mean over the ground
+// samples that are nearest to it.
 std::vector<float> plainLight(const Heightfield& ground, const LightGrid& grid, const GroundLight& light) {
     std::vector<float> mean(grid.count(), 1.0f);
     const int half = grid.stride / 2;
@@ -119,7 +120,7 @@ void TerrainDaylight::give(std::unique_ptr<LitGround> lit) {
 
 void TerrainDaylight::work(const std::shared_ptr<const ColorTexture>& plain) {
     stepBehindTheWindow();
-    stepBehindTheWindow();  // and after the thread that makes frames
+    stepBehindTheWindow();  // a second time: the thread that makes frames goes first, too
     loopOnThisThreadAlone();
     interruptLoopsBy(&mStop);
     try {

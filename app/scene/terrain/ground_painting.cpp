@@ -165,7 +165,7 @@ std::shared_ptr<const PaintLegend> GroundPainting::legend() const {
 
 void GroundPainting::workOff() {
     stepBehindTheWindow();
-    stepBehindTheWindow();  // and after the thread that makes frames
+    stepBehindTheWindow();  // a second time: the thread that makes frames goes first, too
     loopOnThisThreadAlone();
     interruptLoopsBy(&mDrop);
     for (;;) {

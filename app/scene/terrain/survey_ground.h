@@ -35,8 +35,8 @@ struct SurveyGround {
     double heightAt(const glm::dvec2& grid, const char* option) const;
 };
 
-// Returns the bytes of a survey over so many samples: heights, block maxima, results, and the heights that a
-// sweep has read (survey/fan_sweep.h).
+// Returns the bytes of a survey over `samples` samples: heights, block maxima, results, and the heights that
+// a sweep has read (survey/fan_sweep.h).
 double bytesOfSurvey(double samples);
 
 // Reads the ground that the options name, a terrain. Missing heights are filled unless they are to stay open;

@@ -23,7 +23,7 @@ public:
     const Georeference& grid() const { return mGrid; }                           // grid of its samples
     // Returns which samples were taken: "samples 2.0 m apart, the finest are 0.5 m".
     std::string words() const;
-    Facts facts() const;  // the same for JSON
+    Facts facts() const;  // what words() says, for JSON
 
 private:
     const SurveyGround& mSurvey;

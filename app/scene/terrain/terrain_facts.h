@@ -12,8 +12,8 @@ namespace stereonav {
 
 Facts factsOfTerrain(const Scene& scene);  // scene has to offer const TerrainScene
 
-// Returns "curvature" for ground over a round Earth: its drop, the Earth's radius and the refraction. Empty
-// for other scenes.
+// Returns "curvature" for ground over a round Earth: its drop, the Earth's radius and the refraction. Returns
+// nothing for other scenes.
 std::optional<Fact> factOfCurvature(const Scene& scene);
 
 // Reads a bounded number of bytes of an elevation model, or of the one that a scene file names. Throws Error,

@@ -1,4 +1,4 @@
-// What options say of a scene's eyes and lens.
+// Eyes and lens of a scene, as options set them.
 #pragma once
 
 #include "app/options/scene_options.h"

@@ -1,4 +1,4 @@
-// What a scene holds in memory, as facts.
+// Facts on the memory that a scene holds.
 #pragma once
 
 #include <cstddef>

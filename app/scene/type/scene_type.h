@@ -1,4 +1,4 @@
-// What a type of scenes is: its properties and functions.
+// A type of scene: its properties and functions.
 #pragma once
 
 #include <memory>

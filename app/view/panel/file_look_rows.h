@@ -5,7 +5,7 @@
 
 namespace stereonav {
 
-// Draws at most so many lines. wrap: position at which long lines wrap, as for ImGui::PushTextWrapPos.
+// Draws at most `mostLines` lines. wrap: position at which long lines wrap, as for ImGui::PushTextWrapPos.
 void drawFileLook(const FileLook& look, int mostLines, float wrap = 0);
 
 }  // namespace stereonav

@@ -9,7 +9,7 @@
 
 namespace stereonav {
 
-// What menus ask for beside what is shown.
+// Requests from the menus, other than for panels to be shown.
 struct MenuWishes {
     std::optional<FileBrowser::For> open;
     bool search = false;

@@ -46,7 +46,7 @@ struct PanelParts {
     StudyReading& study;
     Interface& interface;  // the one that has the panels
     bool ownWindow;        // whether that is a window of their own
-    SizeOption eyeSize;    // of the picture that is shown, in pixels
+    SizeOption eyeSize;    // size of the picture that is shown, in pixels
     // The place under the pointer, and facts of it; empty where there is none.
     std::optional<glm::dvec3> pointed;
     Facts pointedFacts;

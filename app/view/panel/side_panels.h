@@ -11,7 +11,7 @@ namespace stereonav {
 struct SideTools {
     TransferPanel transfer;
     SunPanel sun;
-    bool showPicture = false;  // the same for "Picture"
+    bool showPicture = false;  // opens "Picture" in the next layout and scrolls to it
     bool showPath = false;     // opens "Flight and path" in the next layout and scrolls to it
 };
 

@@ -5,8 +5,8 @@
 namespace stereonav {
 namespace {
 
-constexpr double kFiguresWait = 0.1;      // seconds that figures and notices may be old in flight
-constexpr double kMostFiguresWait = 0.3;  // the same where no new picture comes
+constexpr double kFiguresWait = 0.1;      // seconds between redraws of figures and notices in flight
+constexpr double kMostFiguresWait = 0.3;  // seconds between redraws while no new picture comes
 
 }  // namespace
 
@@ -18,7 +18,8 @@ PanelStage::~PanelStage() {
 
 void PanelStage::toggleControls() {
     if (mControls) {
-        // User settings of the look are taken back; the scale belongs to each screen.
+        // The main window takes over the look that the user chose in the control window, but not its scale:
+        // each screen has its own.
         InterfaceLook look = mInterface.look();
         look.dark = mControls->interface().look().dark;
         mInterface.setLook(look);

@@ -1,4 +1,4 @@
-// What a structured report says, as DCMTK's tree of template TID 1500.
+// The content of a structured report, as DCMTK's tree of template TID 1500.
 #pragma once
 
 #include <dcmtk/config/osconfig.h>

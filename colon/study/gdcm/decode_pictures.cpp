@@ -61,7 +61,8 @@ void appendWord(std::string& bytes, std::uint32_t tag, int value) {
     appendElement(bytes, tag, "US", word);
 }
 
-// A file of our own around the picture: what GDCM takes apart is sound, whatever the picture came in.
+// Returns a file of our own around the picture, so that the file which GDCM parses is sound, whatever file
+// the picture came in.
 std::string fileOf(const Picture& packed) {
     const PictureRequest& picture = packed.head;
     std::string bytes = std::string(128, '\0') + "DICM", head;

@@ -1,4 +1,4 @@
-// What the program and its helper stereonav_gdcm say to each other (engine/base/helper_program.h): a
+// The messages between the program and its helper stereonav_gdcm (engine/base/helper_program.h): a
 // PictureRequest, the lengths of its parts (std::uint64_t each) and the parts; then the pixels and, behind
 // them, a PictureAnswer.
 #pragma once

@@ -1,6 +1,6 @@
-// What the program and its helper stereonav_picture_reader say to each other (engine/base/helper_program.h):
-// a ImageRequest and the file's bytes; then the samples (blue, green and red of each pixel, rows from the
-// top) and, behind them, a ImageAnswer.
+// The messages between the program and its helper stereonav_picture_reader (engine/base/helper_program.h): an
+// ImageRequest and the file's bytes; in answer the samples (blue, green and red of each pixel, rows from the
+// top) and, behind them, an ImageAnswer.
 #pragma once
 
 #include <cstdint>

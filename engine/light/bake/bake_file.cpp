@@ -34,7 +34,7 @@ struct Header {
     double spacing[3] = {}, origin[3] = {}, axes[9] = {};
     std::uint64_t bricks = 0, texels = 0;
     std::uint64_t bricksHash = 0, sumsHash = 0, aliveHash = 0;
-    std::uint64_t headerHash = 0;  // of all before it
+    std::uint64_t headerHash = 0;  // hash of all before it
 };
 static_assert(sizeof(Header) == 232 && std::is_trivially_copyable_v<Header>);
 

@@ -50,7 +50,7 @@ struct BakeFile {
 std::optional<BakeFile> readBakeFile(const std::filesystem::path& file, std::optional<std::uint64_t> key,
                                      std::string& problem);
 
-// Whether the file is there and begins as no bake does, so that it should not be written over.
+// Returns whether the file is there and begins as no bake does, so that it should not be written over.
 bool isForeignFile(const std::filesystem::path& file);
 
 // Writes the file beside its place and renames it. Throws Error.

@@ -279,7 +279,7 @@ private:
     Progress& mProgress;
     const BakeKeeping& mKeeping;
     Peers* mPeers = nullptr;             // several processes, this being the first
-    std::optional<PieceDealer> mDealer;  // of them
+    std::optional<PieceDealer> mDealer;  // deals pieces among the processes
     const Stopwatch mSinceStart;
     Stopwatch mSinceKept;
     std::atomic<bool> mStop = false, mPause = false;

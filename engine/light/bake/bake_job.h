@@ -12,7 +12,7 @@ namespace stereonav {
 
 class Peers;
 
-// What samples come from; as the functions of TexelLighter with the same names.
+// The source of samples: functions of TexelLighter with the same names.
 struct BakeSource {
     std::function<void(std::span<const glm::ivec3> texels, int count, std::span<TexelSum> sums)>
         addIrradiance;
@@ -29,7 +29,7 @@ struct BakeGoal {
     double minutes = 0;  // minutes of this run
 };
 
-// What is done with the sums while a bake runs.
+// How often, and by which function, the sums are saved while a bake runs.
 struct BakeKeeping {
     std::function<void(const BakeSums&)> keep;  // may be empty; called by one thread while nothing is added
     double everySeconds = 120;

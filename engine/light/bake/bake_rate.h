@@ -23,7 +23,7 @@ std::vector<TexelPiece> inSmallPieces(const std::vector<TexelPiece>& pieces);
 // change much.
 double processorSeconds();
 
-// What was measured, and what a whole bake would take.
+// Measured rates of a bake, and the time that all of it would take.
 struct BakeRate {
     double all_s = 0;        // seconds by the clock, for all texels
     double part = 0;         // share of the texels that was measured; 1: all, and all_s is what they took
@@ -39,7 +39,7 @@ struct BakeRate {
 BakeRate bakeRate(std::span<const std::size_t> sizes, double seconds, int samples,
                   const std::function<std::size_t(std::size_t)>& light);
 
-// Return the rates of irradiance and of transfer at texels, measured for so many seconds.
+// Return the rates of irradiance and of transfer at texels, measured for `seconds`.
 BakeRate irradianceRate(const TexelLighter& lighter, const std::vector<TexelPiece>& pieces, int samples,
                         double seconds);
 BakeRate transferRate(const TexelLighter& lighter, const std::vector<TexelPiece>& pieces, int samples,

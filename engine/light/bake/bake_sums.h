@@ -1,5 +1,5 @@
-// What a bake has added up so far, brick by brick: enough to go on from, to tell its error, and to make the
-// volumes that are looked up. Between texels that were chosen (bake_texels.h) and the bake's file.
+// The sums of a bake so far, brick by brick: enough to go on from, to tell its error, and to make the volumes
+// that are looked up. Between texels that were chosen (bake_texels.h) and the bake's file.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ enum class BakeKind : std::uint32_t {
 };
 std::string_view nameOf(BakeKind kind);
 
-// What a texel's sums hold.
+// The layout of a texel's sums.
 struct BakeShape {
     BakeKind kind = BakeKind::Irradiance;
     int order = 5, channels = 1;  // transfer: 1 to kMaxHarmonicsOrder, 1 or 3

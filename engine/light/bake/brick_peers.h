@@ -24,7 +24,7 @@ private:
     std::size_t mEach;
 };
 
-// Returns the order to bring these bricks to `target` samples within so many seconds.
+// Returns the order to bring these bricks to `target` samples within `seconds`.
 PeerBytes orderOf(const BakeSums& sums, std::span<const std::size_t> bricks, std::uint32_t target,
                   double seconds);
 // Does what the order says, on all threads. Ends early where a stop is wished. sums: of the same texels.

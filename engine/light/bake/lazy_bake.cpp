@@ -64,9 +64,9 @@ struct LazyBake::Brick {
     // What follows belongs to whoever is busy with it.
     std::uint64_t chosen = 0;  // the choice that `wanted` is of
     TexelMask wanted{}, held{};
-    std::vector<TexelSum> sums;  // of held texels; of transfer only how many samples
+    std::vector<TexelSum> sums;  // sums of held texels; for transfer only how many samples
     int each = 0;                // numbers of a texel's transfer
-    std::vector<float> numbers;  // of held texels: sums of samples
+    std::vector<float> numbers;  // sums of samples of held texels
 
     std::size_t slot(int texel) const {
         std::size_t before = 0;
@@ -94,9 +94,9 @@ struct LazyBake::Brick {
     }
 };
 
-// What a change of the light needs to know of a brick, under the light's mutex.
+// Data of a brick for changes of the light, under the light's mutex.
 struct LazyBake::Shown {
-    TransferVolume transfer;  // of this brick alone
+    TransferVolume transfer;  // transfer of this brick alone
     std::vector<Borrowed> borrowed;
 };
 
@@ -258,7 +258,7 @@ void LazyBake::giveBack(const Task& task, bool finished) {
     brick.busy = false;
     --mBusy;
     if (!finished) return;
-    // Nothing to light: nothing on the other levels either.
+    // Where this level has nothing to light the others have nothing either.
     brick.level = countTexels(brick.wanted) == 0 ? std::numeric_limits<int>::max() : task.level + 1;
 }
 
@@ -392,7 +392,8 @@ void LazyBake::publish(Brick& brick, const std::vector<int>& texels) {
     ++mChanges;
 }
 
-// The whole brick again, as half floats and in the order that a bake's volume has: the same bytes.
+// Returns all of the brick's texels again, as half floats and in the order that a bake's volume has: the same
+// bytes.
 std::unique_ptr<LazyBake::Shown> LazyBake::shownOf(const Brick& brick) const {
     TexelBrick known{brick.number, {}};
     std::vector<float> means;

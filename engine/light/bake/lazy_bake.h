@@ -52,9 +52,9 @@ public:
     std::uint64_t changes() const { return mChanges; }
     // Texels lit so far by own samples.
     std::uint64_t texelsLit() const { return mTexelsLit; }
-    // Whether all that was asked for is done.
+    // Returns whether all texels that were asked for are lit.
     bool done() const;
-    // Waits for that, at most so many seconds; returns done().
+    // Waits until done(), at most `seconds`; returns done().
     bool waitUntilDone(double seconds);
 
 private:
@@ -64,7 +64,7 @@ private:
         std::uint16_t to, from;  // texels of a brick
         float weight;
     };
-    // What is to be done; replaced as a whole.
+    // The bricks and texels to be lit; replaced as a whole.
     struct Wish {
         std::shared_ptr<const std::vector<std::uint32_t>> bricks;
         std::shared_ptr<const TexelChooser> chooser;

@@ -21,9 +21,9 @@ namespace stereonav {
 
 enum class OcclusionMethod {
     Reconstructed,  // t^beta from minimum, maximum and mean (section 3.2; R1 of docs/ledger.md)
-    DrawnIn,        // the same between ends at most three standard deviations from the mean, which is ours
-    Gaussian,       // from mean and variance (section 3.3; R2)
-    Chebyshev,      // Penner and Mitchell 2008: the one-tailed bound from mean and variance (R4)
+    DrawnIn,    // Reconstructed between ends at most three standard deviations from the mean, which is ours
+    Gaussian,   // from mean and variance (section 3.3; R2)
+    Chebyshev,  // Penner and Mitchell 2008: the one-tailed bound from mean and variance (R4)
 };
 
 // A method with what it leaves open.

@@ -236,7 +236,7 @@ void exchange(double* total, const double* in, const double* out, int n) {
 // log2 of t > 0 by 2 atanh((m - 1) / (m + 1)), m in [0.7, 1.42): four terms of the series, off by 1e-7 of it.
 STEREONAV_INLINE F log2Of(F t) {
     constexpr float kScale = 2.885390081777927f;  // 2 / ln 2
-    const I raw = asInt(t) - I(0x3f3504f3);       // of sqrt(1/2)
+    const I raw = asInt(t) - I(0x3f3504f3);       // relative to the bits of sqrt(1/2)
     const I exponent = shiftRight<23>(raw);
     const F m = asFloat((raw & I(0x007fffff)) + I(0x3f3504f3));
     const F s = (m - F(1.0f)) / (m + F(1.0f));
@@ -274,7 +274,7 @@ STEREONAV_INLINE F reconstructed(bool turned, float beta, I value, I low, I high
 }
 
 struct Moments {
-    F away, variance;  // of the value from the mean, upwards in density; stored numbers
+    F away, variance;  // the value less the mean, upwards in density, and the variance; stored numbers
     M even;            // all values equal
 };
 
@@ -292,10 +292,10 @@ STEREONAV_INLINE Moments moments(bool turned, I value, D sum, D squares, D count
     return {away, max(about * inverse - shift * shift, F(0.0f)), about <= F(0.0f)};
 }
 
-// The same as `reconstructed` between ends at most so many standard deviations from the mean, and bit for bit
-// that where neither end is drawn in. Lengths are times `count` where the sums are. From an end that is the
-// box's own t counts in whole numbers; from one drawn in, where away + reach cancels, beta is at least 1 and
-// t near 0 says nothing.
+// The same as `reconstructed` between ends at most `deviations` standard deviations from the mean, and bit
+// for bit that where neither end is drawn in. Lengths are times `count` where the sums are. From an end that
+// is the box's own t counts in whole numbers; from one drawn in, where away + reach cancels, beta is at least
+// 1 and t near 0 says nothing.
 STEREONAV_INLINE F drawnIn(const Moments& box, bool turned, float deviations, I value, I low, I high, D sum,
                            D count) {
     const D lowest = count * toDouble(low), highest = count * toDouble(high);

@@ -1,4 +1,4 @@
-// What the filters of occlusion_kernel.cpp are given: plain numbers and memory only, since they are compiled
+// Arguments of the filters of occlusion_kernel.cpp: plain numbers and memory only, since they are compiled
 // for several instruction sets.
 //
 // A band of rows goes through in two steps. Each slice is filtered along j and i into the band's boxes; then

@@ -15,8 +15,8 @@
 namespace stereonav {
 namespace {
 
-// A box's values are off their mean by no more than half of what the volume's extremes are apart, root mean
-// square; 1 where all are equal.
+// Returns the largest standard deviation that a box's values can have: half the difference of the volume's
+// extremes; 1 where all values are equal.
 double largestSigma(const GreyVolume& volume) {
     int low = 32767, high = -32768;
     for (std::size_t n = 0; n < volume.values.size(); ++n) {
@@ -27,7 +27,7 @@ double largestSigma(const GreyVolume& volume) {
     return sigma > 0 ? sigma : 1.0;
 }
 
-// Whether the function shows a stored number, by number + 32768.
+// Returns, by stored number + 32768, whether the function shows it.
 std::vector<char> shownNumbers(const GreyVolume& volume, const TransferFunction& transfer) {
     std::vector<char> shown(65536);
     for (int n = 0; n < 65536; ++n)
@@ -36,8 +36,8 @@ std::vector<char> shownNumbers(const GreyVolume& volume, const TransferFunction&
     return shown;
 }
 
-// The least measure, 1..255, that at most kWhollyOpaque of the shown voxels' measures above 0 lie above; 255
-// where there are none.
+// Returns the least measure, 1..255, that is exceeded by at most kWhollyOpaque of the shown voxels' measures
+// above 0; 255 where there are none.
 int scaleOf(const Volume<std::uint8_t>& measure, const GreyVolume& volume, const TransferFunction& transfer) {
     const std::vector<char> shown = shownNumbers(volume, transfer);
     std::array<std::size_t, 256> counts{};

@@ -13,7 +13,7 @@
 
 namespace stereonav {
 
-// What rays find at one voxel, cosine-weighted over the hemisphere about its normal.
+// Openness traced by rays at one voxel, cosine-weighted over the hemisphere about its normal.
 struct TracedOpenness {
     // Obscurance, 0 to 1: eq. 1 with rho = min(d / R, 1)^3, the function for which section 2.1 passes to the
     // tangent sphere.

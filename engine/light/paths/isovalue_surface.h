@@ -45,9 +45,9 @@ constexpr std::array<double, 3> kLifts{0.25, 0.5, 1.0};
 glm::dvec3 liftedStart(const GreyVolume& volume, double isovalue, const glm::dvec3& voxel,
                        const glm::dvec3& normal);
 
-// Whether what is solid, at or above `value`, is less than a voxel thick at a place in it: the surface lies
-// on both sides of it along one of the 13 ways to opposite voxels, and faces away from it there. The light
-// there would be that of either side.
+// Returns whether what is solid, at or above `value`, is less than a voxel thick at a place in it: the
+// surface lies on both sides of it along one of the 13 ways to opposite voxels, and faces away from it there.
+// The light there would be that of either side.
 bool thinnerThanVoxel(const GreyVolume& volume, const glm::dvec3& voxel, double value);
 
 constexpr double kNearSurface = 1.75;  // voxels

@@ -46,7 +46,7 @@ struct PathPoint {
     float radius = 0;         // units
 };
 
-// What lights the volume, and bits that switch what TexelSampling names.
+// The lights of the volume, and flags for the choices of TexelSampling.
 struct PathLights {
     PathProbe probe;
     const PathPoint* points = nullptr;

@@ -97,7 +97,8 @@ private:
         };
         return {sum(mX.value), sum(mX.slope), v1, v2};
     }
-    // Whether places are inside their cell, not on its faces, where the trilinear values have two slopes.
+    // Returns whether places are inside their cell, not on its faces, where the trilinear values have two
+    // slopes.
     STEREONAV_INLINE M withinCell() const {
         const F zero(0.0f), one(1.0f);
         return (mLocal.x > zero) & (mLocal.x < one) & (mLocal.y > zero) & (mLocal.y < one) &

@@ -41,7 +41,7 @@ private:
     void addPoints(const VolumeFrame& frame, const std::vector<PointLight>& points);
 
     PathLights mLights;
-    std::vector<float> mPixels, mRows, mColumns, mEdges;  // as in PathProbe
+    std::vector<float> mPixels, mRows, mColumns, mEdges;  // the arrays of PathProbe
     std::vector<PathPoint> mPoints;
 };
 

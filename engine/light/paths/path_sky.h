@@ -83,7 +83,7 @@ STEREONAV_INLINE V3 axesFromWorld(const float* axes, const V3& v) {
     return {along(0), along(1), along(2)};
 }
 
-// What is seen of the probe in a direction.
+// Radiance of the probe in a direction, and the density with which that direction is sampled.
 struct ProbeSight {
     V3 radiance;
     F density;  // per steradian

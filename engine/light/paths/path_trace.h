@@ -180,7 +180,8 @@ private:
         return {rail, rail, rail, zero, zero, zero, none, none, none, none, none, no, no, no};
     }
 
-    // Whether lanes that wait (for their cells to be tried, or for a ray) may wait for those that walk.
+    // Returns whether lanes that wait (for their cells to be tried, or for a ray) may wait for those that
+    // walk.
     STEREONAV_INLINE bool worthWalking(const Rays3& r) const {
         const int walking = lanesIn(r.walking);
         const int waiting = mNext < mQueue.count ? kLanes - walking : lanesIn(r.parked);
@@ -348,7 +349,7 @@ private:
         mEnds.count += lanesIn(m);
     }
 
-    // What is found beyond a limit is not met.
+    // Hits beyond a path's limit count as none.
     __attribute__((noinline)) void finishEnds() {
         if constexpr (!Places && !Limited) {
             for (int n = 0; n < mEnds.count; ++n) mStore.met[mEnds.path[n]] = 0;

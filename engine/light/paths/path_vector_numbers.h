@@ -5,7 +5,7 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-constexpr std::uint32_t kGoldenStep = 0x9e3779b9u;  // as in path_numbers.h, and so the constants below
+constexpr std::uint32_t kGoldenStep = 0x9e3779b9u;  // equal to path_numbers.h, like the constants below
 
 STEREONAV_INLINE I bitsOf(std::uint32_t x) {
     return I(static_cast<std::int32_t>(x));

@@ -21,7 +21,7 @@ namespace stereonav {
 namespace {
 
 constexpr int kMostBounces = 8;
-constexpr float kMost = 1e15f;  // of light: squares of its samples stay finite
+constexpr float kMost = 1e15f;  // upper limit of light: squares of its samples stay finite
 
 void require(bool holds, const std::string& place, const std::string& problem, const std::string& advice) {
     if (!holds) throw Error("", place, problem, advice);
@@ -87,7 +87,7 @@ struct TexelLighter::State {
     const GreyVolume& volume;
     VolumeFrame texels;
     TexelSampling sampling;
-    double least;  // of the volume
+    double least;  // lowest value of the volume
     PathVolume pathVolume;
     PathLightTables tables, greyTables;  // grey: the albedo is the mean of the three
     IsovalueFields fields;

@@ -33,8 +33,8 @@ struct TexelSampling {
     SimdTarget simd = SimdTarget::Auto;
 };
 
-// Whether point lights are sampled one at a time, by what each would bring unshadowed: where there are more
-// than a few. The naive way takes all.
+// Returns whether point lights are sampled one at a time, by what each would bring unshadowed: where there
+// are more than a few. The naive way takes all.
 bool choosesLights(const LightSetup& setup, const TexelSampling& sampling);
 
 // Running mean of a texel's samples.

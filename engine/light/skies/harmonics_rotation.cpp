@@ -97,7 +97,7 @@ HarmonicsRotation::HarmonicsRotation(const glm::dmat3& rotation, int order) : mO
     const glm::dmat3 matrix = nearestRotation(rotation);
     mBands.resize(bandStart(order));
     mBands[0] = 1;
-    constexpr int kAxis[3] = {1, 2, 0};  // of s = -1, 0, 1: band 1 is the matrix itself, as y, z, x
+    constexpr int kAxis[3] = {1, 2, 0};  // axes of s = -1, 0, 1: band 1 is the matrix itself, as y, z, x
     for (int s = 0; s < 3 && order > 1; ++s)
         for (int t = 0; t < 3; ++t) mBands[1 + 3 * s + t] = matrix[kAxis[t]][kAxis[s]];
     for (int i = 2; i < order; ++i) {

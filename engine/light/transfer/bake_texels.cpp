@@ -18,7 +18,7 @@ constexpr int kBrick = 8;
 // Voxels around texels `first` to `last` along one axis.
 struct VoxelSpan {
     int low, high;
-    double begin, end;  // of the texels, in voxels
+    double begin, end;  // span of the texels, in voxels
 
     VoxelSpan(int first, int last, double voxelsPerTexel, int size)
         : begin(first * voxelsPerTexel), end(last * voxelsPerTexel) {
@@ -125,7 +125,7 @@ TexelChooser::TexelChooser(const GreyVolume& volume, const VolumeFrame& texels, 
       mChoice(choice),
       mVoxelsPerTexel(texels.spacing / volume.frame.spacing) {}
 
-// Whether anything between voxels `low` and `high` counts; cells of one value hold no surface.
+// Returns whether anything between voxels `low` and `high` counts; cells of one value hold no surface.
 bool TexelChooser::mayHold(const glm::ivec3& low, const glm::ivec3& high) const {
     if (mChoice.region && !anyInside(*mChoice.region, low, high)) return false;
     const Range range = rangeOfVoxels(mVolume, low, high);

@@ -13,7 +13,7 @@ namespace stereonav {
 namespace {
 
 constexpr int kBlock = 4;        // texels along an edge of a cell of the first level
-constexpr int kBeyondBrick = 8;  // of the light's layout
+constexpr int kBeyondBrick = 8;  // side of a brick of the light, in texels
 
 // Light in rgb, in a how much is known of it, 0..1.
 struct Level {

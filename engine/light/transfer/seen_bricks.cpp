@@ -46,7 +46,7 @@ public:
         tally.touched |= touched;
     }
 
-    // What is touched at its faces alone comes last.
+    // Returns the number of pixels by brick. Bricks that are touched at their faces alone come last.
     std::vector<int> pixels() const {
         std::vector<int> counts(mTallies.size());
         for (std::size_t n = 0; n < mTallies.size(); ++n) {

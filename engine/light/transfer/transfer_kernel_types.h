@@ -1,5 +1,5 @@
-// What the relighting kernels are given: plain numbers only, since they are compiled for several
-// instruction sets.
+// Arguments of the relighting kernels: plain numbers only, since they are compiled for several instruction
+// sets.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace stereonav {
 
-// Texels come in groups of so many: the most lanes that a kernel has.
+// Texels in a group: the most lanes that a kernel has.
 constexpr int kTransferGroup = 16;
 
 constexpr float kTransferLightScale = 0x1p56f;  // what a half's bits lack as a float's, 2^112, in two parts

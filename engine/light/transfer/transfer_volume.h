@@ -64,7 +64,7 @@ private:
     int mOrder = 0, mChannels = 1;
     std::size_t mTexels = 0;
     std::vector<TexelBrick> mBricks;
-    std::vector<std::uint32_t> mFirstGroup;  // of each brick, and one behind the last
+    std::vector<std::uint32_t> mFirstGroup;  // first group of each brick, and one behind the last
     LazyArray<std::uint32_t> mWords;
 };
 

@@ -54,7 +54,7 @@ private:
     std::uint32_t mTurns = 0;
     std::uint32_t mBeyondLitAt = 0;     // the turn that mBeyond is of
     std::vector<std::uint32_t> mLitAt;  // by brick: the turn that it is lit by
-    std::vector<std::uint32_t> mSeen;   // of the transfer's bricks: by the last frame
+    std::vector<std::uint32_t> mSeen;   // numbers of the transfer's bricks that the last frame saw
     std::size_t mNext = 0;              // bricks before this one are lit
     std::uint64_t mChanges = 0;
 };

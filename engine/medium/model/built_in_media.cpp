@@ -13,7 +13,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kMost = 1000;  // of the values
+constexpr double kMost = 1000;  // largest of the values
 
 template <typename Value>
 std::shared_ptr<GreyVolume> sampled(int size, double width, const glm::dvec3& origin, Value valueAt) {

@@ -1,4 +1,4 @@
-// What a sweep makes for one eye, before it is packed: linear light.
+// A sweep's picture of one eye, before it is packed: linear light.
 #pragma once
 
 #include <glm/vec4.hpp>

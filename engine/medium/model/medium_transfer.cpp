@@ -1,4 +1,4 @@
-// What a transfer function gives at a value and a gradient magnitude: points or regions turned into
+// Evaluates a transfer function at a value and a gradient magnitude: points or regions turned into
 // extinctions once per question; renderers ask its table (medium_table.cpp) instead.
 #include "engine/medium/model/medium_transfer.h"
 

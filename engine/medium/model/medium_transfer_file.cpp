@@ -256,7 +256,7 @@ private:
     double mRampLow = 0, mRampHigh = 0;
     std::vector<MediumPoint> mPoints;
     std::vector<MediumRegion> mRegions;
-    std::vector<Reading> mReadings;  // of the points, or of the regions
+    std::vector<Reading> mReadings;  // what was read for each point, or for each region
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a participating medium does with light at one point (Kniss et al. 2003, table 1 and eq. 7 to 11). The
+// Optical properties of a participating medium at one point (Kniss et al. 2003, table 1 and eq. 7 to 11). The
 // equations the whole room follows are in docs/volume_light.md.
 #pragma once
 

@@ -36,7 +36,7 @@ const std::vector<Moments>& allSineMoments() {
     }();
     return moments;
 }
-// The same of sin cos.
+// Returns the moments of sin cos.
 Moments cosineMoments(int i) {
     const double a = i * kStep, b = (i + 1) * kStep;
     const double whole = 0.5 * std::sin(a + b) * std::sin(kStep);  // (cos 2a - cos 2b) / 4

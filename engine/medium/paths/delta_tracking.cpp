@@ -185,7 +185,7 @@ TrackedPicture trackRows(const Medium& medium, const ExtinctionBounds& bounds, c
     TrackedPicture picture{Plane<glm::vec4>(view.width, view.height),
                            Plane<glm::vec3>(view.width, view.height)};
     const int first = std::max(0, rows.first), end = std::min(view.height, rows.end);
-    constexpr int kPixels = 8;  // of a row: few, for paths of some pixels take far longer than others
+    constexpr int kPixels = 8;  // pixels of a row: few, for paths of some pixels take far longer than others
     const int blocks = (view.width + kPixels - 1) / kPixels;
     parallelFor(std::max(0, end - first) * blocks, [&](int n) {
         const int y = first + n / blocks, begin = n % blocks * kPixels;

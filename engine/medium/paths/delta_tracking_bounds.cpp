@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kCellsAlongLongest = 64;      // cells cost a few ns a step, a reading 50 ns and more
 constexpr float kRounding = 1e-5f;          // readings and tables round differently: far above float's
-constexpr int kColumns = 48, kLevels = 24;  // of cells over layers
+constexpr int kColumns = 48, kLevels = 24;  // cells over layers: along x and y, and upwards
 
 struct ValueRange {
     double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -54,7 +54,7 @@ ExtinctionRange widened(const ExtinctionRange& range, const NoiseBounds& noise) 
 class BlockValues {
 public:
     BlockValues(const GreyVolume& field, int block) : mField(field), mBlock(block) {
-        mSize = (field.frame.size - 2 + block) / block;  // of size - 1 intervals between voxels
+        mSize = (field.frame.size - 2 + block) / block;  // blocks of the size - 1 intervals between voxels
         mSize = glm::max(mSize, glm::ivec3(1));
         mRanges.resize(static_cast<std::size_t>(mSize.x) * mSize.y * mSize.z);
         parallelFor(mSize.z, [this](int k) {

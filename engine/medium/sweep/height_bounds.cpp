@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSamplesOff = 0.01;      // by which places are off at most, in floats
 constexpr double kFootprintsOff = 1.001;  // factor
-constexpr double kHeightsOff = 2e-6;      // of how far the layer reaches
+constexpr double kHeightsOff = 2e-6;      // share of how far the layer reaches
 
 constexpr float kNoHeight = std::numeric_limits<float>::infinity();
 

@@ -54,7 +54,7 @@ STEREONAV_INLINE Column columnAt(F place) {
 // Texels of a row that a packet has met, row by row down a tile.
 struct ColumnRows {
     const float* from[3];  // light before the slab
-    float* to[3];          // and after it
+    float* to[3];          // light after the slab
     F above[3], here[3];
     std::int64_t stride;
 
@@ -88,7 +88,7 @@ struct ColumnRows {
     }
 };
 
-// Whether passEvenTile passes the tile: parallel light, taps at the four neighbours.
+// Returns whether passEvenTile passes the tile: parallel light, taps at the four neighbours.
 STEREONAV_INLINE bool passesEvenly(const SweepLight& light, const LightPass& pass) {
     const float offset = light.blur / (light.perX > 1e-30f ? light.perX : 1e-30f);
     return light.parallel && pass.thickness * light.length * offset * offset <= 4.0f / 3;

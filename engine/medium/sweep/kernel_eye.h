@@ -11,7 +11,7 @@ constexpr float kLeastLeft = 1.0f / 1024;  // share of the light: with less left
 constexpr float kNothing = 1e-20f;         // below it numbers become 0 before they get denormal and slow
 constexpr int kEmission = 0, kSurface = 1, kDirect = 2, kIndirect = 3;
 
-// What rays have gathered: linear RGB, the share of what lies behind that is seen, and view depth, metres.
+// Light that rays have gathered, linear RGB; transmittance of what they passed; and view depth, metres.
 struct Gathered {
     F light[3], left, depth;
 };

@@ -1,5 +1,6 @@
-// Packets of places in a medium: what Medium::at says, in float. A grid under a one-dimensional table is the
-// short way; noise, layers and gradients take the long one. Included by kernels only.
+// Samples a medium at packets of places, in float, as Medium::at() does. sampleAny() handles noise, layers
+// and gradients; a grid alone under a one-dimensional table has a faster path (SweepScene::gridAlone).
+// Included by kernels only.
 #pragma once
 
 #include "engine/image/kernel_texture.h"
@@ -12,7 +13,7 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Whether places among the voxels lie within the grid.
+// Returns whether places, in voxel coordinates, lie within the grid.
 STEREONAV_INLINE M insideGrid(const SweepGrid& grid, const V3& v) {
     const F zero(0.0f);
     return (v.x >= zero) & (v.y >= zero) & (v.z >= zero) & (v.x <= F(grid.last[0])) &
@@ -30,7 +31,7 @@ STEREONAV_INLINE V3 voxelOf(const SweepGrid& grid, const V3& place) {
     return transformed(grid.fromPlace, grid.zero, place);
 }
 
-// Cells of the grid. Trilinear values take two neighbours along x in one word; their weights have 14 bits.
+// Indices of the grid cells that hold a packet of places.
 struct GridCell {
     I x, y, z;
 };
@@ -52,14 +53,15 @@ STEREONAV_INLINE F gridValue(const SweepGrid& grid, const V3& v, M m) {
     const F far = lerp(pair(next), pair(next + grid.strideY), fy);
     return lerp(near, far, fz) * F(1.0f / 16384);
 }
-// Returns gridValue() at places that mostly lie close together.
+// Returns what gridValue() does, but faster where the places lie close together.
 STEREONAV_INLINE F valueNearby(const SweepGrid& grid, const V3& v, M m) {
     const GridCell cell = cellOf(grid, v);
     F value;
     return blockValue(grid, v, cell.x, cell.y, cell.z, m, value) ? value : gridValue(grid, v, m);
 }
-// Returns differences over two voxels to both sides, at places with two voxels around their cells. A row's
-// neighbours along x are two words, from which the one between is put together.
+// Returns central differences over two voxels along each axis, at places whose cells have other cells on all
+// sides. Each row is read as two words, voxels x - 1 and x, and x + 1 and x + 2, from which the word for x
+// and x + 1 is put together.
 STEREONAV_INLINE V3 innerDifferences(const SweepGrid& grid, const V3& v, I x, I y, I z, M m) {
     const I high = truncateToInt(mulAdd(v.x - toFloat(x), F(16384.0f), F(0.5f)));
     const I weights = shiftLeft<16>(high) + (I(16384) - high);
@@ -86,7 +88,8 @@ STEREONAV_INLINE V3 innerDifferences(const SweepGrid& grid, const V3& v, I x, I 
                   at(2 * next + down) - here[1]) *
                 unit};
 }
-// Returns value units a metre, along the grid's own axes; at the faces the outermost voxels count on.
+// Returns the gradient in value units a metre, along the grid's own axes. Beyond its faces the grid counts as
+// continued with the outermost voxels' values.
 [[gnu::noinline]] inline V3 gridGradient(const SweepGrid& grid, const V3& v, M m) {
     const F zero(0.0f), one(1.0f);
     const I x = truncateToInt(v.x), y = truncateToInt(v.y), z = truncateToInt(v.z), first(1);
@@ -113,11 +116,11 @@ STEREONAV_INLINE F lengthOf(const V3& v) {
     return sqrt(dot(v, v));
 }
 
-// Four channels in -1..1.
+// The four channels of the noise at a place, each in -1..1.
 struct NoiseValue {
     F red, green, blue, alpha;
 };
-// Bytes of a word as 15-bit halves: red and blue, green and alpha.
+// The bytes of a texel as 15-bit halves: red and blue (even), green and alpha (odd).
 struct NoiseWords {
     I even, odd;
 };
@@ -131,7 +134,7 @@ STEREONAV_INLINE NoiseWords mixNoise(const NoiseWords& a, const NoiseWords& b, I
 STEREONAV_INLINE F noiseChannel(I half) {
     return mulAdd(toFloat(half & I(0xFFFF)), F(1.0f / (127.5f * 128)), F(-1.0f));
 }
-// Returns a scale's noise at places, trilinear.
+// Returns the noise of one scale at places, interpolated trilinearly.
 [[gnu::noinline]] inline NoiseValue noiseAt(const SweepNoise& noise, const SweepNoise::Scale& scale,
                                             const V3& place, M m) {
     const F perMetre(scale.perMetre);
@@ -151,10 +154,10 @@ STEREONAV_INLINE F noiseChannel(I half) {
             noiseChannel(shiftRight<16>(sum.odd))};
 }
 
-// What the noise of all scales does at a place: a way in metres, and factors on extinction, colour and
-// scattered light's extinction.
+// The effect of all scales of the noise at a place: a displacement, and factors on extinction, on colour and
+// on the extinction of scattered light.
 struct Disturbance {
-    V3 way;  // metres
+    V3 way;  // the displacement, metres
     F extinction, color[3], indirect[3];
 };
 STEREONAV_INLINE Disturbance disturbanceAt(const SweepNoise& noise, const V3& place, M m) {
@@ -175,7 +178,8 @@ STEREONAV_INLINE Disturbance disturbanceAt(const SweepNoise& noise, const V3& pl
     return d;
 }
 
-// A layer's own colours for lanes m, linear RGB 0..1: what HeightLayer::colorAt says.
+// A layer's own colours, linear RGB 0..1, as HeightLayer::colorAt() returns them. colorAtPlace() reads them
+// for lanes m.
 struct PlaceColor {
     F linear[3];
 };
@@ -193,8 +197,8 @@ struct PlaceColor {
     return {{square(c.redBlue & low), square(c.green & low), square(shiftRight<16>(c.redBlue) & low)}};
 }
 
-// Adds what lanes m, where a layer has this extinction, have there. read: a member, where its table is read.
-// tint: what its colours are multiplied by; null: nothing.
+// Adds a layer's properties for lanes m, where the layer has this extinction. read: returns a member of its
+// table at these places. tint: factors on the table's colours; null: none.
 template <bool kColors, bool kIndirect, typename Read>
 STEREONAV_INLINE void addProperties(const SweepTable& table, F extinction, F weight, M m, const Read& read,
                                     const PlaceColor* tint, Properties& sum) {
@@ -214,8 +218,9 @@ STEREONAV_INLINE void addProperties(const SweepTable& table, F extinction, F wei
             sum.glow[k] = lerp(sum.glow[k], table.glow[k] ? read(table.glow[k]) : zero, share);
     }
 }
-// Adds a layer to what is there; extinctions add up, the rest by its share of them. Light that passes needs
-// no colours, and eyes not always what scattered light meets. Layers have no gradient: a table's first row.
+// Adds a layer to the properties found so far. Extinctions add up; colours, surface weight and glow are means
+// weighted by extinction. The light's pass needs no colours (kColors), and eyes do not always need the
+// extinction of scattered light (kIndirect). Layers have no gradient: only a table's first row is read.
 // kTinted: the layer has colours of its own.
 template <bool kColors, bool kIndirect, bool kTinted>
 [[gnu::noinline]] void addLayer(const SweepLayer& layer, const V3& place, F footprint, M m, Properties& sum) {
@@ -254,7 +259,8 @@ template <bool kColors, bool kIndirect, bool kTinted>
     });
 }
 
-// Samples the long way: noise, layers, gradients. Returns the displaced place; what is not asked for is 0.
+// Samples any medium: with noise, layers or gradients. Returns the displaced place. Properties that are not
+// asked for are 0.
 template <bool kColors, bool kIndirect>
 [[gnu::noinline]] V3 sampleAny(const SweepScene& scene, const V3& place, F footprint, M m, Properties& p) {
     const F zero(0.0f), one(1.0f);
@@ -316,7 +322,7 @@ template <bool kColors, bool kIndirect>
     }
     return normal;
 }
-// Turns a gradient along the grid's axes into the world's.
+// Turns a gradient along the grid's axes into one along the world's axes.
 STEREONAV_INLINE V3 worldGradient(const SweepGrid& grid, const V3& g) {
     const auto row = [&](int k) {
         const float(&a)[3] = grid.axes[k];
@@ -324,7 +330,7 @@ STEREONAV_INLINE V3 worldGradient(const SweepGrid& grid, const V3& g) {
     };
     return {row(0), row(1), row(2)};
 }
-// Returns the gradient along world axes, any length; place: displaced.
+// Returns a vector along the gradient, in world axes, of any length. place: after displacement.
 [[gnu::noinline]] inline V3 gradientAt(const SweepScene& scene, const V3& place, M m) {
     if (!scene.grid.values) return layerNormal(scene, place, m);
     const V3 voxel = voxelOf(scene.grid, place);
@@ -333,12 +339,13 @@ STEREONAV_INLINE V3 worldGradient(const SweepGrid& grid, const V3& g) {
     const V3 g = worldGradient(scene.grid, gridGradient(scene.grid, voxel, in));
     return {select(in, g.x, zero), select(in, g.y, zero), select(in, g.z, zero)};
 }
-// Means over a slab: (1 - exp(-z)) / z and exp(-z), z >= 0. A series where z is small: the difference would
-// lose digits, and it costs less. Its first term left out is below 2e-7 at the limit.
+// Exponential decay through a slab of optical depth z >= 0: its mean (1 - exp(-z)) / z, and what passes,
+// exp(-z). A series serves small z: there the difference would lose digits, and the series costs less. The
+// first term that it leaves out is below 2e-7 at the limit.
 struct Decay {
     F mean, passes;
 };
-// Returns (1 - exp(-s)) / s and exp(-s) for s up to 0.5.
+// Return (1 - exp(-s)) / s and exp(-s), for s up to 0.5.
 STEREONAV_INLINE F thinMean(F s) {
     F mean = mulAdd(s, F(1.0f / 5040), F(-1.0f / 720));
     mean = mulAdd(mean, s, F(1.0f / 120));
@@ -362,13 +369,15 @@ STEREONAV_INLINE Decay decayOf(F z) {
     }
     return {mean, passes};
 }
-// Returns V5 and V6 of docs/volume_light.md; x, y: optical depths along the eye's and the light's ray.
+// Returns the slab's share by V5 (forward) or V6 (backward) of docs/volume_light.md; x, y: optical depths
+// along the eye's and the light's ray.
 STEREONAV_INLINE F slabShareOf(F x, F y, bool forward) {
     if (forward) return x * decayOf(x + y).mean;
     return x * decayOf(min(x, y)).passes * decayOf(abs(x - y)).mean;
 }
 
-// Returns radians by Abramowitz and Stegun 4.4.46, error below 2e-8 and the rounding.
+// Returns the angle in radians, by formula 4.4.46 of Abramowitz and Stegun; its error is below 2e-8 plus
+// rounding.
 STEREONAV_INLINE F arcCosine(F cosine) {
     const F a = min(abs(cosine), F(1.0f));
     F p = mulAdd(a, F(-0.0012624911f), F(0.0066700901f));
@@ -384,7 +393,7 @@ STEREONAV_INLINE F arcCosine(F cosine) {
 struct Colors {
     F c[3];
 };
-// Returns the phase function's weight of each colour.
+// Returns the phase function's weight for each colour channel.
 STEREONAV_INLINE Colors phaseAt(const SweepLook& look, F cosine, M m) {
     if (!look.phase[0]) return {{F(1.0f), F(1.0f), F(1.0f)}};
     const F at = clamp(arcCosine(cosine) * F(1024.0f / 3.14159265f), F(0.0f), F(1024.0f));

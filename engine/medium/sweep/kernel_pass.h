@@ -122,8 +122,8 @@ inline void findColumns(const SweepScene& scene, const LightColumns& at) {
         }
 }
 
-// What weakens scattered light: optical depths of a metre along the axis. Without columns direct light passes
-// here too. Gives the lanes where something is.
+// Finds the optical depths of a metre along the axis for scattered light. Without columns direct light passes
+// here too. Returns the lanes where something is.
 template <bool kIndirect, bool kGridAlone>
 STEREONAV_INLINE M passedThere(const SweepScene& scene, const LightTile& tile, const TexelPlaces& at, int x,
                                int y, F way, M crossed, Properties& p) {
@@ -183,7 +183,7 @@ void findTileDepths(const SweepScene& scene, const LightPass& pass, const LightT
     }
 }
 
-// What weakens scattered light of a packet, and the lanes where something is.
+// Finds the optical depths for scattered light of a packet. Returns the lanes where something is.
 template <bool kIndirect, bool kGridAlone, bool kLeans>
 STEREONAV_INLINE M depthsThere(const SweepScene& scene, const LightPass& pass, const LightTile& tile,
                                const TexelPlaces& at, int x, int y, F way, M crossed, const F (&indirect)[3],

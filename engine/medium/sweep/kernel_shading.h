@@ -178,13 +178,14 @@ struct PacketShading {
     int x = 0, y = 0;
 };
 
-// What shades a sample: its gradient, along world axes, or what Blinn-Phong makes of it.
+// Input of a sample's shading: its gradient along world axes, or the finished Blinn-Phong shade.
 struct SurfaceAlone {
     V3 gradient;
     F shade;
     bool isShaded;
 };
-// Returns what shades places in a grid alone where their surface weight is not 0, and sets that.
+// Returns the input of the shading at places in a grid alone whose surface weight is not 0, and sets that
+// weight.
 [[gnu::noinline]] inline SurfaceAlone surfaceAlone(const SweepGrid& grid, const V3& voxel,
                                                    const TablePlaces& places, const PacketShading& shading,
                                                    int slab, Properties& p) {

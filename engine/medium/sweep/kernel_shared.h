@@ -1,4 +1,4 @@
-// What one eye saw in a slab, kept by rows of its pixels, and read by the other eye, which sees the same
+// One eye's samples in a slab, kept by rows of its pixels and read by the other eye, which sees the same ones
 // shifted along the rows (sweep_sharing.h). Included by kernels only.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// What a slab shows to lanes: light that it sends of itself, and how opaque it is along the ray.
+// A slab as lanes see it: light that it sends, and its opacity along the ray.
 struct Sighting {
     Colors sent;
     F opacity, passes;  // 0 to 1: 1 - passes
@@ -87,7 +87,7 @@ private:
     I mColumn, mRow;  // mRow: its first lane
 #if defined(STEREONAV_ISA_avx512)
     bool mNear;
-    std::int64_t mOffset;  // of the first packet
+    std::int64_t mOffset;  // numbers before the first packet
     I mFirst, mSecond;     // in both packets
 #endif
 };

@@ -17,7 +17,7 @@ public:
         : mFirst(leastOf(entry, m, SweepTable::kColumns - kEntries)), mOffset(entry - I(mFirst)) {
         mHolds = !any(m & ~within(mOffset, I(kEntries - 2)));
     }
-    // Whether it holds all that those lanes read, entries and the next.
+    // Returns whether the window holds all that those lanes read: entries and their next ones.
     STEREONAV_INLINE bool holds() const { return mHolds; }
 
     STEREONAV_INLINE F between(const float* member, F share) const {

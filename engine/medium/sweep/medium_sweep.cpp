@@ -1,6 +1,7 @@
-// Light and eyes in lock step, a chunk of slabs at a time: the light passes the chunk's slabs one after the
-// other and leaves behind what eyes read of it; then each tile of the eyes walks the chunk with what it has
-// gathered in registers. Tiles and slabs where the medium's cells are empty are left out.
+// Light and eyes advance in lock step, one chunk of slabs at a time. First the light passes the slabs of the
+// chunk, and what the eyes need of it before each slab is stored. Then each tile of an eye's pixels passes
+// the same slabs, with the light and opacity that its rays have gathered held in registers. Tiles and slabs
+// where the medium is empty are skipped.
 #include "engine/medium/sweep/medium_sweep.h"
 
 #include <fmt/format.h>
@@ -65,7 +66,7 @@ struct MediumSweep::State {
     SweepReach reach;
     bool passesAll = false;
     SweepEyes eyes;
-    double finest;  // detail: metres
+    double finest;  // metres: size of the medium's finest detail
 };
 
 MediumSweep::MediumSweep(const Medium& medium, SimdTarget target)

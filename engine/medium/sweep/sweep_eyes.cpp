@@ -108,7 +108,7 @@ long long SweepEyes::seeTile(std::size_t eye, int n, const Walk& walk) {
     return samples;
 }
 
-// Both eyes' tiles of a row.
+// Sees a row of tiles for both eyes, the second one sharing what the first one saw.
 long long SweepEyes::seeRow(int row, const Walk& walk) {
     Eye &first = mEyes[0], &second = mEyes[1];
     const int begin = row * first.across, end = begin + first.across;
@@ -151,7 +151,7 @@ long long SweepEyes::seeRow(int row, const Walk& walk) {
     return samples;
 }
 
-// Whether a tile of a row that is shared is asked: the first eye says where nothing is, too.
+// Returns whether a tile of a row that is shared is asked: the first eye says where nothing is, too.
 bool SweepEyes::isSeen(std::size_t eye, int n) const {
     const std::uint32_t* slabs = mEyes[eye].slabs.data() + 4 * static_cast<std::size_t>(n);
     return eye == 0 || (!mEyes[eye].done[n] && (slabs[0] | slabs[1] | slabs[2] | slabs[3]) != 0);

@@ -41,8 +41,8 @@ private:
         int across = 0, down = 0;
         std::vector<float> states;  // like EyeTile::state
         std::vector<std::uint8_t> fresh, done;
-        std::vector<SweepBeam> beams;      // of the quarters of each tile
-        std::vector<std::uint32_t> slabs;  // of a chunk, where quarters may meet something
+        std::vector<SweepBeam> beams;      // beams of the quarters of each tile
+        std::vector<std::uint32_t> slabs;  // slabs of a chunk, as bits: where quarters may meet something
         SweepEye seen;
 
         void start(const RayFan& fan);
@@ -65,7 +65,7 @@ private:
     struct RowTask {
         int row = 0;
         SharedRows rows;
-        std::vector<std::uint8_t> goesOn;  // of each tile, of both eyes
+        std::vector<std::uint8_t> goesOn;  // for each tile, of both eyes: whether a ray goes on
         int firstRow = 0;
     };
     bool isSeen(std::size_t eye, int tile) const;

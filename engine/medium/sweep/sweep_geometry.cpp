@@ -85,7 +85,7 @@ double leanOf(double beta, double lightHalf, double eyeHalf) {
 struct Lamp {  // also parallel light: where it goes
     bool parallel = true;
     glm::dvec3 position{0.0}, direction{0, 0, -1};
-    double half = 0;  // of its cone
+    double half = 0;  // half the angle of its cone
 };
 
 Lamp lampOf(const MediumLight& light, const glm::dvec3& head, const glm::dvec3& view) {

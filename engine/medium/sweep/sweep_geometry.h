@@ -83,8 +83,9 @@ SweepGeometry makeSweepGeometry(const Medium& medium, const MediumLook& look, co
 double blurOf(const Medium& medium, const SweepSetting& setting);
 
 // Returns scattered light, 0 to 1, as it sets out, for the buffer and a ring of texels around it, rows of
-// light.width + 2 from (-1, -1) on: the part of a texel that lies within the lamp's cone. Empty where that is
-// 1 everywhere. The ring stays as it is, and what lies farther outside is like the nearest texel of it.
+// light.width + 2 from (-1, -1) on: the part of a texel that lies within the lamp's cone. Returns nothing
+// where that is 1 everywhere. The ring stays as it is, and what lies farther outside is like the nearest
+// texel of it.
 std::vector<float> scatteredAtStart(const SweepGeometry& geometry);
 
 }  // namespace stereonav

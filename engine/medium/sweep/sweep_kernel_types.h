@@ -34,9 +34,9 @@ struct SweepTable {
 struct SweepGrid {
     const std::int16_t* values = nullptr;  // null: layers alone
     std::int32_t strideY = 0, strideZ = 0, lastCell[3] = {};
-    bool large = false;                        // enough for kernel_block.h
-    bool blocks = false;                       // and values lie near enough to each other
-    float last[3] = {};                        // the last voxel along each axis
+    bool large = false;   // whether the grid is large enough for kernel_block.h's values
+    bool blocks = false;  // whether values are also near enough to each other for its differences
+    float last[3] = {};   // the last voxel along each axis
     float fromPlace[3][3] = {}, zero[3] = {};  // voxel = fromPlace[row] . place + zero
     float slope[3] = {};                       // value units a metre, of a difference over two voxels
     float axes[3][3] = {};                     // world = axes[row] . voxel direction
@@ -78,8 +78,8 @@ struct SweepLook {
     float indirectShare = 0;
     float ambient = 0, diffuse = 0, specular = 0, shininess = 1;  // shares of the light; exponent
     const float* phase[3] = {};  // null: the same everywhere; by the angle, 1025 entries
-    BakedData
-        baked;  // as kernel_baked.h reads it, by its own texels: texel = texelFromPlace[row] . place + zero
+    // Baked light, read by kernel_baked.h at texel = texelFromPlace[row] . place + texelZero.
+    BakedData baked;
     float texelFromPlace[3][3] = {}, texelZero[3] = {};  // places: metres
 };
 
@@ -189,7 +189,7 @@ struct EyeTile {
 struct SweepScene {
     // No layers, no noise, and a table that is one-dimensional, but for the surface weight: the short way.
     bool gridAlone = false;
-    // Surfaces of a grid alone are shaded at places up to so many voxels apart; 0: at each sample.
+    // Voxels between the places at which surfaces of a grid alone are shaded, at most; 0: at each sample.
     float shadingWidth = 0;
     SweepGrid grid;
     const SweepLayer* layers = nullptr;

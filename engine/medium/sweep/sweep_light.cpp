@@ -22,13 +22,13 @@ constexpr int kBorder = 16;                       // columns of 1 to both sides 
 constexpr std::size_t kMostPacked = 32u << 20;    // bytes that the eyes' light may take
 constexpr std::size_t kMostStrips = 64u << 20;    // tiles of all slabs that are remembered
 constexpr std::uint32_t kAllLight = 0x7fff7fffu;  // both halves 1
-constexpr int kPieces = 16;                       // of a slab's tiles, for threads
+constexpr int kPieces = 16;                       // pieces of a slab's tiles, for threads
 constexpr double kSigmas = 5;                     // light that spreads further is below 1e-6 of what there is
 
 constexpr int kLineNumbers =
     16;  // numbers of a cache line: rows start with one, so that no packet lies across two
 
-// The first whole line of numbers.
+// Returns the first number that starts a cache line.
 template <typename T>
 T* linesOf(std::vector<T>& numbers) {
     const std::size_t bytes = kLineNumbers * sizeof(T),

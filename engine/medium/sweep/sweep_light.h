@@ -53,13 +53,13 @@ private:
     std::vector<std::uint8_t> mDeep;  // tiles: may have some of it that is not 0
     bool mLeans = false;
     std::vector<std::uint32_t> mPacked;
-    std::vector<float> mColumns;  // of tiles: a chunk's slabs
+    std::vector<float> mColumns;  // by tile: a chunk's slabs
     int mPackedWidth = 0, mPackedHeight = 0, mChunk = 0;
     bool mSwapped = false;
     std::vector<float> mStart;               // see scatteredAtStart
     bool mRingSet = false;                   // around mPacked, to others than 1
-    std::vector<std::uint8_t> mStrips;       // of each slab's tiles: LightTile::strips; empty: all of all
-    std::vector<int> mLast, mRead, mNeeded;  // of tiles: last slab with something in it, and near it
+    std::vector<std::uint8_t> mStrips;       // by slab and tile: LightTile::strips; empty: all of all
+    std::vector<int> mLast, mRead, mNeeded;  // by tile: last slab met, read, needed
     std::vector<std::uint8_t> mTouched;      // tiles: scattered light may differ from 1
     std::vector<LightTile> mTiles;
     std::vector<std::uint8_t> mChanged;

@@ -41,13 +41,13 @@ private:
     void count(int chunk, const Rect& rect, int by);
 
     int mChunk = 1, mChunks = 0, mSide = 1, mAcross = 0, mDown = 0;
-    std::vector<int> mFirstTile;        // of each eye among all
-    std::vector<Rect> mRects;           // of eyes' tiles: chunks
+    std::vector<int> mFirstTile;        // number of each eye's first tile among all
+    std::vector<Rect> mRects;           // by eyes' tile and chunk
     std::vector<std::uint8_t> mGone;    // eyes' tiles that read no more
-    std::vector<std::uint32_t> mCount;  // of chunks: how many tiles of eyes read tiles of light
+    std::vector<std::uint32_t> mCount;  // by chunk and tile of light: how many tiles of eyes read it
     int mPaired = 0;                    // tiles in a row of both eyes; 0: not two alike
-    std::vector<int> mEnd;              // of eyes' tiles: behind the last chunk in which they read
-    std::vector<int> mLast;             // of tiles of light: chunks
+    std::vector<int> mEnd;              // by eyes' tile: the chunk behind the last one in which it reads
+    std::vector<int> mLast;             // by tile of light: the last chunk in which it is read
 };
 
 }  // namespace stereonav

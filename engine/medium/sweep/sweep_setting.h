@@ -14,8 +14,8 @@ struct SweepSetting {
     // steps as in few thick ones; the paper's spread less and less as slices are added. 0: 1/64 of the
     // medium's longest side.
     double blurLength = 0;
-    // Surfaces are shaded at places up to so many voxels apart and between them; 0: at each sample. CPU,
-    // grids without noise and baked light.
+    // Voxels between the places at which surfaces are shaded, at most; between them the shading is
+    // interpolated. 0: at each sample. CPU, grids without noise and baked light.
     double shadingWidth = 1;
     // The right eye reads what the left one saw in slabs where a pixel is no wider than this times the finest
     // detail of the medium (sweep_sharing.h). 0: each eye takes samples of its own. Not by the GPU.

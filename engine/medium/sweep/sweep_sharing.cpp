@@ -13,8 +13,8 @@
 namespace stereonav {
 namespace {
 
-// What both eyes see under a larger angle (tangent) is not shared: phase functions, highlights and the length
-// of ways through a slab are the first eye's, or nearly.
+// Largest parallax (tangent) at which samples are shared: phase functions, highlights and the length of ways
+// through a slab are the first eye's, or nearly.
 constexpr double kMostParallax = 1.0 / 8;
 // How far beside the row the other eye may lie, as a share of the separation: at the largest parallax a
 // hundredth of a pixel where a thousand of them span a radian.
@@ -78,8 +78,8 @@ SweepSharing::SweepSharing(const SweepGeometry& geometry, const WorldBox& box, d
     }
 }
 
-// Whether a plane `away` from the eye along the axis is shared. parallax: tangent, of a ray with the cosine 1
-// to the axis.
+// Returns whether a plane `away` from the eye along the axis is shared. parallax: tangent, of a ray with the
+// cosine 1 to the axis.
 bool SweepSharing::share(double away, double& parallax) const {
     if (!(mForward ? away > 0 : away < 0)) return false;
     double nearest = kInfinity, farthest = 0;

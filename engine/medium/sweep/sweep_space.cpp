@@ -187,7 +187,7 @@ SweepBeam SweepSpace::lightBeamOf(const SweepGeometry& geometry, double x0, doub
     all = footprintOf(geometry, geometry.eyes[0]);
     for (const RayFan& fan : geometry.eyes) {
         const SweepBeam::Footprint eye = footprintOf(geometry, fan);
-        if (eye.gradient == all.gradient)  // as of both eyes of a pair
+        if (eye.gradient == all.gradient)  // so it is for both eyes of a pair
             all.constant = std::max(all.constant, eye.constant);
         else
             beam.least = std::max(beam.least, largestFootprint(geometry, fan));

@@ -46,7 +46,7 @@ public:
     SweepBeam lightBeamOf(const SweepGeometry& geometry, double x0, double y0, double x1, double y1) const;
     // Returns bits of those of up to 32 planes, at ascending t, where a beam may meet something.
     std::uint32_t planesMet(const SweepBeam& beam, const double* t, int count) const;
-    // Whether a beam may meet something between two planes on its rays' side.
+    // Returns whether a beam may meet something between two planes on its rays' side.
     bool mayMeet(const SweepBeam& beam, double t0, double t1) const {
         return !beam.known || fillingOf(beam, t0, t1) != Filling::Empty;
     }
@@ -73,7 +73,7 @@ private:
     glm::dvec3 mOrigin{0.0};  // world, metres
     glm::ivec3 mSize{0};
     std::vector<std::uint8_t> mFull;
-    std::vector<std::int32_t> mSums;  // of full cells before (x, y, z), (size + 1)^3
+    std::vector<std::int32_t> mSums;  // numbers of full cells before (x, y, z), (size + 1)^3
     std::vector<HeightBounds> mLayers;
     WorldBox mBounds;
 };

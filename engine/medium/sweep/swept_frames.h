@@ -16,7 +16,7 @@
 
 namespace stereonav {
 
-// What a sweep is asked for; pictures: one for each eye.
+// Arguments of a sweep. pictures: one for each eye.
 struct SweepTask {
     const Medium& medium;
     const MediumLook& look;
@@ -75,7 +75,7 @@ private:
                    bool shares = true);
     void sweepOne(const EyeView& view, double time, std::span<const Plane<float>> starts, EyeImage& image);
 
-    // Whether the look's model shows a surface of the medium.
+    // Returns whether the look's model shows a surface of the medium.
     bool showsSurface() const;
     MediumSweep& sweep();
     const Medium& medium() const;  // once sweep() was called
@@ -91,7 +91,7 @@ private:
     std::unique_ptr<Surface> mSurface;  // made when it is first shown
     RightEye mSplat;
     std::vector<MediumPicture> mPictures;
-    double mEffort = 1, mTurn = 0;           // as SlicedFrames has them
+    double mEffort = 1, mTurn = 0;           // the same as in SlicedFrames
     bool mHere = false, mElsewhere = false;  // the chooser is not asked; it swept elsewhere
     SweepChooser mChooser;                   // last: it ends before the media that it was asked for
 };

@@ -18,7 +18,7 @@
 namespace stereonav {
 namespace {
 
-constexpr std::size_t kMostBytes = INT_MAX;  // of one message: MPI counts in int
+constexpr std::size_t kMostBytes = INT_MAX;  // bytes of one message: MPI counts in int
 
 void expect(int code, const char* what) {
     if (code == MPI_SUCCESS) return;

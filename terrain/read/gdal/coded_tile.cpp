@@ -14,13 +14,13 @@
 namespace stereonav {
 namespace {
 
-constexpr int kNoCode = -1;  // of a pixel without colour
+constexpr int kNoCode = -1;  // code of a pixel without colour
 constexpr int kGsiMissing = 1 << 23, kGsiWrap = 1 << 24;
 constexpr int kRgbSea = 100000;  // 0 m of Terrain-RGB
 constexpr double kLowest = -500, kHighest = 9000,
                  kDeepest = -11500;  // metres: of land, and of the sea's floor
 constexpr double kHighestOfJapan = 3800;
-constexpr double kGsiSpacing_m = 7.7;  // of tiles without a path: zoom 14 at 36 degrees north
+constexpr double kGsiSpacing_m = 7.7;  // spacing of tiles without a path: zoom 14 at 36 degrees north
 
 struct Codes {
     int side = 0;
@@ -229,7 +229,7 @@ std::optional<WebTile> webTileOf(const std::filesystem::path& file) {
     std::error_code failed;
     const std::filesystem::path whole = std::filesystem::absolute(file, failed).lexically_normal();
     const std::string stem = whole.stem().string();
-    const auto y = wholeOf<int>(stem.substr(0, stem.find('@')));  // of 512 pixels 1583@2x
+    const auto y = wholeOf<int>(stem.substr(0, stem.find('@')));  // tiles of 512 pixels: 1583@2x
     const auto x = wholeOf<int>(whole.parent_path().filename().string());
     const auto zoom = wholeOf<int>(whole.parent_path().parent_path().filename().string());
     if (!x || !y || !zoom || *x < 0 || *y < 0 || *zoom < 0 || *zoom > 24) return std::nullopt;

@@ -40,7 +40,7 @@ struct WebTile {
     int zoom = 0, x = 0, y = 0;
     double longitude() const;  // degrees, of its middle
     double latitude() const;
-    // Metres a pixel of one that is so many wide, at its middle.
+    // Returns the metres a pixel at the middle of a tile that is `pixels` wide.
     double spacing(int pixels) const;
 };
 std::optional<WebTile> webTileOf(const std::filesystem::path& file);

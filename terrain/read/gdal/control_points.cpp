@@ -49,7 +49,7 @@ std::vector<ControlPoint> pointsOf(GDALDataset& dataset, bool degrees, double tu
     return points;
 }
 
-// Width over length of the ellipse of the places' spread; 0 where all are one.
+// Returns width over length of the ellipse of the points' spread; 0 where all lie at one place.
 double spread(const std::vector<ControlPoint>& points, glm::dvec2 ControlPoint::*place) {
     glm::dvec2 mean(0.0);
     for (const ControlPoint& p : points) mean += (p.*place) / double(points.size());
@@ -95,7 +95,8 @@ Misfit misfitOf(const Georeference& place, const std::vector<ControlPoint>& poin
     return misfit;
 }
 
-// Whether both ways of the placement agree all over the raster, to a sample or a fiftieth of its side.
+// Returns whether both ways of the placement agree all over the raster, to a sample or a fiftieth of its
+// side.
 bool leadsBack(const Georeference& place) {
     const PixelPlacement placement(place);
     const glm::dvec2 size(place.width, place.height);

@@ -102,7 +102,7 @@ bool customaryIsMissing(const std::vector<FolderFile>& files, const GdalMessages
     return true;
 }
 
-// The same rule as of dem_placement.cpp, for files that name no system.
+// Returns whether places look like degrees, by the rule of dem_placement.cpp, for files that name no system.
 bool lookLikeDegrees(const std::vector<FilePlan*>& plans) {
     return std::all_of(plans.begin(), plans.end(), [](const FilePlan* plan) {
         return std::max(std::abs(plan->west), std::abs(plan->east)) <= 360 &&

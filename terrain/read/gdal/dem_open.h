@@ -12,7 +12,7 @@ namespace stereonav {
 // An elevation model that is open.
 struct OpenedDem {
     GdalDataset dataset;
-    std::vector<std::filesystem::path> files;  // of a folder, those that are its ground
+    std::vector<std::filesystem::path> files;  // files of a folder that are its ground
     std::vector<std::string> notes;            // what was guessed, for a person
 };
 
@@ -27,12 +27,12 @@ struct OpenedDem {
 // names the file that does not fit.
 OpenedDem openDem(const std::filesystem::path& place, const GdalMessages& messages);
 
-// The dataset with at most so many samples, at least 2 each way, as a virtual raster over it: one sample of
-// each few, or of its overviews where it has them. It must be closed before `whole`. Null where all are no
-// more than that, and where rows are found by reading all before them (text). Throws Error.
+// Returns the dataset with at most `most` samples, at least 2 each way, as a virtual raster over it: one
+// sample of each few, or of its overviews where it has them. It must be closed before `whole`. Returns null
+// where all are no more than that, and where rows are found by reading all before them (text). Throws Error.
 GdalDataset thinnedDem(GDALDataset& whole, long long most, const std::filesystem::path& place);
 
-// Whether rows of the file are found by reading all before them.
+// Returns whether rows of the file are found by reading all before them.
 bool isTextGrid(GDALDataset& dataset);
 
 // The first file of such a folder that can not be read to its end; "" where there is none, or it is no

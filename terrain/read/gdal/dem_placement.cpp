@@ -100,7 +100,7 @@ void placeSource(GDALDataset& dataset, const OpenedDem& opened, const std::files
 struct OwnPlane {
     double metres = 0;    // on the ground, in a unit; 0: it has none, and is brought to another plane
     bool stays = false;   // also where the raster has to be turned level
-    std::string stretch;  // of the plane over a pole, in words
+    std::string stretch;  // stretch of the plane over a pole, in words
 };
 
 // Over a pole no transverse Mercator is north up: the raster's own projection stays, in metres on the ground

@@ -20,13 +20,13 @@ void describeSource(GDALDataset& dataset, const OpenedDem& opened, const std::fi
                     DemGrid& dem);
 
 struct DemPlacement {
-    bool asTheyAre = false;   // turned over at most; else resampled onto
-    Georeference grid;        // this, north up and east right
-    bool westward = false;    // as they are: rows of the file run from east to west,
-    bool southFirst = false;  // and its first row is the southernmost
+    bool asTheyAre = false;  // whether samples stay as they are, turned over at most; else they are resampled
+    Georeference grid;       // grid of the placed samples, north up and east right
+    bool westward = false;   // where asTheyAre: rows of the file run from east to west
+    bool southFirst = false;  // where asTheyAre: the file's first row is the southernmost
     double ownUnit_m = 0;  // metres on the ground in a unit of the plane that they lie in; 0: they leave it
-    bool staysInPlane = false;  // also where they are resampled
-    std::string stretch;        // of the plane over a pole, in words
+    bool staysInPlane = false;  // whether they stay in their plane, also where they are resampled
+    std::string stretch;        // stretch of the plane over a pole, in words
 };
 
 // Throws Error that names the file where there is no way to metres or the grid is beyond the limits.

@@ -11,7 +11,7 @@ namespace stereonav {
 
 struct ResampledDem {
     std::vector<float> heights;  // rows of the target, its first row first; NaN: missing
-    long long outside = 0;       // of them, beyond the source's outer samples
+    long long outside = 0;       // number of heights beyond the source's outer samples
 };
 
 // Samples of `source`, in its row order, at the pixels of `target`. Missing where the nearest sample is

@@ -42,7 +42,7 @@ ResampledRows::Box ResampledRows::boxOf(const PixelMap& map, int mapFirst, const
     for (int j = top; j <= bottom; j = next(j, bottom))
         for (int i = block.x; i <= right; i = next(i, right)) {
             const glm::dvec2 pixel = map.at(i, j);
-            if (!std::isfinite(pixel.x + pixel.y)) continue;  // of the four nodes one has no place
+            if (!std::isfinite(pixel.x + pixel.y)) continue;  // one of the four nodes has no place
             box.low = {std::min(box.low.x, pixel.x), std::min(box.low.y, pixel.y)};
             box.high = {std::max(box.high.x, pixel.x), std::max(box.high.y, pixel.y)};
         }

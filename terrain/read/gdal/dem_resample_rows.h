@@ -35,7 +35,7 @@ private:
     Georeference mSource, mTarget;
     PixelMapRows mMap;
     ReadWindow mRead;
-    std::vector<float> mSamples;  // of a window of the source
+    std::vector<float> mSamples;  // samples of a window of the source
 };
 
 }  // namespace stereonav

@@ -83,7 +83,7 @@ public:
                         static_cast<std::size_t>(rows) * width, heights);
             return;
         }
-        GdalMessages messages;  // of this thread, whichever opened the file
+        GdalMessages messages;  // messages of this thread, whichever opened the file
         mMessages = &messages;
         findRows();
         const int fromNorth = mDem.height - first - rows;
@@ -222,14 +222,14 @@ private:
     }
 
     std::filesystem::path mFile;
-    std::vector<std::filesystem::path> mFiles;  // of a folder, those that are its ground
+    std::vector<std::filesystem::path> mFiles;  // files of a folder that are its ground
     GdalDataset mThinnedFrom;                   // null where all samples are read
     GdalDataset mDataset;
     DemGrid mDem;
     DemPlacement mPlacement;
     std::unique_ptr<HeightSamples> mSamples;    // null where it was read whole
     std::unique_ptr<ResampledRows> mResampled;  // null where samples stay as they are
-    GdalMessages* mMessages = nullptr;          // of the call that reads
+    GdalMessages* mMessages = nullptr;          // messages of the call that reads
     std::vector<float> mWhole;
     std::unique_ptr<HeightSamples> mUnthinned;  // null but where some of its blocks were read,
     std::vector<float> mSpread;                 // into these, thinned

@@ -35,13 +35,14 @@ public:
     int blockWidth() const { return mBlockWidth; }
     int blockHeight() const { return mBlockHeight; }
 
-    // Metres, NaN where missing, for a window within the raster. Throws Error for a file that is cut off.
+    // Reads the heights of a window within the raster: metres, NaN where missing. Throws Error for a file
+    // that is cut off.
     void read(const SampleWindow& window, GdalMessages& messages, float* heights);
-    // The same, not counted.
+    // Reads as read() does, but leaves the samples out of the counts.
     void readUncounted(const SampleWindow& window, GdalMessages& messages, float* heights);
 
-    // Whether -9999 alone far below all other ground was found in a file that names no value for missing
-    // samples: then it is one, and from here on missing where it is read. That is how it stays.
+    // Returns whether -9999 alone far below all other ground was found in a file that names no value for
+    // missing samples: then it is one, and from here on missing where it is read. That is how it stays.
     bool findCustomary();
     // For heights that were read before.
     void dropCustomary(float* heights, std::size_t count) const;
@@ -61,7 +62,7 @@ private:
     HeightConversion mConversion;
     std::string mMissing;
     int mWidth, mHeight, mBlockWidth = 0, mBlockHeight = 0;
-    std::vector<unsigned char> mStored, mMask;  // of a window
+    std::vector<unsigned char> mStored, mMask;  // samples of a window
     HeightTally mTally;
     bool mCustomaryIsMissing = false;
 };
@@ -69,9 +70,10 @@ private:
 struct DemSamples {
     std::vector<float>
         heights;  // metres times the vertical scale, in the raster's own row order, NaN where missing
-    // What the file left to be found out, in words for a person; "" where there is nothing to say.
+    // Guesses about things that the file does not say, in words for a person; "" where there is nothing to
+    // say.
     std::string band;     // the band that is read, of several
-    std::string unit;     // of the heights, where they are not plain metres
+    std::string unit;     // unit of the heights, where they are not plain metres
     std::string missing;  // what marks missing samples
 };
 
@@ -80,7 +82,7 @@ struct DemSamples {
 DemSamples readSamples(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
                        double verticalScale, Progress& progress);
 
-// Throws Error: all samples of so many are missing, which is marked so.
+// Throws Error: all of the `samples` samples are missing. missing: how that is marked.
 [[noreturn]] void throwAllMissing(const std::filesystem::path& file, long long samples,
                                   const std::string& missing);
 

@@ -44,7 +44,7 @@ public:
 
     std::optional<EarthPlace> placeAt(const glm::dvec2& world) const override {
         const std::lock_guard lock(mMutex);
-        const GdalMessages messages;  // of places that the projection does not have
+        const GdalMessages messages;  // catches those about places that the projection does not have
         const auto degrees = degreesAt(middle() + glm::dvec2(world.x, -world.y) / mSpacing);
         if (!degrees) return std::nullopt;
         return EarthPlace{degrees->y * kDegree, std::remainder(degrees->x, 360) * kDegree};
@@ -56,7 +56,7 @@ public:
         // On the grid's own side of the date line.
         p.x += 360 * std::round((mNear - p.x) / 360);
         const std::lock_guard lock(mMutex);
-        const GdalMessages messages;  // of places that the projection does not have
+        const GdalMessages messages;  // catches those about places that the projection does not have
         if (!mFromEarth->Transform(1, &p.x, &p.y)) return std::nullopt;
         const glm::dvec2 pixels = mGrid.toPixel(p) - middle(),
                          world(pixels.x * mSpacing.x, -pixels.y * mSpacing.y);
@@ -85,7 +85,7 @@ private:
 
 std::unique_ptr<EarthPlaces> earthPlaces(const Georeference& grid, const glm::dvec2& spacing) {
     if (grid.wkt.empty() || !Body{bodyRadiusOf(grid)}.isEarth() || !onEarth(grid)) return nullptr;
-    const GdalMessages messages;  // of systems of other bodies, which have no way to WGS 84
+    const GdalMessages messages;  // catches those about other bodies' systems, which have no way to WGS 84
     OGRSpatialReference own, earth;
     if (own.importFromWkt(grid.wkt.c_str()) != OGRERR_NONE ||
         earth.SetWellKnownGeogCS("WGS84") != OGRERR_NONE)

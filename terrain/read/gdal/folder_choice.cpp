@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kHeightFile = "an elevation model";
 constexpr const char* kTakeItOut = "give elevation files, or take it out of the folder";
-constexpr double kLikelier = 2;  // of evidence: by so much one file is taken and the other is not
+constexpr double kLikelier = 2;  // evidence by which one file is taken and the other is not
 
 FolderFile fileOf(GDALDataset& dataset, const std::filesystem::path& file) {
     const OGRSpatialReference* const system = dataset.GetSpatialRef();
@@ -36,7 +36,7 @@ bool inOneSystem(const FolderFile& a, const FolderFile& b) {
     return !a.system == !b.system && (!a.system || a.system->IsSame(b.system.get()));
 }
 
-// Whether one covers nearly all of the other.
+// Returns whether one covers nearly all of the other.
 bool oneCoversTheOther(const FilePlan& a, const FilePlan& b) {
     constexpr double kShare = 0.9;
     const auto area = [](double width, double height) {

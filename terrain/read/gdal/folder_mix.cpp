@@ -16,7 +16,7 @@ bool plansOverlap(const FilePlan& a, const FilePlan& b) {
 }
 
 bool onOneGrid(const FilePlan& a, const FilePlan& b) {
-    constexpr double kOff = 1e-3, kStretch = 1e-7;  // of a sample
+    constexpr double kOff = 1e-3, kStretch = 1e-7;  // shares of a sample
     const auto whole = [](double samples) { return std::abs(samples - std::round(samples)) < kOff; };
     return std::abs(a.width / b.width - 1) < kStretch && std::abs(a.height / b.height - 1) < kStretch &&
            whole((a.west - b.west) / a.width) && whole((a.north - b.north) / a.height);

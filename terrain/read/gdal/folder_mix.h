@@ -11,23 +11,24 @@ namespace stereonav {
 // Where a file's samples are, in its reference system; north up.
 struct FilePlan {
     double west = 0, north = 0, east = 0, south = 0;  // outer borders
-    double width = 1, height = 1;                     // of a sample
+    double width = 1, height = 1;                     // size of a sample
     double turned = 0;                                // added to the file's own west
 
     explicit FilePlan(GDALDataset& dataset);
 };
 
 // Files of a system that closes around a body after `turn`, 360 degrees, and whose two ends are both among
-// them: moves those of one end by a turn beside those of the other. False where they lie together as they
-// are.
+// them: moves those of one end by a turn beside those of the other. Returns false where they lie together as
+// they are.
 bool turnTogether(std::vector<FilePlan*>& plans, double turn);
 
-// Whether samples of one file are resampled to lie among those of another, or take their place: files overlap
-// by more than half a sample, or are not on one grid.
+// Returns whether samples of one file are resampled to lie among those of another, or take their place: files
+// overlap by more than half a sample, or are not on one grid.
 bool filesAreMixed(const std::vector<FilePlan>& plans);
 
-// Whether the file has ground so low that a -9999 may be a height there, as HeightSamples::findCustomary()
-// has it: by 64 x 64 of its samples, as nothing but reading all of it would tell more.
+// Returns whether the file has ground so low that a -9999 may be a height there, as
+// HeightSamples::findCustomary() has it: by 64 x 64 of its samples, as nothing but reading all of it would
+// tell more.
 bool hasDeepGround(GDALDataset& dataset, const HeightBand& band);
 
 }  // namespace stereonav

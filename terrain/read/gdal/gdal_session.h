@@ -61,9 +61,9 @@ GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& me
 // points that place nothing.
 Georeference georeferenceOf(GDALDataset& dataset, const std::filesystem::path& file, bool& known);
 
-// WKT 2, on one line; "" for none.
+// Returns the system as WKT 2, on one line; "" for none.
 std::string wktOf(const OGRSpatialReference& system);
-// The same without the system of heights that a compound one has.
+// Returns the WKT without the system of heights that a compound one has.
 std::string planWkt(const OGRSpatialReference& system);
 
 // Samples that a raster may have: a side, and in all.

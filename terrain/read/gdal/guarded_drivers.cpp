@@ -91,7 +91,7 @@ GDALDataset* openGuarded(GDALDriver* driver, GDALOpenInfo* info) {
         GdalDataset dataset(openFunctions().at(driver)(info));
         if (!dataset) return nullptr;
         const std::string name = info->pszFilename;
-        if (!*dataset->GetDescription()) dataset->SetDescription(name.c_str());  // as GDAL does after this
+        if (!*dataset->GetDescription()) dataset->SetDescription(name.c_str());  // GDAL does it after this
         checkReference(dataset->GetSpatialRef(), name);
         checkReference(dataset->GetGCPSpatialRef(), name);
         checkOverviews(*dataset, name);

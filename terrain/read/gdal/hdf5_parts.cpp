@@ -7,7 +7,7 @@
 namespace stereonav {
 namespace {
 
-// What HDF5 has open; its messages are not printed meanwhile.
+// An object that HDF5 has open.
 class Hdf5Id {
 public:
     Hdf5Id(hid_t id, herr_t (*close)(hid_t)) : mId(id), mClose(close) {}

@@ -14,7 +14,7 @@ namespace stereonav {
 
 // Turns stored numbers into metres.
 struct HeightBand {
-    int number = 1;      // of the band, from 1
+    int number = 1;      // number of the band, from 1
     std::string chosen;  // "band 2 of 3: its description is \"elevation\""; "" where there is only one
 
     double scale = 1, offset = 0;  // metres = stored * scale + offset

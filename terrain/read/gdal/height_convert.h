@@ -35,7 +35,7 @@ public:
     HeightConversion(GDALDataType stored, const HeightBand& band);
 
     GDALDataType type() const { return mType; }
-    std::size_t bytes() const;  // of a stored number
+    std::size_t bytes() const;  // bytes of a stored number
 
     // count numbers of type(); mask: 0 where a sample is missing, null where the band has none. NaN where
     // missing.

@@ -16,7 +16,7 @@ struct PixelBox {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-// Returns the heights in a box, metres, thinned to so many columns and rows; NaN where missing.
+// Returns the heights in a box, metres, thinned to `columns` and `rows`; NaN where missing.
 std::vector<double> someHeights(GDALDataset& dataset, const HeightBand& band, const PixelBox& box,
                                 int columns, int rows) {
     std::vector<double> some(static_cast<std::size_t>(columns) * rows);

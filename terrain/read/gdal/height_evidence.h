@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// What speaks for heights (above 0) and against them, added up, and the strongest word against them.
+// Evidence for heights (above 0) and against them, added up, and the strongest word against them.
 struct HeightEvidence {
     double score = 0;
     std::string against;  // "its name", "bytes"
@@ -17,8 +17,8 @@ struct HeightEvidence {
 // dataset: of the file. Reads some of its samples.
 HeightEvidence evidenceOf(GDALDataset& dataset, const FolderFile& file);
 
-// Whether both have samples at the same places, and these are not heights of one ground: neither near each
-// other nor the same relief with another zero. By 32 x 32 places at most.
+// Returns whether both have samples at the same places, and these are not heights of one ground: neither near
+// each other nor the same relief with another zero. By 32 x 32 places at most.
 bool isOtherGround(GDALDataset& a, const FolderFile& fileA, GDALDataset& b, const FolderFile& fileB);
 
 }  // namespace stereonav

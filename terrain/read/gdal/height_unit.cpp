@@ -116,8 +116,8 @@ bool isFigure(std::string_view word) {
            std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// Words as they are written, without brackets, dots and underscores. None where a sign or a power makes it
-// another kind of unit.
+// Returns the words of a text without brackets, dots and underscores. Returns nothing where a sign or a power
+// makes it another kind of unit.
 std::optional<std::vector<std::string>> wordsOf(std::string_view text) {
     std::vector<std::string> words(1);
     for (std::size_t n = 0; n < text.size(); ++n) {

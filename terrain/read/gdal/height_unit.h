@@ -12,8 +12,8 @@ struct HeightUnit {
 };
 
 // A name of a unit of length, or "" for metres, and after it in words what heights are counted from: "m MSL",
-// "feet (NAVD88)", "meters above mean sea level". None for other units, and for those that are made of one of
-// length: "m/s", "m2", "m per km".
+// "feet (NAVD88)", "meters above mean sea level". Returns nothing for other units, and for those that are
+// made of one of length: "m/s", "m2", "m per km".
 std::optional<HeightUnit> heightUnitOf(std::string_view text);
 
 }  // namespace stereonav

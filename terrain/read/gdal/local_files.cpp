@@ -79,8 +79,8 @@ private:
     std::unique_ptr<VSIFilesystemHandler> mAll;
 };
 
-// Whether it is one of those that readers here use: `.hgt.zip`, `.hgt.gz`, previews within JPEG files, what
-// GDAL itself keeps in memory.
+// Returns whether the prefix is one of those that readers here use: `.hgt.zip`, `.hgt.gz`, previews within
+// JPEG files, what GDAL itself keeps in memory.
 bool isLocalPrefix(std::string_view prefix) {
     for (const std::string_view local : {"/vsimem/", "/vsizip/", "/vsigzip/", "/vsisubfile/"})
         if (prefix == local) return true;

@@ -43,7 +43,7 @@ public:
     void skip(std::uint64_t bytes) {
         mStream.seekg(static_cast<std::streamoff>((bytes + 3) / 4 * 4), std::ios::cur);
     }
-    // A list's tag, and how many it has.
+    // Reads a list's tag and returns the number of its entries.
     std::uint64_t list() {
         number(4);
         return count();
@@ -76,7 +76,7 @@ std::uint64_t times(std::uint64_t a, std::uint64_t b) {
 }
 
 struct Variable {
-    std::uint64_t begin = 0, bytes = 0;  // of one record where it has records
+    std::uint64_t begin = 0, bytes = 0;  // place and size of one record, where it has records
     bool hasRecords = false;
 };
 

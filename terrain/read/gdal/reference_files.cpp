@@ -82,13 +82,13 @@ bool holdsReference(const std::string& called) {
            EQUAL(called.c_str(), "Projection");
 }
 
-// Whether an element or option so called may hold an operation of PROJ: what a transformer of a virtual
-// raster is given.
+// Returns whether an element or option so called may hold an operation of PROJ: what a transformer of a
+// virtual raster is given.
 bool holdsOperation(const std::string& called) {
     return EQUAL(called.c_str(), "CoordinateOperation") || EQUAL(called.c_str(), "Option");
 }
 
-// Whether a text is a definition and no name of one: WKT, JSON, a PROJ string.
+// Returns whether a text is a definition and no name of one: WKT, JSON, a PROJ string.
 bool isDefinition(std::string_view text) {
     return text.find_first_of("[({+=") != std::string_view::npos;
 }

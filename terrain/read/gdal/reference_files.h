@@ -18,16 +18,15 @@ std::string pathInReference(std::string_view definition);
 // Throws Error that names `file` where the system names a path. Null: does nothing.
 void checkReference(const OGRSpatialReference* system, const std::string& file);
 
-// The same for one element or attribute of a virtual raster or of metadata beside a raster, whose text is a
-// definition; a path in the place of a definition is refused too.
+// Checks, as checkReference() does, one element or attribute of a virtual raster or of metadata beside a
+// raster, whose text is a definition; a path in the place of a definition is refused too.
 void checkReferenceText(const CPLXMLNode& node, const std::string& file);
 
-// The same for what lies beside a raster and is read as it is opened: <raster>.aux.xml, a .prj file, an ENVI
-// header.
+// Checks the systems in what lies beside a raster and is read as it is opened: <raster>.aux.xml, a .prj file,
+// an ENVI header.
 void checkReferencesBeside(const std::string& file);
 
-// The same for each member "crs" of a GeoJSON file, however deep. Does nothing with other files and damaged
-// ones.
+// Checks each member "crs" of a GeoJSON file, however deep. Does nothing with other files and damaged ones.
 void checkJsonReferences(const std::filesystem::path& file);
 
 }  // namespace stereonav

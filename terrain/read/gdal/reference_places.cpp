@@ -33,10 +33,10 @@ public:
 
 private:
     glm::dvec2 middle() const { return 0.5 * glm::dvec2(mGrid.width, mGrid.height); }
-    // Returns the place by the transform; null for two systems that are one. Empty where there is no such
-    // place.
+    // Returns the place by the transform; null for two systems that are one. Returns nothing where there is
+    // no such place.
     static std::optional<glm::dvec2> through(OGRCoordinateTransformation* transform, glm::dvec2 p) {
-        const GdalMessages messages;  // of places that a projection does not have
+        const GdalMessages messages;  // catches those about places that a projection does not have
         if (transform && !transform->Transform(1, &p.x, &p.y)) return std::nullopt;
         if (!std::isfinite(p.x + p.y)) return std::nullopt;
         return p;

@@ -175,8 +175,8 @@ glm::dvec2 ownSteps(const Georeference& raster, const Map& map) {
     return glm::dvec2(std::min(glm::length(column), glm::length(row)));
 }
 
-// How far bilinear steps of so many pixels are off in the middle between nodes, the most of a lattice of
-// places; pixels of the source.
+// Returns the largest error, in the middle between nodes, of bilinear interpolation in steps of `step`
+// pixels, over a lattice of places; pixels of the source.
 template <typename Exact>
 double mapError(const Georeference& target, const Exact& exact, int step) {
     constexpr int kPlaces = 9;
@@ -328,7 +328,7 @@ Georeference metricGrid(const Georeference& raster, bool ownSystem, const std::f
 PixelMapRows::PixelMapRows(const Georeference& target, const Georeference& source,
                            const std::filesystem::path& file)
     : mWidth(target.width) {
-    // What one place goes through. On the heap: a placement refers to its raster.
+    // The transforms that one place goes through. On the heap: a placement refers to its raster.
     struct Way {
         Way(const Georeference& t, const Georeference& s, const std::filesystem::path& f)
             : target(t), source(s), toSource(t.wkt, s.wkt, f), from(target), to(source) {

@@ -18,7 +18,7 @@ double metresPerUnit(const Georeference& raster);
 // map unit is a metre on the ground. (1, 1) where that can not be said.
 glm::dvec2 groundScale(const Georeference& raster, const glm::dvec2& pixel);
 
-// Whether its reference system is tied to the Earth, or another body: geographic or projected.
+// Returns whether its reference system is tied to the Earth, or another body: geographic or projected.
 bool onEarth(const Georeference& raster);
 
 // Metres: the mean radius (2a + b) / 3 of the ellipsoid that it is tied to; 0 where it is tied to none.
@@ -28,7 +28,7 @@ double bodyRadiusOf(const Georeference& raster);
 // strip without ends (web Mercator, plate carree) their length; 0 of others.
 double fullTurnOf(const OGRSpatialReference& system);
 
-// Whether a projected raster lies over the north or the south pole.
+// Returns whether a projected raster lies over the north or the south pole.
 bool holdsPole(const Georeference& raster);
 
 // The raster's samples on a grid in metres, north up: in a transverse Mercator projection whose origin is the
@@ -51,7 +51,7 @@ public:
     glm::dvec2 at(double column, double row) const { return mExact(column, row); }
 
 private:
-    std::function<glm::dvec2(double column, double row)> mExact;  // of a pixel's centre
+    std::function<glm::dvec2(double column, double row)> mExact;  // place of a pixel's centre
     int mWidth, mShift;
 };
 

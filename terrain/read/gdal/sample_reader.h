@@ -29,7 +29,7 @@ public:
         return mSamples[static_cast<std::size_t>(j - mWindow.y) * mWindow.width + (i - mWindow.x)];
     }
 
-    // Whether there is ground: up to half a sample beyond the outer ones.
+    // Returns whether there is ground: up to half a sample beyond the outer ones.
     bool inside(const glm::dvec2& pixel) const {
         constexpr double kSlack = 0.51;
         const double x = pixel.x - 0.5, y = pixel.y - 0.5;

@@ -10,7 +10,7 @@
 
 namespace stereonav {
 
-// Whether the format gives any block without decoding those before.
+// Returns whether the format gives any block without decoding those before.
 bool hasBlocksAnywhere(GDALDataset& dataset);
 
 // size: samples, each the nearest of the raster's to its middle. Those of the blocks that were decoded, as

@@ -42,7 +42,7 @@ bool endsWith(const char* text, const char* end) {
     return length >= needed && EQUAL(text + length - needed, end);
 }
 
-// Whether the value of an element or attribute is the name of another file.
+// Returns whether the value of an element or attribute is the name of another file.
 bool namesFile(const char* called) {
     return (endsWith(called, "Filename") || endsWith(called, "Dataset")) && !EQUAL(called, "VRTDataset");
 }
@@ -78,7 +78,7 @@ public:
 
 private:
     struct Place {
-        fs::path folder;  // of the virtual raster
+        fs::path folder;  // folder of the virtual raster
         int depth;
     };
 

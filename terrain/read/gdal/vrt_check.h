@@ -11,20 +11,22 @@ namespace stereonav {
 // Names of virtual rasters that the program itself makes in memory begin so.
 constexpr const char* kOwnVirtualRasters = "/vsimem/stereonav_part_";
 
-// Whether the path is of another machine, or of GDAL's virtual file systems ("/vsicurl/...", "https://..."),
-// also after a folder was put before it.
+// Returns whether the path is of another machine, or of GDAL's virtual file systems ("/vsicurl/...",
+// "https://..."), also after a folder was put before it.
 bool namesNetwork(const std::filesystem::path& path);
 
-// Whether the file lies in the folder or below it, links followed; false where one of them is not there.
+// Returns whether the file lies in the folder or below it, links followed; false where one of them is not
+// there.
 bool liesBelow(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-// The files that a virtual raster is made of, and those that they are made of, and so on.
+// The files that a virtual raster is made of, those that these are made of, and so on.
 struct VirtualRasterFiles {
     std::vector<std::filesystem::path> all, outside;  // outside: not in the folder of the one that names them
 };
 
-// None where it is no virtual raster. Throws Error that names `file` unless all that it names, and so on, are
-// local files of the formats read here, and files that are read as plain numbers lie in its folder or below.
+// Returns the files; none where `file` is no virtual raster. Throws Error that names `file` unless all that
+// it names, and so on, are local files of the formats read here, and files that are read as plain numbers lie
+// in its folder or below.
 VirtualRasterFiles filesOfVirtualRaster(const std::filesystem::path& file);
 
 // One line on the files outside the folder; "" where there are none.

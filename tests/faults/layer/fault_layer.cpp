@@ -57,7 +57,7 @@ __attribute__((constructor)) void setUp() {
         if (std::strcmp(kind, kNames[n]) == 0) layer.kind = static_cast<Kind>(n);
 }
 
-// Whether this call is the one that fails.
+// Returns whether this call is the one that fails.
 bool fails(Kind kind, int error) {
     if (!layer.count || ++layer.count[kind] != layer.at || layer.kind != kind) return false;
     errno = error;

@@ -22,7 +22,7 @@
 
 namespace {
 
-constexpr std::chrono::seconds kPatience{300};  // as tests/window/drive_window.sh
+constexpr std::chrono::seconds kPatience{300};  // the same as in tests/window/drive_window.sh
 
 class Client {
 public:
@@ -66,8 +66,8 @@ public:
 
     // A window answers a ping when it handles what happened to it, in the order in which it happened. Each
     // but the first is sent after such a time, and is answered at the next: between two answers is a whole
-    // turn, in which the window has used what happened and was drawn. False where the window is gone, or does
-    // not answer.
+    // turn, in which the window has used what happened and was drawn. Returns false where the window is gone,
+    // or does not answer.
     bool turns(int count) {
         for (int ping = 0; ping <= count; ++ping) {
             send("WM_PROTOCOLS", static_cast<long>(atom("_NET_WM_PING")), static_cast<long>(mOwn) + ping,
@@ -112,7 +112,7 @@ public:
             int bits = 0;
             unsigned long bytes = 0, rest = 0;
             unsigned char* text = nullptr;
-            constexpr long kMost = 1 << 16;  // of four bytes
+            constexpr long kMost = 1 << 16;  // units of four bytes
             XGetWindowProperty(mDisplay, mOwn, event.xselection.property, 0, kMost, True, AnyPropertyType,
                                &type, &bits, &bytes, &rest, &text);
             if (text) std::fwrite(text, 1, bytes, stdout);
@@ -137,7 +137,7 @@ private:
             std::ifstream in(at->path() / "stat");
             std::string line;
             std::getline(in, line);
-            const std::size_t name = line.rfind(") ");  // of the thread, in brackets: it may have any letters
+            const std::size_t name = line.rfind(") ");  // end of the name, which may have any letters
             if (name == std::string::npos) continue;
             std::istringstream fields(line.substr(name + 2));
             std::string state;
