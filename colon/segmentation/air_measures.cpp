@@ -105,6 +105,7 @@ AirMeasures::Tissue AirMeasures::tissueAround(int piece) const {
     const int deep = 3 - upright - lateral;  // from front to back
     const auto along = [&](int axis, bool growing) {
         std::vector<double> lengths;
+        lengths.reserve(runs.size());
         for (const PlacedRun& run : runs)
             lengths.push_back(tissueAlong(mStudy, run.middle(), axis, growing ? 1 : -1));
         return quantile(lengths, 0.5);

@@ -150,6 +150,7 @@ PieceWay wayThrough(const Pieces& pieces, int piece, const VolumeFrame& frame) {
 std::vector<int> orderOf(const Pieces& pieces, const std::vector<int>& kept, const VolumeFrame& frame) {
     if (kept.size() < 2) return kept;
     std::vector<std::pair<int, PieceWay>> rest;
+    rest.reserve(kept.size());
     for (const int piece : kept) rest.emplace_back(piece, wayThrough(pieces, piece, frame));
     auto next = std::min_element(rest.begin(), rest.end(), [](const auto& a, const auto& b) {
         return height(a.second.lowest) < height(b.second.lowest);

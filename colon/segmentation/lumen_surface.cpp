@@ -154,7 +154,7 @@ private:
 void smoothMask(const VoxelRuns& inside, const MaskSmoothing& setting, GreyVolume& field,
                 Progress& progress) {
     const glm::ivec3 size = inside.size, tiles = (size + (kTile - 1)) / kTile;
-    ProgressSteps rows(progress, tiles.y * tiles.z, "smoothing the wall");
+    ProgressSteps rows(progress, static_cast<std::size_t>(tiles.y) * tiles.z, "smoothing the wall");
     parallelFor(tiles.y * tiles.z, [&](int n) {
         if (progress.cancelled()) throw Cancelled();
         TileSmoother smoother(inside, setting, field);
