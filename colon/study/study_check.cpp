@@ -92,6 +92,7 @@ void checkSize(const std::string& file, const std::vector<std::uint64_t>& size, 
     if (!tooLong && bytes <= there) return;
     const double share = std::cbrt(std::min(1.0, there / bytes));
     std::vector<std::uint64_t> fits;
+    fits.reserve(size.size());
     for (const std::uint64_t n : size)
         fits.push_back(static_cast<std::uint64_t>(std::max(1.0, share * static_cast<double>(n))));
     throw Error(file, "",

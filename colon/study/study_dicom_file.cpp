@@ -344,8 +344,9 @@ void DicomFile::readHead(const fs::path& file) {
 double DicomFile::pixelBytes() const {
     const std::uint64_t columns = word(0x00280011, 0), rows = word(0x00280010, 0);
     const std::uint64_t samples = word(0x00280002, 1), bits = word(0x00280100, 16);
+    const std::uint64_t bytes = (bits + 7) / 8;
     const auto frames = mSet.numbers(0x00280008, 1);
-    return static_cast<double>(columns * rows * samples * ((bits + 7) / 8)) *
+    return static_cast<double>(columns * rows * samples * bytes) *
            (frames.empty() ? 1 : std::max(frames[0], 1.0));
 }
 

@@ -126,7 +126,7 @@ SliceRuns airOfSlice(const RawStudy& raw, int k, double limit) {
 
 }  // namespace
 
-ValueFacts factsOf(const RawStudy& raw, std::vector<ValueFacts> slices) {
+ValueFacts factsOf(const RawStudy& raw, const std::vector<ValueFacts>& slices) {
     constexpr int kAtOnce = 16;  // slices, after which their values are known to be many
     ValueFacts all;
     for (const ValueFacts& slice : slices) merge(all, slice);
@@ -149,7 +149,7 @@ VoxelRuns airOf(const RawStudy& raw, double limit, std::vector<SliceRuns> slices
     const int first = static_cast<int>(slices.size());
     slices.resize(static_cast<std::size_t>(size.z));
     parallelFor(size.z - first, [&](int n) {
-        slices[static_cast<std::size_t>(first + n)] = airOfSlice(raw, first + n, limit);
+        slices[static_cast<std::size_t>(first) + n] = airOfSlice(raw, first + n, limit);
     });
     return joinedRuns(size, slices);
 }

@@ -14,7 +14,7 @@
 namespace stereonav {
 
 // Returns the facts of all samples. slices: those of the first slices, as far as they are known already.
-ValueFacts factsOf(const RawStudy& raw, std::vector<ValueFacts> slices);
+ValueFacts factsOf(const RawStudy& raw, const std::vector<ValueFacts>& slices);
 
 // Returns whether values are kept as these samples are, so that air may be looked for among them.
 bool showsAir(const RawStudy& raw);
