@@ -17,7 +17,7 @@ void encode(const PackedColor* from, int count, std::uint32_t* to) {
 
 void PlainEyes::upload(std::size_t eye, const Plane<PackedColor>& colors) {
     const int width = colors.width(), height = colors.height();
-    if (!mStores[eye]) mStores[eye].emplace();
+    if (!mStores[eye]) mStores[eye] = std::make_unique<Store>();
     Store& store = *mStores[eye];
     glBindTexture(GL_TEXTURE_2D, store.texture.name());
     if (store.width != width || store.height != height) {

@@ -5,7 +5,7 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "engine/display/gl_object.h"
@@ -30,7 +30,7 @@ private:
         int width = 0, height = 0;
         bool complete = false;
     };
-    std::array<std::optional<Store>, 2> mStores;
+    std::array<std::unique_ptr<Store>, 2> mStores;
     std::vector<std::uint32_t> mBytes;
 };
 
