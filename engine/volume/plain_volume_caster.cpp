@@ -10,6 +10,7 @@
 
 #include "engine/math/constants.h"
 #include "engine/volume/surface_cells.h"
+#include "engine/volume/volume_kernel_types.h"
 
 namespace stereonav {
 namespace {
@@ -53,8 +54,9 @@ void addProduct(Cubic& q, const Cubic& p, double a, double b) {
 Cubic alongRay(const Corners& corners, double isovalue, const glm::dvec3& from, const glm::dvec3& step) {
     std::array<Cubic, 8> level;
     for (int n = 0; n < 8; ++n) level[n].a[0] = corners[n] - isovalue;
-    for (int axis = 0, count = 4; axis < 3; ++axis, count /= 2)
-        for (int n = 0; n < count; ++n) {
+    std::size_t count = 4;
+    for (int axis = 0; axis < 3; ++axis, count /= 2)
+        for (std::size_t n = 0; n < count; ++n) {
             Cubic mixed;
             addProduct(mixed, level[2 * n], 1 - from[axis], -step[axis]);
             addProduct(mixed, level[2 * n + 1], from[axis], step[axis]);

@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "engine/base/parallel.h"
+#include "engine/light/bake/brick_work.h"
 
 namespace stereonav {
 namespace {
