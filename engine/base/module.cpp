@@ -72,8 +72,9 @@ void setModuleFolder(const fs::path& folder) {
 
 fs::path programFile(const fs::path& root) {
     std::error_code code;
-    const fs::path program = fs::read_symlink(root / "proc/self/exe", code);
+    fs::path program = fs::read_symlink(root / "proc/self/exe", code);
     if (!code) return program;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): getauxval returns the address as a number.
     const auto* const started = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
     return started ? fs::canonical(started, code) : fs::path();
 }

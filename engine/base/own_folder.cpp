@@ -53,7 +53,7 @@ fs::path ownFolder(const char* variable, const char* besideHome) {
 }
 
 fs::path cachePlace() {
-    const fs::path own = ownFolder("XDG_CACHE_HOME", ".cache");
+    fs::path own = ownFolder("XDG_CACHE_HOME", ".cache");
     if (!own.empty()) return own;
     std::error_code code;
     const fs::path temporary = fs::temp_directory_path(code);

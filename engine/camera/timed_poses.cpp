@@ -5,6 +5,7 @@ namespace {
 
 std::vector<TimedPose> timed(const std::vector<Pose>& poses, double between) {
     std::vector<TimedPose> result;
+    result.reserve(poses.size());
     for (const Pose& pose : poses) result.push_back({pose, between * static_cast<double>(result.size())});
     return result;
 }

@@ -36,8 +36,8 @@ void PhaseTexture::bind() const {
 }
 
 glm::vec2 PhaseTexture::scale() {
-    constexpr double texels = kPhaseSteps + 1;
-    return {static_cast<float>(kPhaseSteps / kRootOf2 / texels), static_cast<float>(0.5 / texels)};
+    constexpr double kTexels = kPhaseSteps + 1;
+    return {static_cast<float>(kPhaseSteps / kRootOf2 / kTexels), static_cast<float>(0.5 / kTexels)};
 }
 
 void BakedTexture::set(const std::shared_ptr<const IlluminationVolume>& light) {

@@ -134,6 +134,7 @@ void MediumTextures::uploadColors(const ColorTexture& color) {
             "use the CPU");
     Levels& colors = mColors.emplace_back();
     std::vector<glm::ivec2> sizes;
+    sizes.reserve(static_cast<std::size_t>(color.levelCount()));
     for (int k = 0; k < color.levelCount(); ++k)
         sizes.emplace_back(color.level(k).width(), color.level(k).height());
     const glm::ivec2 size = placeLevels(sizes, colors.levels);
@@ -188,7 +189,7 @@ void MediumTextures::uploadNoise() {
     std::transform(bytes.begin(), bytes.end(), values.begin(),
                    [](std::uint8_t b) { return static_cast<float>(b) / 127.5f - 1.0f; });
     glBindTexture(GL_TEXTURE_3D, mNoise.name());
-    constexpr int n = NoiseVolume::kSize;
+    const int n = NoiseVolume::kSize;
     glTexStorage3D(GL_TEXTURE_3D, 1, GL_RGBA32F, n, n, n);
     setFilter(GL_TEXTURE_3D, GL_LINEAR, GL_REPEAT);
     glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, n, n, n, GL_RGBA, GL_FLOAT, values.data());

@@ -24,7 +24,7 @@ void addColors(const Plane<PackedColor>& color, bool begin, Plane<float>& sums) 
     parallelFor(color.height(), [&](int y) {
         const PackedColor* const from = color.row(y);
         for (int c = 0; c < 3; ++c) {
-            float* const __restrict to = sums.row(y) + c * width;
+            float* const __restrict to = sums.row(y) + static_cast<std::size_t>(c) * width;
             const float keep = begin ? 0.0f : 1.0f;
             for (int x = 0; x < width; ++x) {
                 const float root = static_cast<float>(static_cast<int>(from[x] >> 10 * c & 1023u)) * kScale;
@@ -41,7 +41,8 @@ void packMean(const Plane<float>& even, const Plane<float>& odd, int count, Plan
     parallelFor(color.height(), [&](int y) {
         PackedColor* const __restrict to = color.row(y);
         for (int c = 0; c < 3; ++c) {
-            const float *const a = even.row(y) + c * width, *const b = odd.row(y) + c * width;
+            const std::size_t first = static_cast<std::size_t>(c) * width;
+            const float *const a = even.row(y) + first, *const b = odd.row(y) + first;
             for (int x = 0; x < width; ++x) {
                 const float root = std::sqrt((a[x] + b[x]) * perAll) * 1023.0f + 0.5f;
                 const auto channel =
@@ -55,8 +56,8 @@ void packMean(const Plane<float>& even, const Plane<float>& odd, int count, Plan
 // Returns the sum of squared differences between the means of the halves. Each row is summed by itself, so
 // that the result does not depend on the number of threads.
 double squaresApart(const Plane<float>& even, const Plane<float>& odd, int count) {
-    const float perEven = 1.0f / static_cast<float>((count + 1) / 2),
-                perOdd = 1.0f / static_cast<float>(count / 2);
+    const int odds = count / 2, evens = count - odds;
+    const float perEven = 1.0f / static_cast<float>(evens), perOdd = 1.0f / static_cast<float>(odds);
     std::vector<double> squares(static_cast<std::size_t>(even.height()));
     parallelFor(even.height(), [&](int y) {
         const float *const a = even.row(y), *const b = odd.row(y);

@@ -156,8 +156,8 @@ void copyRow(const Picture& eye, int y, PackedColor* out) {
 
 void squeezeRow(const Picture& eye, int y, PackedColor* out) {
     const PackedColor* in = eye.row(y);
-    const int last = eye.width() - 1;
-    for (int x = 0; 2 * x <= last; ++x) out[x] = average(in[2 * x], in[std::min(2 * x + 1, last)]);
+    const std::ptrdiff_t last = eye.width() - 1;
+    for (std::ptrdiff_t x = 0; 2 * x <= last; ++x) out[x] = average(in[2 * x], in[std::min(2 * x + 1, last)]);
 }
 
 // One row of the result, from the eye that comes first and the other one.

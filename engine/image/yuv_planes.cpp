@@ -92,8 +92,9 @@ void yuvFromPlane(const Plane<PackedColor>& picture, YuvRule rule, const YuvPlan
         ByteRow upper(width), lower(width);
         upper.take(picture.row(2 * j), width);
         lower.take(picture.row(std::min(2 * j + 1, height - 1)), width);
-        writeLuma(upper, w, to.y + 2 * j * to.yStride, 2 * pairs);
-        writeLuma(lower, w, to.y + (2 * j + 1) * to.yStride, 2 * pairs);
+        std::uint8_t* const luma = to.y + j * (2 * to.yStride);
+        writeLuma(upper, w, luma, 2 * pairs);
+        writeLuma(lower, w, luma + to.yStride, 2 * pairs);
         writePairs(upper, lower, w, to.u + j * to.uStride, to.v + j * to.vStride, pairs);
     });
 }

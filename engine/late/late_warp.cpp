@@ -143,8 +143,8 @@ const LateTile& LateEye::tileAt(double x, double y) const {
     const auto tile = [](double pixel, int size, int count) {
         return static_cast<int>(std::clamp(pixel / size, 0.0, static_cast<double>(count - 1)));
     };
-    return mTiles[static_cast<std::size_t>(tile(y, kLateTileHeight, mDown) * mAcross +
-                                           tile(x, kLateTileWidth, mAcross))];
+    return mTiles[static_cast<std::size_t>(tile(y, kLateTileHeight, mDown)) * mAcross +
+                  tile(x, kLateTileWidth, mAcross)];
 }
 
 LatePlan LateEye::planOf(const LateMove& move, int x0, int y0, int x1, int y1, float nearestSeen) const {
@@ -186,7 +186,7 @@ LatePlan LateEye::planOf(const LateMove& move, int x0, int y0, int x1, int y1, f
         jump = 0;
         for (int y = fromY; y <= toY; ++y)
             for (int x = fromX; x <= toX; ++x) {
-                const LateTile& seen = mTiles[static_cast<std::size_t>(y * mAcross + x)];
+                const LateTile& seen = mTiles[static_cast<std::size_t>(y) * mAcross + x];
                 farthest = std::min(farthest, seen.farthest);
                 nearest = std::max(nearest, seen.nearest);
                 jump = std::max(jump, seen.jump);
@@ -219,7 +219,8 @@ LateMove LateEye::planAll(const EyeView& to, std::vector<LatePlan>& plans) const
     const LateMove move = lateMove(mView, to);
     const int across = tilesFor(to.width, kLateTileWidth), down = tilesFor(to.height, kLateTileHeight);
     plans.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
-    for (int row = 0; row < down; ++row) planRow(move, to, row, plans.data() + row * across);
+    for (int row = 0; row < down; ++row)
+        planRow(move, to, row, plans.data() + static_cast<std::size_t>(row) * across);
     return move;
 }
 

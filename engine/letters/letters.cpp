@@ -113,7 +113,7 @@ void Letters::draw(const std::string& text, const glm::ivec2& corner, PackedColo
         for (int y = top; y < bottom; ++y)
             for (int x = left; x < right; ++x) {
                 PackedColor& pixel = image.at(at.x + x, at.y + y);
-                pixel = blended(pixel, ink, letter.coverage[static_cast<std::size_t>(y * letter.size.x + x)]);
+                pixel = blended(pixel, ink, letter.coverage[static_cast<std::size_t>(y) * letter.size.x + x]);
             }
     });
 }

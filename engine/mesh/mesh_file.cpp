@@ -292,7 +292,7 @@ void MeshReader::readVertices(const tinygltf::Primitive& primitive, const glm::d
             v.color = glm::vec3(colors[channels * k], colors[channels * k + 1], colors[channels * k + 2]);
         if (!uvs.empty()) v.uv = glm::vec2(places.placed({uvs[2 * k], uvs[2 * k + 1]}));
         if (!std::isfinite(v.uv.x) || !std::isfinite(v.uv.y))
-            throw Error(mFile.name, place + ", " + uvName,
+            throw Error(mFile.name, fmt::format("{}, {}", place, uvName),
                         fmt::format("element {} is no place of a texture", k), kMeshAdvice);
         mMesh.vertices.push_back(v);
     }

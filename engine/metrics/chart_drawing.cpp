@@ -48,7 +48,8 @@ public:
     explicit Drawing(const Chart& chart)
         : mChart(chart), mX(valuesOf(0), chart.xKind), mY(valuesOf(1), chart.yKind) {
         if (chart.titled) mTop += kTitle;
-        if (chart.series.size() > 1) mTop += kLegendLine * static_cast<double>((chart.series.size() + 1) / 2);
+        const std::size_t legendLines = (chart.series.size() + 1) / 2;
+        if (chart.series.size() > 1) mTop += kLegendLine * static_cast<double>(legendLines);
         mBottom = kChartHeight - kBottom + mTop - kTop;
         for (const double y : valuesOf(1)) mZeros |= mY.logarithmic() && y <= 0;
     }
@@ -175,6 +176,7 @@ private:
         std::stable_sort(ranked.begin(), ranked.end(),
                          [](const auto& a, const auto& b) { return a.first < b.first; });
         std::vector<LabelWish> wishes;
+        wishes.reserve(ranked.size());
         for (const auto& wish : ranked) wishes.push_back(wish.second);
         const std::vector<LabelBox> boxes =
             placeLabels(wishes, {kLeft, mTop, right() - kLeft, mBottom - mTop}, mAvoided);
@@ -185,8 +187,9 @@ private:
     void legend() {
         if (mChart.series.size() < 2) return;
         for (std::size_t n = 0; n < mChart.series.size(); ++n) {
+            const std::size_t row = n / 2;
             const double x = n % 2 ? 0.5 * mChart.width : kLeft - 40,
-                         y = kTop + (mChart.titled ? kTitle : 0) + kLegendLine * static_cast<double>(n / 2);
+                         y = kTop + (mChart.titled ? kTitle : 0) + kLegendLine * static_cast<double>(row);
             dot(fmt::format("dot s{}", n % kColors), {x, y - 4}, kDot);
             text(x + 8, y, "start", shortened(mChart.series[n].name, kLegendLetters));
         }

@@ -269,6 +269,7 @@ MethodFigures medianOf(const std::vector<MethodFigures>& frames) {
         throw Error("", "", "expected figures of at least one frame, got none", "play a frame");
     const auto field = [&](auto value) {
         std::vector<double> values;
+        values.reserve(frames.size());
         for (const MethodFigures& figures : frames) values.push_back(value(figures));
         return median(std::move(values));
     };
@@ -329,6 +330,7 @@ std::vector<MethodFigures> compareMethods(FrameMaker& frames, const std::vector<
         ofFrame.report(1, what);
     }
     std::vector<MethodFigures> result;
+    result.reserve(byMethod.size());
     for (const auto& ofFrames : byMethod) result.push_back(medianOf(ofFrames));
     return result;
 }

@@ -84,7 +84,7 @@ bool isClear(const Flight& flight, const std::vector<glm::dvec3>& places) {
 }
 
 std::vector<glm::dvec3> aroundWalls(const Flight& flight, const glm::dvec3& from, const glm::dvec3& to) {
-    const std::vector<glm::dvec3> straight{from, to};
+    std::vector<glm::dvec3> straight{from, to};
     const double length = glm::distance(from, to);
     if (!(length > 0) || flight.wayIsClear(from, to)) return straight;
     const glm::dvec3 way = (to - from) / length;

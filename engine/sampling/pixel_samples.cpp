@@ -47,6 +47,7 @@ std::vector<glm::dvec2> rotatedGrid(int count) {
             best = m, least = crowded;
     }
     std::vector<glm::dvec2> places;
+    places.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) places.push_back(latticePlace(count, best, i));
     return places;
 }
