@@ -18,6 +18,7 @@ namespace {
 template <typename Piece>
 std::vector<std::size_t> sizesOf(const std::vector<Piece>& pieces) {
     std::vector<std::size_t> sizes;
+    sizes.reserve(pieces.size());
     for (const Piece& piece : pieces) sizes.push_back(piece.size());
     return sizes;
 }
@@ -101,7 +102,7 @@ BakeRate irradianceRate(const TexelLighter& lighter, const std::vector<TexelPiec
 
 BakeRate transferRate(const TexelLighter& lighter, const std::vector<TexelPiece>& pieces, int samples,
                       int order, int channels, double seconds) {
-    const auto numbers = static_cast<std::size_t>(harmonicsCount(order) * channels);
+    const auto numbers = static_cast<std::size_t>(harmonicsCount(order)) * channels;
     return bakeRate(sizesOf(pieces), seconds, samples, [&](std::size_t n) {
         std::vector<float> sums(pieces[n].size() * numbers);
         std::vector<std::uint8_t> alive(pieces[n].size());

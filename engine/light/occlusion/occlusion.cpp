@@ -51,7 +51,7 @@ private:
 
 std::size_t carve(OcclusionScratch& s, std::byte* block, int stride, int window) {
     constexpr std::size_t kStrip = kOcclusionStrip;
-    const std::size_t row = static_cast<std::size_t>(stride) + 2 * kMostOcclusionRadius + 1;
+    const std::size_t row = static_cast<std::size_t>(stride) + (2 * kMostOcclusionRadius + 1);
     Carver carver(block);
     for (std::int16_t** p : {&s.suffixLows, &s.suffixHighs})
         carver.take(*p, kStrip * static_cast<std::size_t>(window));

@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    Row& at(int y, int z) { return mRows[static_cast<std::size_t>((z + 1) * 3 + y + 1)]; }
+    Row& at(int y, int z) { return mRows[static_cast<std::size_t>(z + 1) * 3 + (y + 1)]; }
     void copyRow(const std::uint8_t* from, Row& to) const {
         std::copy_n(from, mWidth, to.begin() + 1);
         to.front() = from[0];

@@ -180,7 +180,7 @@ void IsovalueFields::build(int rung, std::uint8_t* blocks) const {
         for (int y = 0; y < mBlocks.y; ++y) {
             std::uint8_t* out = &blocks[2 * ((static_cast<std::size_t>(z) * mBlocks.y + y) * mBlocks.x)];
             const std::uint8_t* away = distances.row(y, z);
-            for (int x = 0; x < mBlocks.x; ++x) out[2 * x] = away[x];
+            for (std::ptrdiff_t x = 0; x < mBlocks.x; ++x) out[2 * x] = away[x];
         }
 }
 

@@ -56,9 +56,8 @@ int partsIn(const glm::ivec3& size, const glm::ivec3& cell, int edge) {
 
 // size: of the light.
 void addBrick(const PackedTexel* brick, const glm::ivec3& place, const glm::ivec3& size, Level& to) {
-    if (std::all_of(brick, brick + kBeyondBrick * kBeyondBrick * kBeyondBrick,
-                    [](PackedTexel t) { return t == 0; }))
-        return;
+    constexpr int kTexels = kBeyondBrick * kBeyondBrick * kBeyondBrick;
+    if (std::all_of(brick, brick + kTexels, [](PackedTexel t) { return t == 0; })) return;
     constexpr int kBlocks = kBeyondBrick / kBlock;
     for (int n = 0; n < kBlocks * kBlocks * kBlocks; ++n) {
         const glm::ivec3 block(n & 1, n >> 1 & 1, n >> 2), cell = kBlocks * place + block;

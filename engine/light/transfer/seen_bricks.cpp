@@ -110,6 +110,7 @@ std::vector<std::uint32_t> bricksSeen(const EyeView& view, const EyeImage& image
         if (pixels[n] > 0) sorted.emplace_back(-pixels[n], static_cast<std::uint32_t>(n));
     std::sort(sorted.begin(), sorted.end());
     std::vector<std::uint32_t> numbers;
+    numbers.reserve(sorted.size());
     for (const auto& [seen, number] : sorted) numbers.push_back(number);
     return numbers;
 }

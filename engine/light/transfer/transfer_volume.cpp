@@ -50,7 +50,8 @@ bool slotOf(const TexelMask& mask, const glm::ivec3& inBrick, std::size_t& slot)
 }  // namespace
 
 struct TransferVolume::Light {
-    std::array<float, 2 * ((kMaxHarmonics + 1) / 2) * 3> values{};
+    static constexpr std::size_t kPairs = (kMaxHarmonics + 1) / 2;
+    std::array<float, 2 * kPairs * 3> values{};
     TransferKernels kernels;
 };
 
