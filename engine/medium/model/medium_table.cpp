@@ -76,7 +76,7 @@ double layOut(MediumTable& table, double lowest, double highest) {
     if (!(highest > lowest)) return lowest;
     const double perWhole = std::floor(MediumTable::kValues / (last - first));
     // Unless most entries would lie where no data are: values of small parts of one.
-    const bool whole = perWhole * (highest - lowest) >= MediumTable::kValues / 2;
+    const bool whole = perWhole * (highest - lowest) >= MediumTable::kValues / 2.0;
     if (whole) table.firstValue = first;
     table.perValue = whole ? perWhole : MediumTable::kValues / (highest - lowest);
     return whole ? first + MediumTable::kValues / perWhole : highest;

@@ -33,9 +33,9 @@ std::string problemOfColor(const char* name, const glm::vec3& color) {
 }
 
 std::string problemOf(const MediumMaterial& m) {
-    if (const std::string problem = problemOfColor("colour", m.color); !problem.empty()) return problem;
+    if (std::string problem = problemOfColor("colour", m.color); !problem.empty()) return problem;
     if (!isShare(m.opacity)) return fmt::format("expected an opacity in 0 to 1, got {}", m.opacity);
-    if (const std::string problem = problemOfColor("transport colour", m.transport); !problem.empty())
+    if (std::string problem = problemOfColor("transport colour", m.transport); !problem.empty())
         return problem;
     if (!isShare(m.surface)) return fmt::format("expected a surface weight in 0 to 1, got {}", m.surface);
     for (int c = 0; c < 3; ++c)

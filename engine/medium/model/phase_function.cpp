@@ -31,6 +31,7 @@ Moments sineMoments(int i) {
 const std::vector<Moments>& allSineMoments() {
     static const std::vector<Moments> moments = [] {
         std::vector<Moments> all;
+        all.reserve(PhaseFunction::kEntries);
         for (int i = 0; i < PhaseFunction::kEntries; ++i) all.push_back(sineMoments(i));
         return all;
     }();

@@ -30,8 +30,8 @@ TexelRange rangeBetween(const NoiseVolume& noise, const glm::dvec3& low, const g
         std::swap(range.low, range.high);  // -1 to 1
         return range;
     }
-    constexpr double each = kSize;
-    const glm::ivec3 start(first - each * glm::floor(first / each));
+    constexpr double kPeriod = kSize;
+    const glm::ivec3 start(first - kPeriod * glm::floor(first / kPeriod));
     const glm::ivec3 end = start + glm::ivec3(count);
     constexpr int kMask = kSize - 1;
     for (int z = start.z; z < end.z; ++z)

@@ -15,7 +15,7 @@ namespace stereonav {
 namespace {
 
 constexpr int kSide = EyeTile::kSide;
-constexpr std::size_t kTileNumbers = EyeTile::kMembers * kSide * kSide;
+constexpr std::size_t kTileNumbers = std::size_t{EyeTile::kMembers} * kSide * kSide;
 constexpr std::size_t kLine = 64;  // bytes; what is kept begins with one
 
 float* alignedStart(std::vector<float>& numbers) {
@@ -63,8 +63,9 @@ void SweepEyes::setBeams(std::size_t eye) {
     parallelFor(e.tiles(), [&](int tile) {
         for (int quarter = 0; quarter < 4; ++quarter) {
             constexpr double kHalf = EyeTile::kHalf;
-            const double x = tile % e.across * kSide + quarter % 2 * kHalf,
-                         y = tile / e.across * kSide + quarter / 2 * kHalf;
+            const int column = tile % e.across, right = quarter % 2;
+            const int row = tile / e.across, lower = quarter / 2;
+            const double x = column * kSide + right * kHalf, y = row * kSide + lower * kHalf;
             e.beams[4 * static_cast<std::size_t>(tile) + quarter] =
                 mSpace.beamOf(g, g.eyes[eye], g.forward, x, y, x + kHalf, y + kHalf);
         }
@@ -118,7 +119,7 @@ long long SweepEyes::seeRow(int row, const Walk& walk) {
         if (second.done[n]) continue;
         samples += findSlabs(second, n, walk);
         const std::uint32_t* slabs = second.slabs.data() + 4 * static_cast<std::size_t>(n);
-        for (int half = 0; half < 2; ++half) wanted[half] |= slabs[2 * half] | slabs[2 * half + 1];
+        for (std::size_t half = 0; half < 2; ++half) wanted[half] |= slabs[2 * half] | slabs[2 * half + 1];
     }
     if (((wanted[0] | wanted[1]) & walk.shared.slabs) == 0) {
         samples = 0;
@@ -192,7 +193,7 @@ void SweepEyes::giveBack(std::unique_ptr<std::vector<float>> rows) {
 
 std::size_t SweepEyes::rowsNumbers() const {
     const std::size_t columns = static_cast<std::size_t>(mEyes[0].across) * kSide + SharedRows::kReadAhead;
-    return SweepChunk::kMost * SharedRows::kRows * SharedRows::kNumbers * columns + kLine / sizeof(float);
+    return columns * SweepChunk::kMost * SharedRows::kRows * SharedRows::kNumbers + kLine / sizeof(float);
 }
 
 long long SweepEyes::seeChunk(const SweepScene& scene, const SweepChunk& chunk, int first, int count) {

@@ -75,8 +75,9 @@ void SweepLightBuffers::setPacked(SweepLight& light) {
     if (mPackedWidth != light.width || mPackedHeight != light.height) {
         const std::size_t bytes = 2 * sizeof(std::uint32_t) * static_cast<std::size_t>(light.packedPlane);
         mChunk = static_cast<int>(std::clamp<std::size_t>(kMostPacked / bytes, 1, SweepChunk::kMost));
-        mPacked.assign(2 * mChunk * static_cast<std::size_t>(light.packedPlane) + kBorder + 2 * kLineNumbers,
-                       kAllLight);
+        mPacked.assign(
+            static_cast<std::size_t>(light.packedPlane) * 2 * mChunk + (kBorder + 2 * kLineNumbers),
+            kAllLight);
         mPackedWidth = light.width;
         mPackedHeight = light.height;
         mRingSet = false;
@@ -107,7 +108,7 @@ void SweepLightBuffers::setRing(const SweepLight& light) {
         const auto half = static_cast<std::uint32_t>(value * 32767 + 0.5f);
         const std::int64_t at = static_cast<std::int64_t>(y + 1) * light.packedStride + x + 1;
         for (int n = 0; n < mChunk; ++n) {
-            std::uint32_t* first = light.packed + 2 * n * light.packedPlane + at;
+            std::uint32_t* first = light.packed + n * (2 * light.packedPlane) + at;
             first[0] = 0x7fffu | half << 16;
             first[light.packedPlane] = half | half << 16;
         }
@@ -159,8 +160,8 @@ int SweepLightBuffers::start(SweepScene& scene, const SweepGeometry& geometry, c
 // Strips of a tile, with a texel around each, that meet cells which may not be empty.
 void SweepLightBuffers::findStripsOf(const SweepGeometry& geometry, const SweepSpace& space, int tile,
                                      const std::vector<double>& middles) {
-    const double x0 = tile % mAcross * kLightSide - 1, x1 = x0 + kLightSide + 2,
-                 y0 = tile / mAcross * kLightSide - 1;
+    const int column = tile % mAcross, row = tile / mAcross;
+    const double x0 = column * kLightSide - 1, x1 = x0 + kLightSide + 2, y0 = row * kLightSide - 1;
     const auto beamOf = [&](double top, double bottom) {
         return space.lightBeamOf(geometry, x0, top, x1, bottom);
     };
@@ -234,7 +235,7 @@ long long SweepLightBuffers::beginChunk(const SweepScene& scene, const SweepGeom
     else
         mNeeded = mRead;
     if (!scene.gridAlone) return 0;
-    constexpr std::size_t kTexels = kLightSide * kLightSide;
+    constexpr std::size_t kTexels = std::size_t{kLightSide} * kLightSide;
     const std::size_t needed = columnsOfTile() * tiles() + kLineNumbers;
     if (mColumns.size() < needed) mColumns.resize(needed);
     std::atomic<long long> texels = 0;

@@ -72,7 +72,8 @@ void SweepReach::start(const SweepGeometry& geometry, const SweepSpace* space, i
 void SweepReach::findRects(const SweepGeometry& geometry, const SweepSpace* space, const RayFan& eye,
                            int eyeSide, int tile, Rect* rects) const {
     const int across = tilesOver(eye.width, eyeSide);
-    const double x = tile % across * eyeSide, y = tile / across * eyeSide;
+    const int column = tile % across, row = tile / across;
+    const double x = column * eyeSide, y = row * eyeSide;
     const RayFan& light = geometry.light;
     Looking looking;
     looking.light = &light;
@@ -92,7 +93,7 @@ void SweepReach::findRects(const SweepGeometry& geometry, const SweepSpace* spac
     SweepBeam beam;
     if (space) beam = space->beamOf(geometry, eye, geometry.forward, x, y, x + eyeSide, y + eyeSide);
     for (int c = 0; c < mChunks; ++c) {
-        double near = geometry.faces[c * mChunk],
+        double near = geometry.faces[static_cast<std::size_t>(c) * mChunk],
                far = geometry.faces[std::min((c + 1) * mChunk, geometry.slabs())];
         (geometry.forward ? near : far) =
             geometry.forward ? std::max(near, start) : std::min(far, start);  // rays begin at the eye
