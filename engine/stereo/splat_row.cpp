@@ -27,7 +27,7 @@ struct Scanline {
 };
 
 Scanline clearScanline(const SplatRow& row) {
-    const int size = splatScratchSize(row.width) / 4;
+    const std::ptrdiff_t size = splatScratchSize(row.width) / 4;
     std::fill_n(row.accumulators, 4 * size, 0.0f);
     return {row.accumulators, row.accumulators + size, row.accumulators + 2 * size,
             row.accumulators + 3 * size};
@@ -59,7 +59,7 @@ void noteSplat(const SplatRow& row, float column, int i) {
 }
 
 float sumOfPixel(const float* channel, int p) {
-    const float* sub = channel + p * kSubpixels + kSplatMargin;
+    const float* sub = channel + static_cast<std::ptrdiff_t>(p) * kSubpixels + kSplatMargin;
     float sum = 0;
     for (int k = 0; k < kSubpixels; ++k) sum += sub[k];
     return sum;

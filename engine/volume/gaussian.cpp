@@ -20,7 +20,7 @@ void scaled(const float* a, float weight, int count, float* out) {
 
 void alongI(const std::vector<float>& weights, float* row, int count, std::vector<float>& padded) {
     const int reach = static_cast<int>(weights.size()) - 1;
-    padded.resize(static_cast<std::size_t>(count + 2 * reach));
+    padded.resize(static_cast<std::size_t>(reach) * 2 + count);
     std::fill_n(padded.begin(), reach, row[0]);
     std::copy_n(row, count, padded.begin() + reach);
     std::fill_n(padded.end() - reach, reach, row[count - 1]);
@@ -54,6 +54,7 @@ std::vector<float> gaussianWeights(double sigma) {
         sum += 2 * exact.back();
     }
     std::vector<float> weights;
+    weights.reserve(exact.size());
     for (const double w : exact) weights.push_back(static_cast<float>(w / sum));
     return weights;
 }

@@ -121,7 +121,7 @@ void VoxelGraph::makeSteps(const glm::dvec3& spacing) {
 
 void VoxelGraph::gatherPatterns(const MaskVolume& mask, std::uint8_t label) {
     mPatterns = LazyArray<std::uint8_t>(static_cast<std::size_t>(mGrid.x) * mGrid.y * mGrid.z);
-    const auto width = static_cast<std::size_t>(mLast.x - mFirst.x + 1);
+    const auto width = static_cast<std::size_t>(mLast.x) - mFirst.x + 1;
     const auto gatherRow = [&](int y, int z) {
         const std::uint8_t* row = mask.values.data() + mask.frame.index(mFirst.x, mFirst.y + y, mFirst.z + z);
         std::uint8_t* patterns =
