@@ -70,6 +70,9 @@ struct SceneOptions {
     // Shading of detail finer than a terrain's samples: on where pictures are shown, off where they are
     // measured.
     bool groundDetail = false;
+    // Whether all that no option names is chosen for the scene: first view, light, surfaces, tone. Off where
+    // pictures are measured: a lamp or the sun alone, the data as they are.
+    bool chosenLook = false;
     double levelOfDetail = 0;  // error that distant ground may have, as a share of a pixel; 0: exact
     // Whether ground that is cast lies on a round Earth, and the share of its curvature that light follows.
     bool curvature = false;
@@ -84,6 +87,7 @@ struct SceneOptions {
 inline SceneOptions shownSceneOptions() {
     SceneOptions options;
     options.groundDetail = true;
+    options.chosenLook = true;
     return options;
 }
 

@@ -126,6 +126,15 @@ std::vector<OptionRule> sunRules() {
 
 std::vector<Option> lookOptions() {
     return {
+        {.key = "look",
+         .value = wordValue({"auto", "plain"}),
+         .help = "how the scene looks where no other option says: auto: first view, light, surface and tone "
+                 "that suit it; plain: the data as they are, under the sun or a lamp alone",
+         .fallback = "auto; with compare plain",
+         .commands = kShowing | kBake,
+         .panel = OptionPanel::View,
+         .take = [](OptionTargets& to,
+                    const OptionValue& value) { to.scene->chosenLook = value.text == "auto"; }},
         {.key = "image",
          .value = fileValue(),
          .help = "picture that colours the ground, such as an aerial photo",
