@@ -14,7 +14,9 @@ namespace fs = std::filesystem;
 // Milky and thin, or with a surface; 48 mm are a few optical depths.
 constexpr const char* kMilk = "reference_mm 20\n0 0.9 0.8 0.7 0\n1000 0.9 0.8 0.7 0.8\n";
 constexpr const char* kSkin = "reference_mm 20\n0 0.9 0.8 0.7 0 surface 1\n1000 0.9 0.8 0.7 0.99 surface 1\n";
-const std::vector<std::string> kSmall{"--size", "40x30", "--slices", "24", "--light-size", "24"};
+// Plain: light is compared with light, not with what a tone curve makes of it.
+const std::vector<std::string> kSmall{"--size",       "40x30", "--slices", "24",
+                                      "--light-size", "24",    "--look",   "plain"};
 
 class MediumCommands : public VolumeTest {
 protected:
@@ -177,7 +179,7 @@ TEST_F(MediumCommands, SlicesConverge) {
     const auto sliced = [&](const char* count) {
         const std::string file = (mFolder / "picture.png").string();
         runWell({"render", ball(), "--medium", milk, "--slices", count, "--size", "40x30", "--light-size",
-                 "24", "--out", file});
+                 "24", "--look", "plain", "--out", file});
         return readLinearImage(file);
     };
     const Shown many = sliced("384");
@@ -190,6 +192,34 @@ TEST_F(MediumCommands, SlicesConverge) {
     const double few = awayOf(sliced("6")), twice = awayOf(sliced("12"));
     EXPECT_GT(few, 0);
     EXPECT_LT(twice, 0.75 * few);
+}
+
+// Plain clips what is brighter than white; the chosen look shows it, and leaves dark pixels as they are.
+TEST_F(MediumCommands, BrightMediaAreNotClipped) {
+    for (const std::string scene : {"wax", "cloud"})
+        for (const std::string mode : {"ml", "mr"}) {
+            SCOPED_TRACE(scene + " " + mode);
+            const auto looking = [&](const char* look) {
+                const std::string file = (mFolder / (std::string(look) + ".png")).string();
+                runWell({"render", scene, "--look", look, "--mode", mode, "--size", "80x45", "--slices", "64",
+                         "--light-size", "64", "--out", file});
+                return readLinearImage(file);
+            };
+            const Shown plain = looking("plain"), chosen = looking("auto");
+            int clipped = 0, dark = 0;
+            for (std::size_t n = 0; n < plain.pixels.size(); ++n)
+                for (int c = 0; c < 3; ++c) {
+                    const float was = plain.pixels[n][c], is = chosen.pixels[n][c];
+                    clipped += was == 1;
+                    EXPECT_LT(is, 1);
+                    EXPECT_LE(is, was);
+                    if (was > 0.55f) continue;
+                    ++dark;
+                    EXPECT_EQ(is, was);
+                }
+            EXPECT_GT(clipped, 50);
+            EXPECT_GT(dark, 500);
+        }
 }
 
 TEST_F(MediumCommands, WhatIsTheDefaultChangesNothingAndNoiseDoes) {
