@@ -196,13 +196,21 @@ TEST_F(MediumCommands, SlicesConverge) {
 
 // Plain clips what is brighter than white; the chosen look shows it, and leaves dark pixels as they are.
 TEST_F(MediumCommands, BrightMediaAreNotClipped) {
-    for (const std::string scene : {"wax", "cloud"})
+    const std::string bright = input("bright.txt", "reference_mm 2\n0 1 1 1 0\n400 1 1 1 0\n600 1 1 1 0.9\n");
+    for (const std::vector<std::string>& scene :
+         {std::vector<std::string>{ball(), "--medium", bright, "--light-color", "2"},
+          {"cloud", "--light-color", "1.2"}})
         for (const std::string mode : {"ml", "mr"}) {
-            SCOPED_TRACE(scene + " " + mode);
+            SCOPED_TRACE(scene[0] + " " + mode);
             const auto looking = [&](const char* look) {
                 const std::string file = (mFolder / (std::string(look) + ".png")).string();
-                runWell({"render", scene, "--look", look, "--mode", mode, "--size", "80x45", "--slices", "64",
-                         "--light-size", "64", "--out", file});
+                std::vector<std::string> arguments{"render"};
+                arguments.insert(arguments.end(), scene.begin(), scene.end());
+                for (const char* word : {"--look", look, "--mode", mode.c_str(), "--size", "80x45",
+                                         "--slices", "64", "--light-size", "64", "--out"})
+                    arguments.emplace_back(word);
+                arguments.push_back(file);
+                runWell(arguments);
                 return readLinearImage(file);
             };
             const Shown plain = looking("plain"), chosen = looking("auto");

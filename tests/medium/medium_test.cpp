@@ -246,11 +246,15 @@ TEST(Medium, BuiltInFieldsAreTheSameEverywhere) {
     EXPECT_NEAR(wax->frame.spacing.x * 96, 0.08, 1e-12);
     EXPECT_EQ(hash(*cloud), 16640706032693199129ull);
     EXPECT_EQ(hash(*wax), 3991556390756230477ull);
+    const auto rabbit = makeWaxRabbit();
+    EXPECT_EQ(rabbit->frame.size, glm::ivec3(128));
+    EXPECT_NEAR(rabbit->frame.spacing.x * 128, 0.08, 1e-12);
+    EXPECT_EQ(hash(*rabbit), 13352864330171822347ull);
 }
 
 TEST(Medium, BuiltInFieldsStayAwayFromTheirFaces) {
-    const auto cloud = makeCloudField(), wax = makeWaxField();
-    for (const GreyVolume* field : {cloud.get(), wax.get()}) {
+    const auto cloud = makeCloudField(), wax = makeWaxField(), rabbit = makeWaxRabbit();
+    for (const GreyVolume* field : {cloud.get(), wax.get(), rabbit.get()}) {
         const int last = field->frame.size.x - 1;
         for (int a = 0; a <= last; ++a)
             for (int b = 0; b <= last; ++b)
@@ -262,6 +266,18 @@ TEST(Medium, BuiltInFieldsStayAwayFromTheirFaces) {
     }
     EXPECT_EQ(wax->at(30, 48, 48), 1000);  // wax
     EXPECT_EQ(wax->at(48, 48, 72), 0);     // the wick's hole
+    EXPECT_EQ(rabbit->at(70, 68, 40), 1000);
+    // Its ears are two, each of a few voxels through.
+    std::vector<int> runs;
+    for (int j = 0, inside = 0; j < 128; ++j) {
+        int most = 0;
+        for (int i = 0; i < 128; ++i) most = std::max<int>(most, rabbit->at(i, j, 100));
+        const bool now = most > 500;
+        if (now && !inside) runs.push_back(0);
+        if (now) ++runs.back();
+        inside = now;
+    }
+    EXPECT_EQ(runs.size(), 2u);
 }
 
 TEST(MediumLook, NamesItsModels) {

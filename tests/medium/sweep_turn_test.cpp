@@ -45,7 +45,7 @@ TEST(SweepTurn, MovesEveryFaceButTheEnds) {
 
 // The thick slab of one material looks the same however its slices lie; more work comes nearer to the finest.
 TEST(SweepTurn, FramesShowTheSameMediumWithAnyTurnAndEffort) {
-    MediumScene scene{test::slabOf({{0.5}, {0.1}}, 4), {}, {}, {}, {}, "", "", "", {}};
+    MediumScene scene{test::slabOf({{0.5}, {0.1}}, 4), {}, {}, {}, {}, "", "", "", {}, {}};
     scene.look.light = test::sun({0, 0.3, -1});
     scene.sweep.slices = 32;
     scene.sweep.lightSize = 32;

@@ -75,10 +75,10 @@ Facts factsOfMedium(const Scene& loaded) {
               "m");
     list.json("largest_extinction_per_m", scene.medium.largestExtinction(), "1/m");
     list.json("baked_light", baked);
-    if (!scene.look.tone.plain())
-        list.both("white", scene.look.tone.white, "white",
+    if (!scene.tone.plain())
+        list.both("white", scene.tone.white, "white",
                   fmt::format("light of {:.3g} is shown as white, light above {:.1f} is compressed",
-                              scene.look.tone.white, scene.look.tone.knee()));
+                              scene.tone.white, scene.tone.knee()));
     const SweepSetting& sweep = scene.sweep;
     const double cone = sweep.coneAngle * 180 / std::numbers::pi;
     list.json("slices", sweep.slices);

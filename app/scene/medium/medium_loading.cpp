@@ -13,7 +13,7 @@ std::unique_ptr<Scene> loadMediumScene(const SceneType& type, const SceneOptions
     Progress loading(progress, 0, 0.9);
     type.makeMedium(options, simd, loading, *scene);
     applyMediumOptions(options.medium, scene->medium());
-    if (options.chosenLook) scene->medium().look.tone = toneOf(*scene, scene->medium(), simd);
+    if (options.chosenLook) scene->medium().tone = toneOf(*scene, scene->medium(), simd);
     scene->begin(simd);
     progress.report(1, kMaking);
     return scene;

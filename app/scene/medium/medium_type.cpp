@@ -24,7 +24,9 @@ constexpr float kCloudRadiance = 0.6f, kWaxRadiance = 0.75f;
 void makeBuiltIn(const SceneOptions& options, SimdTarget, Progress&, ShownMedium& scene) {
     const bool cloud = options.scene == "cloud";
     MediumScene& shown = scene.medium();
-    const std::shared_ptr<GreyVolume> field = cloud ? makeCloudField() : makeWaxField();
+    const std::shared_ptr<GreyVolume> field = cloud                ? makeCloudField()
+                                              : options.chosenLook ? makeWaxRabbit()
+                                                                   : makeWaxField();
     const glm::dvec3 size = glm::dvec3(field->frame.size) * field->frame.spacing;
     shown.transfer = options.medium.medium.empty() ? options.scene : options.medium.medium;
     shown.noise = !options.medium.noise.empty() ? options.medium.noise : cloud ? "cloud" : "none";

@@ -8,29 +8,10 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/base/parallel.h"
+#include "engine/medium/model/sampled_field.h"
 
 namespace stereonav {
 namespace {
-
-constexpr double kMost = 1000;  // largest of the values
-
-template <typename Value>
-std::shared_ptr<GreyVolume> sampled(int size, double width, const glm::dvec3& origin, Value valueAt) {
-    VolumeFrame frame;
-    frame.size = glm::ivec3(size);
-    frame.spacing = glm::dvec3(width / size);
-    frame.origin = origin + 0.5 * frame.spacing;
-    auto field = std::make_shared<GreyVolume>(frame);
-    parallelFor(size, [&](int k) {
-        for (int j = 0; j < size; ++j)
-            for (int i = 0; i < size; ++i) {
-                const double value = valueAt(frame.worldFromVoxel({i, j, k}));
-                field->at(i, j, k) = static_cast<std::int16_t>(std::clamp(value, 0.0, kMost) + 0.5);
-            }
-    });
-    return field;
-}
 
 struct Ellipsoid {
     glm::dvec3 center, radii;  // metres
@@ -67,7 +48,7 @@ double cloudValue(const glm::dvec3& world) {
     double sum = 0;
     for (const Ellipsoid& e : kCloud) sum += bump(e, world);
     const double base = std::clamp((world.z - kCloudBase) / 90, 0.0, 1.0);
-    return 1.6 * kMost * sum * base;
+    return 1.6 * kMostInField * sum * base;
 }
 
 // Signed distances, metres: negative inside.
@@ -88,7 +69,7 @@ double waxDistance(const glm::dvec3& world) {
 }  // namespace
 
 std::shared_ptr<GreyVolume> makeCloudField() {
-    return sampled(64, 2000, {-1000, -1000, 0}, cloudValue);
+    return sampledField(64, 2000, {-1000, -1000, 0}, cloudValue);
 }
 
 Perturbation cloudPerturbation() {
@@ -105,8 +86,9 @@ Perturbation cloudPerturbation() {
 
 std::shared_ptr<GreyVolume> makeWaxField() {
     constexpr double kBlur = 0.0015;  // metres from the surface to the ends of the values
-    return sampled(96, 0.080, {-0.040, -0.040, 0},
-                   [](const glm::dvec3& world) { return kMost * (0.5 - 0.5 * waxDistance(world) / kBlur); });
+    return sampledField(96, 0.080, {-0.040, -0.040, 0}, [](const glm::dvec3& world) {
+        return kMostInField * (0.5 - 0.5 * waxDistance(world) / kBlur);
+    });
 }
 
 }  // namespace stereonav

@@ -14,5 +14,8 @@ Perturbation cloudPerturbation();
 
 // Returns a block of wax with a wick's hollow, 96^3, 80 mm (fig. 9): values 0..1000.
 std::shared_ptr<GreyVolume> makeWaxField();
+// Returns a sitting rabbit of wax, 128^3, 80 mm, 70 mm high: values 0..1000. Its ears are thin: light shines
+// through.
+std::shared_ptr<GreyVolume> makeWaxRabbit();
 
 }  // namespace stereonav

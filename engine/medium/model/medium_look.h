@@ -6,7 +6,6 @@
 #include <memory>
 #include <string_view>
 
-#include "engine/image/tone_curve.h"
 #include "engine/medium/model/phase_function.h"
 #include "engine/volume/volume_look.h"
 
@@ -47,7 +46,6 @@ struct MediumLook {
     float ambient = 0.1f, diffuse = 0.9f, specular = 0.2f, shininess = 32.0f;
     // Baked light (irradiance / pi) in place of Blinn-Phong where a surface weight is and a texel is known.
     BakedLook baked;
-    ToneCurve tone;  // from light, medium and background together, to the picture
 };
 
 std::string_view nameOf(MediumModel model);  // emission, surface, direct, indirect

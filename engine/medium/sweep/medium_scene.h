@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/image/tone_curve.h"
 #include "engine/medium/model/medium.h"
 #include "engine/medium/model/medium_look.h"
 #include "engine/medium/sweep/sweep_setting.h"
@@ -26,6 +27,7 @@ struct MediumScene {
 
     std::string transfer, phase = "none", noise = "none";  // by name, for `info`
     std::vector<std::string> notes;
+    ToneCurve tone;  // from light, of the medium and of what lies behind, to the picture
 
     bool animated() const {
         for (const NoiseScale& scale : medium.perturbation().scales)

@@ -94,7 +94,7 @@ void SweptFrames::pack(const MediumPicture& picture, const EyeView& view, EyeIma
             const glm::vec4 seen = picture.light.at(x, y);
             glm::vec3 light(seen);
             if (seen.w > 0) light += seen.w * behind(view, x, y);
-            image.color.at(x, y) = packColor(mScene.look.tone(light));
+            image.color.at(x, y) = packColor(mScene.tone(light));
             image.viewDepth.at(x, y) = picture.viewDepth.at(x, y);
         }
     });
