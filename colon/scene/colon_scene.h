@@ -34,6 +34,7 @@ struct ColonOptions {
     std::optional<UpAxis> up;        // for a volume seen from outside; not given: z
     bool cache = true;
     bool keepsStudy = false;  // ColonScene::study is asked for
+    bool wetWall = false;     // a colon's wall looks as an endoscope shows it; else matt and evenly lit
 };
 
 struct ColonScene {

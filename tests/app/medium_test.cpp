@@ -194,6 +194,32 @@ TEST_F(MediumCommands, SlicesConverge) {
     EXPECT_LT(twice, 0.75 * few);
 }
 
+// The lamp of the chosen look fades sooner: what is far is darker against what is near, both eyes alike; and
+// the wall is redder. Depths are the same.
+TEST_F(MediumCommands, AColonsWallIsMoistInTheChosenLook) {
+    const auto looking = [&](const char* look, const char* mode) {
+        const std::string file = (mFolder / "wall.png").string();
+        runWell({"render", "colon", "--look", look, "--mode", mode, "--size", "64x36", "--out", file});
+        return readLinearImage(file);
+    };
+    for (const char* mode : {"ml", "mr"}) {
+        const Shown plain = looking("plain", mode), moist = looking("auto", mode);
+        const auto mean = [](const Shown& shown, bool far) {
+            glm::dvec3 sum(0);
+            int count = 0;
+            for (int y = 0; y < 36; ++y)
+                for (int x = 0; x < 64; ++x)
+                    if (const bool middle = std::abs(x - 32) < 8 && std::abs(y - 14) < 6; middle == far)
+                        sum += glm::dvec3(shown.pixels[static_cast<std::size_t>(64 * y + x)]), ++count;
+            return sum / static_cast<double>(count);
+        };
+        const glm::dvec3 nearPlain = mean(plain, false), nearMoist = mean(moist, false);
+        const glm::dvec3 farPlain = mean(plain, true), farMoist = mean(moist, true);
+        EXPECT_LT(farMoist.x / nearMoist.x, 0.85 * farPlain.x / nearPlain.x) << mode;
+        EXPECT_GT(nearMoist.x / nearMoist.z, 1.3 * nearPlain.x / nearPlain.z) << mode;
+    }
+}
+
 // Plain clips what is brighter than white; the chosen look shows it, and leaves dark pixels as they are.
 TEST_F(MediumCommands, BrightMediaAreNotClipped) {
     const std::string bright = input("bright.txt", "reference_mm 2\n0 1 1 1 0\n400 1 1 1 0\n600 1 1 1 0.9\n");

@@ -50,6 +50,7 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
     colon.opacity = volume.opacity;
     colon.cache = volume.cache;
     colon.up = volume.up;
+    colon.wetWall = options.chosenLook;
     return colon;
 }
 
