@@ -41,9 +41,9 @@ struct Members<UpAxis> {
 };
 template <>
 struct Members<ColonOptions> {
-    static constexpr std::array names{"study",      "builtIn",  "reading",   "segmentation", "centreline",
-                                      "isosurface", "isovalue", "transfer",  "opacity",      "clearance",
-                                      "up",         "cache",    "keepsStudy"};
+    static constexpr std::array names{"study",      "builtIn",  "reading",    "segmentation", "centreline",
+                                      "isosurface", "isovalue", "transfer",   "opacity",      "clearance",
+                                      "up",         "cache",    "keepsStudy", "wetWall"};
 };
 
 namespace {
@@ -51,8 +51,8 @@ namespace {
 // These tell which study it is, whose key counts by itself.
 const std::vector<std::string> kOfStudy{"study", "builtIn", "reading"};
 // How it is shown, and what is held of it.
-const std::vector<std::string> kOfLooks{"isosurface", "isovalue", "transfer", "opacity",
-                                        "clearance",  "up",       "cache",    "keepsStudy"};
+const std::vector<std::string> kOfLooks{"isosurface", "isovalue", "transfer",   "opacity", "clearance",
+                                        "up",         "cache",    "keepsStudy", "wetWall"};
 
 std::vector<std::string> with(std::vector<std::string> names, const std::vector<std::string>& others) {
     names.insert(names.end(), others.begin(), others.end());

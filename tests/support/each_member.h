@@ -72,6 +72,12 @@ constexpr auto membersOf(T& s) {
     } else if constexpr (count == 13) {
         auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = s;
         return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m);
+    } else if constexpr (count == 14) {
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = s;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+    } else if constexpr (count == 15) {
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = s;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
     } else if constexpr (count == 23) {
         auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t, u, v, w, x] = s;
         return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t, u, v, w, x);

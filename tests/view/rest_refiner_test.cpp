@@ -17,7 +17,7 @@ namespace {
 class RestingMedium final : public Scene, SweepPlace {
 public:
     RestingMedium(Medium medium, int slices)
-        : mMedium{std::move(medium), {}, {}, {}, {}, "", "", "", {}}, mFrames(mMedium) {
+        : mMedium{std::move(medium), {}, {}, {}, {}, "", "", "", {}, {}}, mFrames(mMedium) {
         mMedium.look.light = test::sun({0, 0.3, -1}, 4);
         mMedium.sweep.slices = slices;
         mMedium.sweep.lightSize = 16;

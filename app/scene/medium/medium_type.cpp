@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -21,6 +22,14 @@ constexpr double kWaxAzimuth = 300 * kRadians, kWaxElevation = 30 * kRadians;
 // Radiance of parallel light at which white media are just below white on the screen.
 constexpr float kCloudRadiance = 0.6f, kWaxRadiance = 0.75f;
 
+// Returns the sky over a sea, linear RGB, by a unit direction: below the horizon dark water, which haze hides
+// with its distance.
+glm::vec3 skyOverSea(const glm::vec3& direction) {
+    const glm::vec3 water(0.05f, 0.13f, 0.20f), horizon = gradientSky({1, 0, 0});
+    if (direction.z >= 0) return gradientSky(direction);
+    return glm::mix(water, horizon, std::exp(7 * direction.z));
+}
+
 void makeBuiltIn(const SceneOptions& options, SimdTarget, Progress&, ShownMedium& scene) {
     const bool cloud = options.scene == "cloud";
     MediumScene& shown = scene.medium();
@@ -35,7 +44,9 @@ void makeBuiltIn(const SceneOptions& options, SimdTarget, Progress&, ShownMedium
                              : findNoise(shown.noise, std::max({size.x, size.y, size.z}));
     putField(field, std::move(noise), shown);
     if (cloud) {
-        shown.sky = [](const glm::dvec3& direction) { return gradientSky(glm::vec3(direction)); };
+        shown.sky = [over = options.chosenLook ? skyOverSea : gradientSky](const glm::dvec3& direction) {
+            return over(glm::vec3(direction));
+        };
         shown.turnLight(kLightAzimuth, kLightElevation);
         shown.look.light.radiance = glm::vec3(kCloudRadiance);
     } else {
