@@ -8,6 +8,7 @@
 
 #include "app/report/felt_errors.h"
 #include "app/report/run.h"
+#include "engine/camera/default_eyes.h"
 #include "engine/image/image_file.h"
 #include "engine/medium/sweep/swept_frames.h"
 #include "engine/metrics/image_difference.h"
@@ -255,7 +256,7 @@ WayChart separationsChart(ReportRun& run, const ReportScene& scene, const std::v
     for (std::size_t n = 0; n < parts.size(); ++n) {
         const PairWay way{fmt::format("1/{}", parts[n]),
                           fmt::format("eyes 1/{} of the zero-parallax distance apart", parts[n]),
-                          kSweepMethod, trials[n].own(), parts[n] == 30};
+                          kSweepMethod, trials[n].own(), parts[n] == kUsualParts};
         chart.points.push_back(trials[n].pointsOf({way}, run.pick(2, 3)).front());
     }
     chart.id = "pair-separation/" + scene.id;
@@ -292,9 +293,9 @@ void reportPairs(ReportRun& run, ReportSection& section) {
     for (ReportScene& scene : run.media()) {
         run.checkTime();
         const std::vector<int> parts =
-            run.brief() ? std::vector<int>{8} : std::vector<int>{1000, 120, 30, 8, 4};
+            run.brief() ? std::vector<int>{8} : std::vector<int>{1000, 120, kUsualParts, 8, 4};
         std::vector<PairTrial> trials;
-        trials.emplace_back(run, scene, run.pick(1, 3), 1.0 / 30);
+        trials.emplace_back(run, scene, run.pick(1, 3), kUsualShare);
         for (const int part : parts) trials.emplace_back(run, scene, 1, 1.0 / part);
         PairTrial::findTruths(run, trials);
         addWaysCharts(run, section, scene, trials.front(), run.pick(2, 3));

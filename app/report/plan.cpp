@@ -8,6 +8,7 @@
 
 #include "app/report/trial.h"
 #include "engine/base/parallel.h"
+#include "engine/camera/default_eyes.h"
 #include "engine/frame/cast_frames.h"
 #include "engine/volume/volume_renderer.h"
 #include "terrain/cast/terrain_renderer.h"
@@ -157,7 +158,8 @@ void reportPlan(ReportRun& run, double seconds) {
     const std::vector<SizeOption> sizes =
         run.brief() ? std::vector<SizeOption>{{160, 120}, {640, 480}}
                     : std::vector<SizeOption>{{160, 120}, {320, 240}, {640, 480}, {1280, 720}};
-    const std::vector<int> parts = run.brief() ? std::vector<int>{30} : std::vector<int>{120, 30, 10};
+    const std::vector<int> parts =
+        run.brief() ? std::vector<int>{kUsualParts} : std::vector<int>{120, kUsualParts, 10};
     std::vector<Case> cases;
     const auto late = [&] { return watch.elapsed_ms() > 1000 * seconds; };
     std::vector<std::string> skipped;
@@ -172,7 +174,7 @@ void reportPlan(ReportRun& run, double seconds) {
                     continue;
                 }
                 cases.push_back(caseOf(run, scene.loaded(), scene.frames(), scene.title, size, part));
-                if (plainFrames && part == 30 && size.width <= 320)
+                if (plainFrames && part == kUsualParts && size.width <= 320)
                     cases.push_back(
                         caseOf(run, scene.loaded(), *plainFrames, scene.title + ", plain code", size, part));
             }

@@ -7,6 +7,7 @@
 
 #include "app/report/trial.h"
 #include "engine/base/parallel.h"
+#include "engine/camera/default_eyes.h"
 #include "engine/image/image_file.h"
 #include "engine/metrics/difference_picture.h"
 
@@ -54,8 +55,8 @@ ReportPictures picturesOf(const ReportScene& scene, const StereoSetting& stereo)
 
 // Measures the default way with increasing separations of the eyes.
 WayChart separationsOf(ReportRun& run, const ReportScene& scene, double seconds) {
-    const std::vector<int> parts =
-        run.brief() ? std::vector<int>{240, 30, 8} : std::vector<int>{1000, 240, 120, 60, 30, 15, 8, 4};
+    const std::vector<int> parts = run.brief() ? std::vector<int>{240, kUsualParts, 8}
+                                               : std::vector<int>{1000, 240, 120, 60, kUsualParts, 15, 8, 4};
     WayChart chart;
     int least = 1 << 30, most = 0;  // numbers of frames
     for (const int part : parts) {
@@ -64,7 +65,7 @@ WayChart separationsOf(ReportRun& run, const ReportScene& scene, double seconds)
         Variant v = methodVariant(defaultMethodFor(rendererOf(scene.loaded())));
         v.name = fmt::format("1/{}", part);
         v.detail = fmt::format("eyes 1/{} of the zero-parallax distance apart", part);
-        v.isDefault = part == 30;
+        v.isDefault = part == kUsualParts;
         RightEyeTrial trial(scene, stereo, {v});
         trial.run(run, "separations, " + scene.title, run.pick(2, 6),
                   seconds / static_cast<double>(parts.size()));

@@ -12,6 +12,7 @@
 #include "app/scene/frame_facts.h"
 #include "engine/base/file.h"
 #include "engine/base/parallel.h"
+#include "engine/camera/default_eyes.h"
 #include "engine/frame/cast_frames.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/volume/volume_renderer.h"
@@ -56,7 +57,7 @@ struct Feature {
 std::vector<std::string> rowOf(ReportRun& run, const ReportScene& scene, const char* name, FrameMaker& frames,
                                ViewDependence dependence) {
     StereoSetting stereo = scene.loaded().stereo;
-    stereo.separation = stereo.zeroParallax / 30;
+    stereo.separation = stereo.zeroParallax / kUsualParts;
     const StereoViews views = makeStereoViews(scene.loaded().startPose, scene.loaded().lens, stereo);
     EyePair made;
     EyeImage full;

@@ -12,6 +12,7 @@
 #include "app/report/stereo_trial.h"
 #include "app/report/trial.h"
 #include "engine/base/parallel.h"
+#include "engine/camera/default_eyes.h"
 
 namespace stereonav {
 namespace {
@@ -71,7 +72,7 @@ TimesByThreads measureStages(ReportRun& run, const ReportScene& scene, const std
     const ThreadsBack back;
     const std::vector<Pose> poses = posesOf(scene.loaded(), run.pick(2, 5));
     StereoSetting stereo = scene.loaded().stereo;
-    stereo.separation = stereo.zeroParallax / 30;
+    stereo.separation = stereo.zeroParallax / kUsualParts;
     std::map<int, std::array<std::vector<double>, kStages>> sums;  // sums over the frames, by repeat
     StageTrial trial(scene);
     const Stopwatch watch;

@@ -6,6 +6,7 @@
 
 #include "app/report/coherence.h"
 #include "app/report/trial.h"
+#include "engine/camera/default_eyes.h"
 #include "engine/metrics/image_difference.h"
 #include "engine/metrics/surface_difference.h"
 
@@ -70,7 +71,7 @@ double StereoCounts::psnr_db() const {
 StereoTrial::StereoTrial(const Scene& scene, std::vector<StereoWay> ways, int frames)
     : mScene(scene), mWays(std::move(ways)) {
     StereoSetting stereo = scene.stereo;
-    stereo.separation = stereo.zeroParallax / 30;
+    stereo.separation = stereo.zeroParallax / kUsualParts;
     for (const Pose& pose : posesOf(scene, frames))
         mViews.push_back(makeStereoViews(pose, scene.lens, stereo));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/camera/default_eyes.h"
 #include "engine/metrics/image_difference.h"
 
 namespace stereonav {
@@ -51,9 +52,8 @@ std::vector<Variant> rightEyeVariants(const Scene& scene) {
 }
 
 StereoSetting chartedEyes(const Scene& scene) {
-    constexpr double kSeparationShare = 1.0 / 30;  // share of the zero-parallax distance
     StereoSetting stereo = scene.stereo;
-    stereo.separation = stereo.zeroParallax * kSeparationShare;
+    stereo.separation = stereo.zeroParallax * kUsualShare;
     return stereo;
 }
 

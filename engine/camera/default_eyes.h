@@ -6,8 +6,9 @@
 
 namespace stereonav {
 
-// Separation as a share of the zero-parallax distance (Wan et al. 2004).
-constexpr double kUsualShare = 1.0 / 30;
+// The zero-parallax distance in separations, and a separation as a share of it (Wan et al. 2004).
+constexpr int kUsualParts = 30;
+constexpr double kUsualShare = 1.0 / kUsualParts;
 
 // Kinds of views, from which the default eyes follow.
 enum class SeenAs {
@@ -30,7 +31,7 @@ constexpr StereoSetting defaultEyes(SeenAs seen, double zeroParallax) {
         case SeenAs::Outside:
             break;
     }
-    return {zeroParallax / 30, zeroParallax};
+    return {zeroParallax / kUsualParts, zeroParallax};
 }
 
 }  // namespace stereonav

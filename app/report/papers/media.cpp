@@ -12,6 +12,7 @@
 #include "app/report/whole_medium.h"
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "engine/camera/default_eyes.h"
 #include "engine/medium/model/built_in_media.h"
 #include "engine/medium/sweep/medium_scene.h"
 #include "engine/medium/sweep/medium_sweep.h"
@@ -57,7 +58,7 @@ MediaSubject subjectOf(const PaperData& data) {
 StereoViews viewsOf(MediaSubject& subject, int size) {
     const WholeMedium whole = wholeMedium(subject.medium, size);
     subject.look.light.direction = whole.light;
-    return makeStereoViews(whole.pose, whole.lens, {whole.distance / 30, whole.distance});
+    return makeStereoViews(whole.pose, whole.lens, defaultEyes(SeenAs::Outside, whole.distance));
 }
 
 // Returns the paper's statement for a model, relative to the unshaded rate: "50 to 60 percent slower than
