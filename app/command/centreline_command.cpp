@@ -10,7 +10,6 @@
 #include "app/output/command_result.h"
 #include "app/output/progress_bar.h"
 #include "app/scene/scene_loading.h"
-#include "app/scene/scene_type_table.h"
 #include "app/scene/volume/inside.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -30,16 +29,7 @@ void checkCentrelineOptions(const CentrelineOptions& options) {
                     "name it centreline.vtp");
     checkNoInput({"--out", options.out}, inputsOf(options.scene));
     checkOutputFile("--out", options.out);
-    const SceneType& type = sceneTypeNamed(options.scene.scene);
-    if (!type.hasLine)
-        throw Error(
-            options.scene.scene.empty() ? "SCENE" : options.scene.scene, "",
-            fmt::format("expected a CT study, found {}",
-                        !type.hasGround               ? "a " + std::string(type.noun)
-                        : options.scene.scene.empty() ? std::string("nothing, which is the built-in terrain")
-                        : options.scene.scene == "terrain" ? "the built-in terrain"
-                                                           : "a terrain or another kind of file"),
-            "name a study, or colon for the built-in one");
+    expectColonName(options.scene.scene);
 }
 
 int runCentreline(const CentrelineOptions& options) {
