@@ -13,12 +13,12 @@ Pose poseOn(const Orbit& orbit, double turn) {
     return pose;
 }
 
-RecordedPath flightAround(const Orbit& orbit, const std::string& name) {
+RecordedPath flightAround(const Orbit& orbit, const std::string& name, double from) {
     constexpr double kSeconds = 15;
     constexpr int kSamples = 180;
     std::vector<PathSample> samples;
     for (int n = 0; n <= kSamples; ++n)
-        samples.push_back({n * kSeconds / kSamples, poseOn(orbit, 2 * kPi * n / kSamples)});
+        samples.push_back({n * kSeconds / kSamples, poseOn(orbit, from + 2 * kPi * n / kSamples)});
     return {std::move(samples), name};
 }
 

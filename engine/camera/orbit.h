@@ -19,7 +19,7 @@ struct Orbit {
 // turn: radians, clockwise seen from above; at 0 the viewer looks northwards.
 Pose poseOn(const Orbit& orbit, double turn);
 
-// Returns a flight once around. name: as messages call it, "the flight around the mesh".
-RecordedPath flightAround(const Orbit& orbit, const std::string& name);
+// Returns a flight once around, from this turn on. name: as messages call it, "the flight around the mesh".
+RecordedPath flightAround(const Orbit& orbit, const std::string& name, double from = 0);
 
 }  // namespace stereonav
