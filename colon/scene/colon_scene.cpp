@@ -214,7 +214,8 @@ ColonScene surfaceOf(Study study, const ColonOptions& options, const std::string
     study.mask = {};
     const VolumeFrame whole = grey.frame;
     if (options.up) turnUp(grey.frame, *options.up);
-    ColonScene scene = isosurfaceScene(std::move(grey), options, progress);
+    ColonScene scene = isosurfaceScene(std::move(grey), options, progress, study.directed);
+    if (options.up) scene.up = options.up;
     if (options.up) scene.notes.push_back("turned: what points to " + nameOf(*options.up) + " is up");
     scene.format = study.format;
     scene.studyFrame = whole;
@@ -265,6 +266,9 @@ ColonScene sharing(const ColonScene& scene) {
     same.lumen = sharing(scene.lumen);
     same.centreline = scene.centreline;
     same.polyps = scene.polyps;
+    same.counts = scene.counts;
+    same.kinds = scene.kinds;
+    same.up = scene.up;
     same.startPose = scene.startPose;
     same.path = scene.path;
     same.lens = scene.lens;

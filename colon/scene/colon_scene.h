@@ -4,12 +4,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "colon/built_in/built_in_colon.h"
 #include "colon/centreline/centreline.h"
+#include "colon/scene/value_kinds.h"
 #include "colon/segmentation/segmentation.h"
 #include "colon/study/study.h"
 #include "engine/camera/recorded_path.h"
@@ -19,6 +21,17 @@
 #include "engine/volume/volume_up.h"
 
 namespace stereonav {
+
+// What is chosen for a volume seen from outside where no option says it.
+struct ChosenForVolume {
+    // Whether values are looked at for what is shown: the isovalue, presets of transfer functions, which way
+    // is up. Else the isovalue alone is chosen, by another rule.
+    bool values = false;
+    bool baked = false;         // light is baked: isovalue and way up are those without a look at values
+    bool view = false;          // the view by what is seen, else by its box
+    double aspect = 16.0 / 9;   // of the picture, width by height
+    std::optional<double> fov;  // vertical, radians; not given: the scene's own
+};
 
 struct ColonOptions {
     std::filesystem::path study;  // empty: the built-in colon
@@ -34,7 +47,8 @@ struct ColonOptions {
     std::optional<UpAxis> up;        // for a volume seen from outside; not given: z
     bool cache = true;
     bool keepsStudy = false;  // ColonScene::study is asked for
-    bool wetWall = false;     // a colon's wall looks as an endoscope shows it; else matt and evenly lit
+    ChosenForVolume chosen;
+    bool wetWall = false;  // a colon's wall looks as an endoscope shows it; else matt and evenly lit
 };
 
 struct ColonScene {
@@ -52,6 +66,12 @@ struct ColonScene {
     LumenField lumen;  // without `field`, which is moved into volume.field
     Centreline centreline;
     std::vector<Polyp> polyps;
+
+    // Of a volume seen from outside whose values were looked at (ChosenForVolume::values); null for others.
+    std::shared_ptr<const ValueCounts> counts;
+    ValueKinds kinds;
+    std::optional<UpAxis> up;  // axis of the file that was turned up, by an option or guessed
+    std::string warning;       // what has to be said to who sees a picture of it; "": nothing
 
     Pose startPose;
     RecordedPath path;  // along the centreline, or around the volume

@@ -10,18 +10,23 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <numbers>
 #include <utility>
 #include <vector>
 
+#include "colon/scene/guessed_up.h"
 #include "colon/scene/transfer_presets.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/base/parallel.h"
 #include "engine/camera/default_eyes.h"
+#include "engine/camera/first_view.h"
 #include "engine/camera/orbit.h"
 #include "engine/math/constants.h"
+#include "engine/volume/seen_blocks.h"
+#include "engine/volume/transfer_text.h"
 
 namespace stereonav {
 namespace {
@@ -172,12 +177,64 @@ void placeViewer(ColonScene& scene) {
     scene.extent = 2 * ball.radius;
 }
 
-// The function of --transfer or, around the isovalue, of --opacity; empty: opaque.
-TransferFunction transferOf(const ColonOptions& options, double isovalue, const glm::vec3& color) {
-    if (!options.transfer.empty()) return findTransferFunction(options.transfer);
+// The stored numbers of which something is seen.
+SeenNumbers seenIn(const VolumeScene& volume, double spacing) {
+    const GreyVolume& field = volume.field;
+    const TransferFunction& transfer = volume.look.transfer;
+    SeenNumbers seen = seenFrom(volume.cells.isovalue);
+    if (transfer.empty()) return seen;
+    constexpr double kLeast = 0.005;  // share of light that a voxel takes
+    bool some = false;
+    SeenNumbers through(seen.size());
+    for (std::size_t n = 0; n < seen.size(); ++n) {
+        const double value = valueOf(field, static_cast<double>(n) - 32768);
+        through[n] = -std::expm1(-transfer.extinction(value) * spacing) >= kLeast;
+        some |= through[n] != 0;
+    }
+    return some ? through : seen;
+}
+
+// Places the viewer by what is seen; false where nothing of that is found.
+bool placeByView(ColonScene& scene, const ChosenForVolume& chosen) {
+    constexpr double kFront = 0.12;
+    const VolumeFrame& frame = scene.volume.field.frame;
+    const glm::dvec3& spacing = frame.spacing;
+    const double edge = std::cbrt(spacing.x * spacing.y * spacing.z);
+    SeenBlocks blocks = seenBlocks(scene.volume.field, seenIn(scene.volume, edge));
+    dropCrumbs(blocks);
+    const double fov = 40 * kRadians;
+    ViewWanted wanted{chosen.fov.value_or(fov), chosen.aspect, kFront,
+                      0.5 * std::min({spacing.x, spacing.y, spacing.z})};
+    const std::optional<FirstView> view = firstViewOf(surfaceOf(blocks), wanted);
+    if (!view) return false;
+    scene.lens.verticalFov = fov;
+    scene.lens.nearDepth = 0.005 * view->radius;
+    scene.stereo = defaultEyes(SeenAs::Outside, view->orbit.distance);
+    scene.startPose = view->pose();
+    scene.path = flightAround(view->flight, "the flight around the volume", view->turn);
+    scene.extent = 2 * view->radius;
+    return true;
+}
+
+// The function of --transfer or, around the isovalue, of --opacity; empty: opaque. scene: whose values it is
+// for; counts may be null.
+TransferFunction transferOf(const ColonOptions& options, const ColonScene& scene, double isovalue) {
+    if (!options.transfer.empty())
+        return scene.counts ? fittedTransfer(options.transfer, scene.kinds)
+                            : findTransferFunction(options.transfer);
     if (!options.opacity) return {};
+    const glm::vec3& color = scene.volume.look.surface;
     return TransferFunction({{isovalue - 1, color, 0.0}, {isovalue + 1, color, *options.opacity}}, 0.001,
                             "--opacity");
+}
+
+// What is said of a function that shows nothing; "" of others.
+std::string warningOf(const ColonOptions& options, const ColonScene& scene,
+                      const TransferFunction& transfer) {
+    if (!scene.counts || options.transfer.empty() || showsSomething(transfer, *scene.counts, scene.kinds))
+        return "";
+    const bool curve = isCurveText(options.transfer.string());
+    return whyEmpty(curve ? "this curve" : options.transfer.filename().string(), *scene.counts, scene.kinds);
 }
 
 // The cells that hold the surface or, of a translucent volume, anything that is not transparent.
@@ -239,6 +296,27 @@ IsovalueChoice chooseIsovalue(const GreyVolume& grey) {
     return {kSkin, "skin"};
 }
 
+namespace {
+void lookAtValues(const GreyVolume& grey, ColonScene& scene) {
+    Progress quiet;
+    auto counts = std::make_shared<ValueCounts>(countValues(grey, 0, nullptr, quiet));
+    scene.kinds = kindsOf(*counts, looksLikeHounsfield(grey), grey.frame);
+    scene.counts = std::move(counts);
+}
+
+// Turns a volume whose file does not say how it lies.
+void turnAsGuessed(GreyVolume& grey, double isovalue, ColonScene& scene) {
+    const GuessedUp guess = guessUp(grey, scene.kinds, storedIsovalue(grey, isovalue));
+    if (guess.up) turnUp(grey.frame, *guess.up);
+    if (guess.up && *guess.up != UpAxis()) scene.up = guess.up;
+    scene.notes.push_back(
+        guess.up
+            ? fmt::format("the file does not say which way is up, {} is guessed, as {}; --up gives another",
+                          nameOf(*guess.up), guess.why)
+            : "the file does not say which way is up, z is taken; --up gives another");
+}
+}  // namespace
+
 double surfaceWorking(double voxels) {
     // Flags of cells, distances and their squares; of large volumes codes and what groups of cells take, and
     // the same of one block (leap_blocks.h).
@@ -247,28 +325,35 @@ double surfaceWorking(double voxels) {
     return kByBlocks * voxels + kBlock;
 }
 
-ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress) {
+ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress, bool directed) {
     ColonScene scene;
+    if (options.chosen.values) lookAtValues(grey, scene);
+    const bool chooses = scene.counts && !options.chosen.baked;
     double isovalue = 0;
     if (options.isovalue) {
         isovalue = *options.isovalue;
     } else {
-        const IsovalueChoice choice = chooseIsovalue(grey);
+        const IsovalueChoice choice =
+            chooses ? isovalueFor(*scene.counts, scene.kinds) : chooseIsovalue(grey);
         isovalue = choice.isovalue;
-        scene.notes.push_back(fmt::format("isovalue {:g} chosen: {}", choice.isovalue, choice.why));
+        scene.notes.push_back(fmt::format("isovalue {:g} chosen: {}{}", choice.isovalue, choice.why,
+                                          chooses ? "; --isovalue gives another" : ""));
     }
+    if (chooses && !options.up && !directed) turnAsGuessed(grey, isovalue, scene);
     VolumeLook& look = scene.volume.look;
     look.falloff = 0;
     look.surface = {0.62f, 0.57f, 0.48f};
     look.ambient = 0.12f;
     look.diffuse = 0.88f;
     look.background = {0.012f, 0.014f, 0.018f};
-    look.transfer = transferOf(options, isovalue, look.surface);
+    look.transfer = transferOf(options, scene, isovalue);
+    scene.warning = warningOf(options, scene, look.transfer);
+    if (!scene.warning.empty()) scene.notes.push_back(scene.warning);
     checkMemory("the surface of a volume", surfaceWorking(static_cast<double>(grey.frame.count())),
                 "crop the volume or make it coarser");
     scene.volume.field = padded(std::move(grey));
     scene.volume.cells = cellsAt(scene.volume.field, isovalue, look.transfer, progress);
-    placeViewer(scene);
+    if (!options.chosen.view || !placeByView(scene, options.chosen)) placeViewer(scene);
     scene.clearance = options.clearance > 0 ? options.clearance : 0.01 * scene.extent;
     return scene;
 }
@@ -281,7 +366,8 @@ void setSurface(ColonScene& scene, const std::optional<double>& isovalue, const 
     VolumeLook& look = scene.volume.look;
     const float now = scene.volume.cells.isovalue;
     const double value = isovalue.value_or(valueOf(field, now));
-    TransferFunction transfer = transferOf(options, value, look.surface);
+    TransferFunction transfer = transferOf(options, scene, value);
+    scene.warning = warningOf(options, scene, transfer);
     const bool nothing = (!isovalue || storedIsovalue(field, value) == now) && transfer == look.transfer;
     // Colours, and opacities that stay above 0, change no cell.
     const bool same = nothing || (look.transfer.empty() == transfer.empty() && std::isfinite(value) &&

@@ -3,24 +3,19 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "colon/scene/colon_scene.h"
+#include "colon/scene/value_kinds.h"
 
 namespace stereonav {
-
-// A value for the surface, and the reason.
-struct IsovalueChoice {
-    double isovalue = 0;  // in units of the volume's values (HU for CT)
-    std::string why;      // one clause
-};
 
 // Returns whether values look like Hounsfield units: some are as low as those of air (-500 or less), while
 // the values of other volumes begin near 0.
 bool looksLikeHounsfield(const GreyVolume& grey);
 
-// Chooses the isovalue. CT: bone where there is some, else skin. Other volumes: the threshold that parts
-// their values into the two classes that differ most (Otsu 1979).
+// Chooses the isovalue where values are not looked at further (isovalueFor() does). CT: bone where there is
+// some, else skin. Other volumes: the threshold that parts their values into the two classes that differ most
+// (Otsu 1979).
 IsovalueChoice chooseIsovalue(const GreyVolume& grey);
 
 // Returns the bytes of memory that isosurfaceScene() needs for a volume of `voxels` voxels beside their
@@ -28,9 +23,11 @@ IsovalueChoice chooseIsovalue(const GreyVolume& grey);
 // cell that holds surface is not included: that is checked once these cells are counted.
 double surfaceWorking(double voxels);
 
-// Makes the scene. Throws Error when nothing or all of the volume reaches the isovalue, and where memory does
-// not suffice; Cancelled.
-ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress);
+// Makes the scene. directed: whether the file says how its axes lie; else the way up may be guessed
+// (ColonOptions::chosen). Throws Error when nothing or all of the volume reaches the isovalue, and where
+// memory does not suffice; Cancelled.
+ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress,
+                           bool directed = true);
 
 // Sets another isovalue (in units of the volume's values; none: keeps the present one) and the transfer
 // function of the options. scene: made by isosurfaceScene(); nobody may render it meanwhile. Does nothing

@@ -177,6 +177,7 @@ Study readStudy(const fs::path& path, const StudyOptions& options, Progress& pro
     study.format = file.format;
     study.description = file.description;
     study.notes = std::move(file.notes);
+    study.directed = file.directed;
     takeValues(std::move(file.raw), std::move(file.looks), file.labels, path.string(), options, study);
     progress.report(0.95, "computing the key");
     study.key = options.key ? *options.key : studyKey(path, options);

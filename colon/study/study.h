@@ -42,6 +42,7 @@ struct Study {
     MaskVolume mask;
     // Voxels of `grey` below StudyOptions::airBelow. Nothing where values are not kept as the file has them.
     std::optional<VoxelRuns> air;
+    bool directed = true;            // the file says how its axes lie
     std::uint64_t key = 0;           // hash of the content and the options: equal studies have equal keys
     std::vector<std::string> notes;  // what was mended or assumed, one line each
 };

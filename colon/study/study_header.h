@@ -40,6 +40,7 @@ struct VolumeHeader {
     SampleType type = SampleType::Int16;
     glm::dmat3 steps{1.0};            // LPS millimetres: columns lead from voxel to voxel along i, j, k
     glm::dvec3 origin{0.0};           // LPS millimetres, of voxel (0, 0, 0)
+    bool directed = true;             // the header says how the axes lie
     double slope = 1, intercept = 0;  // value = stored * slope + intercept
     std::vector<std::filesystem::path> headers;  // files that the header itself was read from
     SamplePlace place;

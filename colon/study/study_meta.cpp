@@ -197,6 +197,7 @@ VolumeHeader readMetaHeader(const fs::path& file) {
     header.size = threeSizes(file, size);
     header.type = metaType(meta);
     takeMetaFrame(meta, header);
+    header.directed = !meta.directions.empty();
     takeMetaPlace(meta, header);
     return header;
 }

@@ -322,6 +322,7 @@ Affine affineOf(const fs::path& file, const NiftiNumbers& n, std::vector<std::st
 
 void takeNiftiPlaces(const fs::path& file, const NiftiNumbers& n, VolumeHeader& header) {
     const Affine affine = affineOf(file, n, header.notes);
+    header.directed = n.sformCode > 0 || n.qformCode > 0;
     constexpr int kMetre = 1, kMicron = 3, kSpaceUnits = 7;
     const int unit = n.units & kSpaceUnits;
     const double scale = unit == kMetre ? 1e3 : unit == kMicron ? 1e-3 : 1;

@@ -401,6 +401,7 @@ VolumeHeader readNrrdHeader(const fs::path& file) {
     for (const std::size_t axis : axes) extents.push_back(sizes[axis]);
     header.size = threeSizes(file, extents);
     axes.resize(3);
+    header.directed = !directions.empty();
     if (directions.empty())
         takeSpaced(nrrd, axes, header);
     else

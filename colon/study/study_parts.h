@@ -92,6 +92,7 @@ struct VolumeFile {
     RawStudy raw;
     std::string format, description;
     std::vector<std::string> notes;
+    bool directed = true;  // the file says how its axes lie
     SliceLooks looks;
     MaskLabels labels;  // the samples are of one layer
 };

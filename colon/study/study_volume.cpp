@@ -102,6 +102,7 @@ VolumeFile readVolumeFile(const fs::path& file, const StudyOptions& options, Pro
     result.format = header.format;
     result.description = header.description;
     result.notes = header.notes;
+    result.directed = header.directed;
     result.raw.type = header.type;
     result.raw.slope = header.slope;
     result.raw.intercept = header.intercept;

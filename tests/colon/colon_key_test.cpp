@@ -40,10 +40,14 @@ struct Members<UpAxis> {
     static constexpr std::array names{"axis", "negative"};
 };
 template <>
+struct Members<ChosenForVolume> {
+    static constexpr std::array names{"values", "baked", "view", "aspect", "fov"};
+};
+template <>
 struct Members<ColonOptions> {
     static constexpr std::array names{"study",      "builtIn",  "reading",    "segmentation", "centreline",
                                       "isosurface", "isovalue", "transfer",   "opacity",      "clearance",
-                                      "up",         "cache",    "keepsStudy", "wetWall"};
+                                      "up",         "cache",    "keepsStudy", "chosen",       "wetWall"};
 };
 
 namespace {
@@ -52,7 +56,7 @@ namespace {
 const std::vector<std::string> kOfStudy{"study", "builtIn", "reading"};
 // How it is shown, and what is held of it.
 const std::vector<std::string> kOfLooks{"isosurface", "isovalue", "transfer",   "opacity", "clearance",
-                                        "up",         "cache",    "keepsStudy", "wetWall"};
+                                        "up",         "cache",    "keepsStudy", "chosen",  "wetWall"};
 
 std::vector<std::string> with(std::vector<std::string> names, const std::vector<std::string>& others) {
     names.insert(names.end(), others.begin(), others.end());

@@ -45,7 +45,7 @@ TEST(TransferPresets, AreTheFilesOfTheDataFolder) {
         EXPECT_GT(byName.visibleRange().lowest, -std::numeric_limits<double>::infinity()) << name;
     }
     EXPECT_EQ(files, transferPresets().size());
-    EXPECT_GE(files, 6u);
+    EXPECT_GE(files, 11u);
 }
 
 TEST(TransferPresets, TheWallsTakeWhatTheirNamesSay) {
@@ -92,8 +92,9 @@ TEST(TransferPresets, UnknownNamesAreAnsweredWithTheList) {
             findTransferFunction(name);
             ADD_FAILURE() << name << " was found";
         } catch (const Error& error) {
-            EXPECT_THAT(error.what(), HasSubstr("one of metal, skin_and_bone, tissue, wall_95, wall_glass, "
-                                                "wall_opaque"))
+            EXPECT_THAT(error.what(),
+                        HasSubstr("one of bone, lungs, metal, skin, skin_and_bone, soft_tissue, tissue, "
+                                  "vessels, wall_95, wall_glass, wall_opaque"))
                 << name;
             EXPECT_THAT(error.what(), HasSubstr(name));
         }
