@@ -15,8 +15,15 @@
 namespace stereonav {
 namespace {
 
+// Returns the defaults of `info`: it tells of what is shown, and measures frames without detail.
+SceneOptions toldSceneOptions() {
+    SceneOptions options;
+    options.chosenLook = true;
+    return options;
+}
+
 struct InfoOptions {
-    SceneOptions scene;
+    SceneOptions scene = toldSceneOptions();
     SizeOption size;
     Telling telling;
     // Folder for a preview of each series of a DICOM folder, which is then the only result; "": none.

@@ -247,6 +247,7 @@ int runPlay(const PlayOptions& options) {
     sink.finish();
     bar.clear();
     tellPaintNotes(scene, result);
+    tellWarning(scene, options.telling, result);
     tellOfFlight(result, options, flight, sink);
     result.addScene(scene.name);
     if (std::optional<Fact> earth = factOfCurvature(scene)) result.add(earth->key, std::move(earth->value));

@@ -123,6 +123,7 @@ int runRender(const RenderOptions& options) {
         result.add("both_ms", frame.timings().both_ms);
     }
     tellOfRays(result, frame, options.rays);
+    tellWarning(scene, options.telling, result);
     if (traced && frame.timings().warped) {
         for (const std::string& note : traced->notes()) result.say("  " + note + "\n");
         result.add("notes", traced->notes());

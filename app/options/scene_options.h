@@ -73,6 +73,7 @@ struct SceneOptions {
     // Whether all that no option names is chosen for the scene: first view, light, surfaces, tone. Off where
     // pictures are measured: a lamp or the sun alone, the data as they are.
     bool chosenLook = false;
+    double aspect = 16.0 / 9;  // width by height of the picture that is shown first
     double levelOfDetail = 0;  // error that distant ground may have, as a share of a pixel; 0: exact
     // Whether ground that is cast lies on a round Earth, and the share of its curvature that light follows.
     bool curvature = false;

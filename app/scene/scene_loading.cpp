@@ -99,7 +99,9 @@ std::unique_ptr<Scene> loadScene(const SceneOptions& options, const SizeOption& 
     checkSize(size, options, each);
     checkSceneOptions(options);
     const SceneType& type = sceneTypeNamed(options.scene);
-    std::unique_ptr<Scene> scene = shownAs(options).load(type, options, options.simd, progress);
+    SceneOptions shown = options;
+    shown.aspect = static_cast<double>(size.width) / size.height;
+    std::unique_ptr<Scene> scene = shownAs(options).load(type, shown, options.simd, progress);
     scene->name = options.scene.empty() ? "terrain" : options.scene;
     scene->lens.width = size.width;
     scene->lens.height = size.height;

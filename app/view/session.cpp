@@ -53,7 +53,9 @@ ViewSession::ViewSession(std::shared_ptr<const OpenScene> scene, const Options& 
       mMode(options.mode),
       mFirstMode(options.mode),
       mQuadBuffer(options.quadBuffer),
-      mMethod(mScene->way.method) {}
+      mMethod(mScene->way.method) {
+    if (!shown().warning.empty()) notify(shown().warning);
+}
 
 void ViewSession::act(const ViewAction& action) {
     // A screenshot of a resting picture shows just that: it does not resume remaining motion.
@@ -109,6 +111,7 @@ void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
     if (!methodStays) mMethod = mScene->way.method;
     // More changes may be asked for than a scene made meanwhile shows.
     if (!mScene->changed) mSurface.forgetChange();
+    if (!shown().warning.empty()) notify(shown().warning);
     ++mRequest.version;
 }
 

@@ -111,12 +111,26 @@ void SessionSurface::nextTransfer() {
     if (!surface || surface->transfers.empty()) return;
     const std::vector<std::string>& all = surface->transfers;
     const auto at = std::find(all.begin(), all.end(), mTriedTransfer);
+    const auto isEmpty = [&](const std::string& name) {
+        return std::find(surface->empty.begin(), surface->empty.end(), name) != surface->empty.end();
+    };
+    std::string leftOut;
     // A surface that is opaque is first shown with the present function.
-    if (mTranslucent) mTransfer = at == all.end() || at + 1 == all.end() ? all.front() : *(at + 1);
+    if (mTranslucent) {
+        std::size_t next = at == all.end() ? all.size() - 1 : static_cast<std::size_t>(at - all.begin());
+        for (std::size_t tried = 0; tried < all.size(); ++tried) {
+            next = (next + 1) % all.size();
+            if (!isEmpty(all[next])) break;
+            leftOut += (leftOut.empty() ? "" : ", ") + all[next];
+        }
+        mTransfer = all[next];
+    }
     mTriedTransfer = mTransfer;
     mTranslucent = true;
     askForChange();
-    mNotice.say("transfer function: " + (mTransfer.empty() ? "that of the options" : mTransfer));
+    std::string notice = "transfer function: " + (mTransfer.empty() ? "that of the options" : mTransfer);
+    if (!leftOut.empty()) notice += fmt::format(" ({} left out: nothing of {})", leftOut, surface->holds);
+    mNotice.say(notice);
 }
 
 // Steps through off and each method.

@@ -67,7 +67,8 @@ struct ColonScene {
     Centreline centreline;
     std::vector<Polyp> polyps;
 
-    // Of a volume seen from outside whose values were looked at (ChosenForVolume::values); null for others.
+    // Counts of values of a volume seen from outside, where they were looked at (ChosenForVolume::values);
+    // else null.
     std::shared_ptr<const ValueCounts> counts;
     ValueKinds kinds;
     std::optional<UpAxis> up;  // axis of the file that was turned up, by an option or guessed

@@ -139,7 +139,7 @@ bool showsSomething(const TransferFunction& function, const ValueCounts& counts,
         all += static_cast<double>(counts.counts[n]);
         taken += static_cast<double>(counts.counts[n]) * takenAt(function, value, kinds.spacing);
     }
-    // Of a face of the volume so small a part is a speck.
+    // Share of a face of the volume that is no more than a speck.
     constexpr double kSpeck = 0.002;
     return taken > kSpeck * std::cbrt(all) * std::cbrt(all);
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kViewTurns = 12;
 constexpr double kPitches[] = {-0.2, -0.5, -0.9};  // radians: from above
-constexpr double kPitchPrior[] = {1, 0.97, 0.8};   // what stands is rather seen from the side
+constexpr double kPitchPrior[] = {1, 0.97, 0.7};   // what stands is rather seen from the side
 constexpr double kFlightFill = 0.96;               // share of the picture on the flight around
 constexpr int kGrid = 72;                          // pixels of a coarse picture along each side
 constexpr int kNormalSteps = 6;                    // classes of normals along each axis of a map

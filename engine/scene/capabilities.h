@@ -231,6 +231,8 @@ struct SurfaceChoices {
     double isovalueStep = 0;
     bool translucent = false;
     std::vector<std::string> transfers;    // "": that of the options
+    std::vector<std::string> empty;        // those of transfers that would show nothing of this volume
+    std::string holds;                     // the range of its values: "HU from -1024 to 3071"
     std::string transfer;                  // the present one of transfers, where translucent
     std::optional<AmbientChoice> ambient;  // none: it has none
     std::vector<std::string> ambientMethods;

@@ -31,6 +31,7 @@ public:
     StereoSetting stereo;
     bool eyesGiven = false;  // by an option or a scene's file: the window leaves them as they are
     Pose startPose;
+    std::string warning;                 // what who sees a picture of it has to know; "": nothing
     RecordedPath path;                   // the scene's own flight; empty where there is none
     SimdTarget simd = SimdTarget::Auto;  // the instruction set that its frames are made with
 

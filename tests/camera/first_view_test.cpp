@@ -101,7 +101,7 @@ TEST(FirstView, IsFromTheSideThatShowsMost) {
     const std::optional<FirstView> lying = firstViewOf(boxOf({1, 1, 0.02}), wantedOf(1));
     ASSERT_TRUE(lying);
     EXPECT_LT(lying->pose().forward().z, -0.45);
-    // Of a cube three faces, not one.
+    // Three faces of a cube, not one.
     const std::optional<FirstView> cube = firstViewOf(boxOf({1, 1, 1}), wantedOf(1));
     ASSERT_TRUE(cube);
     const glm::dvec3 forward = glm::abs(cube->pose().forward());

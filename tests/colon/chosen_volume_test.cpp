@@ -72,7 +72,7 @@ TEST(ChosenIsovalue, IsBoneFrom200To300AndElseSkin) {
     EXPECT_EQ(chosen(countsOf({air, flesh}), true).isovalue, -300);
     EXPECT_EQ(chosen(countsOf({air, flesh, {800, 100}}), true).isovalue, -300)
         << "a calcification is no bone";
-    // Of air alone there is no skin.
+    // Air alone has no skin.
     const double noise = chosen(countsOf({{-1000, 100}, {-900, 10}}), true).isovalue;
     EXPECT_GT(noise, -1000);
     EXPECT_LT(noise, -900);

@@ -245,6 +245,23 @@ TEST_F(ViewVolume, TransferFunctionsTakeTurns) {
     EXPECT_EQ(s.surface().takeChange()->surface.transfer, "");
 }
 
+TEST_F(ViewVolume, TransferFunctionsThatShowNothingAreLeftOut) {
+    mScene->surface->transfers = {"", "bone", "glass", "metal"};
+    mScene->surface->empty = {"bone", "metal"};
+    mScene->surface->holds = "HU from -1000 to 40";
+    mScene->surface->translucent = true;
+    ViewSession s(opened(*mScene), {OutputMode::SideBySide, std::nullopt, mFolder});
+    s.act({ViewCommand::NextTransfer});
+    EXPECT_EQ(s.surface().takeChange()->surface.transfer, "glass");
+    EXPECT_EQ(s.notice(), "transfer function: glass (bone left out: nothing of HU from -1000 to 40)");
+    s.act({ViewCommand::NextTransfer});
+    EXPECT_EQ(s.surface().takeChange()->surface.transfer, "");
+    mScene->surface->empty = {"", "bone", "glass", "metal"};
+    ViewSession none(opened(*mScene), {OutputMode::SideBySide, std::nullopt, mFolder});
+    none.act({ViewCommand::NextTransfer});
+    EXPECT_EQ(none.surface().takeChange()->surface.transfer, "") << "all of them: it stays";
+}
+
 TEST_F(ViewVolume, AmbientLightIsChosenByKeys) {
     ViewSession without = session();
     for (const ViewCommand command : {ViewCommand::NextAmbient, ViewCommand::LargerRadius,

@@ -1,6 +1,7 @@
 // A glTF mesh, its triangles cast with Embree, as a scene to fly around.
 #pragma once
 
+#include "app/options/scene_options.h"
 #include "engine/frame/cast_frames.h"
 #include "engine/mesh/mesh_renderer.h"
 #include "engine/scene/capabilities.h"
@@ -11,8 +12,8 @@ namespace stereonav {
 // Offers RayCast, const MeshRenderer, SceneBox and a TurningLight.
 class ShownMesh final : public Scene {
 public:
-    // sun: direction of the light.
-    ShownMesh(MeshCaster caster, const SunPlace& sun, SimdTarget target);
+    // options: the first view, and the direction of the light where one is given.
+    ShownMesh(MeshCaster caster, const SceneOptions& options, SimdTarget target);
 
     FrameMaker& frames() const override { return mFrames; }
     std::unique_ptr<Flight> makeFlight() const override;

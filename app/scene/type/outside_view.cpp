@@ -30,6 +30,23 @@ void seeFromOutside(const glm::dvec3& low, const glm::dvec3& high, SeenAs seen, 
     scene.path = flightAround(orbit, flight);
 }
 
+std::optional<double> seeFromBestSide(const std::vector<SurfaceSample>& samples, const SceneOptions& options,
+                                      SeenAs seen, const std::string& flight, Scene& scene) {
+    constexpr double kFront = 0.05;
+    ViewWanted wanted;
+    wanted.verticalFov = options.fov_deg ? *options.fov_deg * kRadians : kFov;
+    wanted.aspect = options.aspect;
+    wanted.front = kFront;
+    const std::optional<FirstView> view = firstViewOf(samples, wanted);
+    if (!view) return std::nullopt;
+    scene.lens.verticalFov = kFov;
+    scene.lens.nearDepth = 0.005 * view->radius;
+    scene.stereo = defaultEyes(seen, view->orbit.distance);
+    scene.startPose = view->pose();
+    scene.path = flightAround(view->flight, flight, view->turn);
+    return view->turn;
+}
+
 std::unique_ptr<Flight> freeFlight(const Pose& home, double extent) {
     FlightSetting setting;
     setting.clearance = 1e-6 * extent;

@@ -3,9 +3,13 @@
 
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "app/options/scene_options.h"
 #include "engine/camera/default_eyes.h"
+#include "engine/camera/first_view.h"
 #include "engine/nav/flight.h"
 #include "engine/scene/scene.h"
 
@@ -16,6 +20,12 @@ namespace stereonav {
 // messages, "the flight around the medium".
 void seeFromOutside(const glm::dvec3& low, const glm::dvec3& high, SeenAs seen, const std::string& flight,
                     Scene& scene);
+
+// Sets the same by what is seen of an object, of which these are samples (engine/camera/first_view.h).
+// Returns the turn of the start, radians clockwise from north; nothing, and sets nothing, where no view is
+// found.
+std::optional<double> seeFromBestSide(const std::vector<SurfaceSample>& samples, const SceneOptions& options,
+                                      SeenAs seen, const std::string& flight, Scene& scene);
 
 // Returns a flight without ground or walls. extent: metres, crossed in ten seconds at normal speed, > 0.
 std::unique_ptr<Flight> freeFlight(const Pose& home, double extent);

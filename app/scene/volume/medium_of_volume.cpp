@@ -47,7 +47,9 @@ void offerLight(const VolumeLighting& light, ShownMedium& scene) {
 }  // namespace
 
 void makeFromVolume(const SceneOptions& options, SimdTarget simd, Progress& progress, ShownMedium& scene) {
-    LitVolume lit = litVolumeOf(options, progress, true);
+    SceneOptions reading = options;
+    reading.chosenLook = false;  // which is for surfaces and transfer functions
+    LitVolume lit = litVolumeOf(reading, progress, true);
     VolumeWorld& world = scene.hold(std::move(lit.world));
     world.setViews(options, scene);
     offerWorld(world, simd, scene);

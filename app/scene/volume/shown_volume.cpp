@@ -127,6 +127,7 @@ ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const Scen
     mRays = {&mRenderer};
     setValues(before);
     setChoices();
+    warning = mWorld->colon().warning;
     offer(mRays);
     offer(mChoices);
     offer(std::as_const(mValues));
@@ -192,6 +193,10 @@ void ShownVolume::setChoices() {
     for (const TransferPreset& preset : transferPresets()) {
         mChoices.transfers.emplace_back(preset.name);
         if (mMade.volume.transfer == preset.name) mChoices.transfer = preset.name;
+    }
+    if (const ColonScene& colon = mWorld->colon(); colon.counts) {
+        mChoices.empty = emptyPresets(*colon.counts, colon.kinds);
+        mChoices.holds = colon.kinds.text();
     }
     if (isCurveText(mMade.volume.transfer)) mChoices.transfer = mMade.volume.transfer;
     mChoices.changed = [this](const SurfaceChange& change, Progress& progress) {

@@ -5,6 +5,7 @@
 #include "app/scene/volume/ambient.h"
 #include "app/scene/volume/light.h"
 #include "app/scene/volume/paint.h"
+#include "engine/math/constants.h"
 #include "terrain/raster/elevation_folder.h"
 
 namespace stereonav {
@@ -51,6 +52,11 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
     colon.cache = volume.cache;
     colon.up = volume.up;
     colon.wetWall = options.chosenLook;
+    colon.chosen.values = options.chosenLook;
+    colon.chosen.baked = options.light.kind == LightChoice::Kind::File;
+    colon.chosen.view = options.chosenLook;
+    colon.chosen.aspect = options.aspect;
+    if (options.fov_deg) colon.chosen.fov = *options.fov_deg * kRadians;
     return colon;
 }
 

@@ -71,7 +71,9 @@ VolumeWorld::VolumeWorld(ColonScene colon, const SceneOptions& options)
       mOptions(colonOptionsOf(options)),
       mSide(sideOf(mColon)),
       mFollows(!options.separation_m && !options.zeroParallax_m),
-      mBox(boxOf(mColon.volume.field.frame)) {}
+      mBox(boxOf(mColon.volume.field.frame)) {
+    mOptions.up = mColon.up;
+}
 
 void VolumeWorld::setViews(const SceneOptions& options, Scene& scene) {
     scene.lens = mColon.lens;
