@@ -29,7 +29,7 @@ struct ChosenForVolume {
     bool values = false;
     bool baked = false;         // light is baked: isovalue and way up are those without a look at values
     bool view = false;          // the view by what is seen, else by its box
-    double aspect = 16.0 / 9;   // of the picture, width by height
+    double aspect = 16.0 / 9;   // width of the picture by its height
     std::optional<double> fov;  // vertical, radians; not given: the scene's own
 };
 

@@ -132,7 +132,7 @@ struct Stand {
 };
 // Returns that for each axis of voxels, standing on its first blocks.
 Stand standOn(const SeenBlocks& blocks, int axis) {
-    constexpr double kFlat = 0.04;  // of the height
+    constexpr double kFlat = 0.04;  // share of the height
     const int a = (axis + 1) % 3, b = (axis + 2) % 3, height = blocks.size[axis];
     int lowest = height, highest = -1;
     std::vector<std::array<int, 2>> columns;
@@ -171,7 +171,7 @@ Stand standOn(const SeenBlocks& blocks, int axis) {
 
 GuessedUp guessOfObject(const SeenBlocks& blocks) {
     constexpr double kLeast = 0.3;   // by which another axis has to be better than z
-    std::array<double, 6> scores{};  // of up to x, -x, y, -y, z, -z
+    std::array<double, 6> scores{};  // for up along x, -x, y, -y, z, -z
     for (int world = 0; world < 3; ++world) {
         const Along along = alongOf(blocks.frame, world);
         const Stand stand = standOn(blocks, along.axis);

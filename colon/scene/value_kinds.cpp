@@ -176,7 +176,7 @@ ValueKinds kindsOf(const ValueCounts& counts, bool hounsfield, const VolumeFrame
     kinds.spacing = std::cbrt(frame.spacing.x * frame.spacing.y * frame.spacing.z);
     kinds.lowest = counts.lowest();
     kinds.highest = counts.highest();
-    kinds.hounsfield = hounsfield && kinds.highest > kSkinOfCt;  // of air alone there is no skin
+    kinds.hounsfield = hounsfield && kinds.highest > kSkinOfCt;  // air alone has no skin
     if (kinds.hounsfield) {
         kinds.object = kSkinOfCt;
         kinds.dense = kBoneOfCt;

@@ -30,7 +30,7 @@ struct FirstView {
     Orbit orbit;        // on which the first view lies: at `turn`, it is filled to kFirstFill
     double turn = 0;    // radians, as poseOn() takes it
     Orbit flight;       // the same orbit, or one further away, on which the object is whole from all sides
-    double radius = 0;  // of a ball around the samples, metres, > 0
+    double radius = 0;  // radius of a ball around the samples, metres, > 0
 
     Pose pose() const { return poseOn(orbit, turn); }
 };

@@ -129,7 +129,7 @@ void dropCrumbs(SeenBlocks& blocks) {
         else
             crumbs.insert(crumbs.end(), piece.begin(), piece.end());
     });
-    if (kept < 0.5 * all) return;  // of crumbs it is made
+    if (kept < 0.5 * all) return;  // the object is made of crumbs
     for (const glm::ivec3& crumb : crumbs) blocks.voxels[blocks.index(crumb)] = 0;
 }
 

@@ -18,7 +18,7 @@ SeenNumbers seenFrom(double stored);
 struct SeenBlocks {
     glm::ivec3 size{0};                 // blocks along i, j, k; at most kMostBlocks each
     glm::ivec3 block{1};                // voxels of a block, about as long as wide
-    VolumeFrame frame;                  // of the volume
+    VolumeFrame frame;                  // frame of the volume
     std::vector<std::uint32_t> voxels;  // that are seen, by block; i runs fastest
 
     static constexpr int kMostBlocks = 96;

@@ -267,7 +267,7 @@ TEST(Medium, BuiltInFieldsStayAwayFromTheirFaces) {
     EXPECT_EQ(wax->at(30, 48, 48), 1000);  // wax
     EXPECT_EQ(wax->at(48, 48, 72), 0);     // the wick's hole
     EXPECT_EQ(rabbit->at(70, 68, 40), 1000);
-    // Its ears are two, each of a few voxels through.
+    // The rabbit has two ears, each a few voxels thick.
     std::vector<int> runs;
     for (int j = 0, inside = 0; j < 128; ++j) {
         int most = 0;
