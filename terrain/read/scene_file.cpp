@@ -78,7 +78,9 @@ void readColorAndSky(TomlSection color, TomlSection sky, const fs::path& folder,
     readFile(sky, "image", folder, scene.sky);
 }
 
-void readLook(TomlSection section, TerrainLook& look) {
+void readLook(TomlSection section, SceneFile& scene) {
+    TerrainLook& look = scene.look;
+    scene.sunGiven = section.has("sun_azimuth_deg") || section.has("sun_elevation_deg");
     section.readDegrees("sun_azimuth_deg", look.sunAzimuth, kTurnRange);
     section.readDegrees("sun_elevation_deg", look.sunElevation, kUprightRange);
     read(section, "ambient", look.ambient, kShare);
@@ -146,7 +148,7 @@ SceneFile readSceneFile(const fs::path& toml) {
     const fs::path folder = toml.parent_path();
     readTerrain(document.section("terrain"), folder, scene);
     readColorAndSky(document.section("color"), document.section("sky"), folder, scene);
-    readLook(document.section("look"), scene.look);
+    readLook(document.section("look"), scene);
     for (TomlSection& section : document.sections("landmark"))
         scene.landmarks.push_back(readLandmark(section, folder));
     readStart(document.section("start"), scene);

@@ -65,6 +65,9 @@ struct SceneFile {
     std::filesystem::path light;            // baked light; "auto": the cache's; "" for none
     bool colorsAlone = false;  // the ground's, without the sun's light: whoever shows it lights it
     TerrainLook look;
+    // Whether first view and sun are chosen where nothing says them, and what is said.
+    bool chosen = false;
+    bool sunGiven = false;
     std::vector<LandmarkFile> landmarks;
     std::optional<glm::dvec3> startPosition;  // world metres; z above the ground when startAboveGround
     bool startAboveGround = true;

@@ -13,6 +13,7 @@
 
 #include "engine/base/error.h"
 #include "engine/camera/default_eyes.h"
+#include "engine/math/constants.h"
 #include "terrain/built_in/built_in_terrain.h"
 #include "terrain/ground/nodata.h"
 #include "terrain/light/atmosphere.h"
@@ -21,6 +22,7 @@
 #include "terrain/read/dem_reader.h"
 #include "terrain/read/height_limits.h"
 #include "terrain/read/raster_file.h"
+#include "terrain/scene/first_view.h"
 #include "terrain/scene/ground_color.h"
 #include "terrain/scene/ground_recolor.h"
 #include "terrain/scene/ground_texture.h"
@@ -233,6 +235,28 @@ Pose startPoseOf(const SceneFile& file, const TerrainScene& scene) {
     return poseFromAngles(position, file.startHeading, file.startPitch, file.startRoll);
 }
 
+// Sets the first view. Returns the description with a sun chosen for it where none is given. The built-in
+// terrain, whose light is kept in the cache, and hillshade, whose sun stands where maps have it, keep theirs.
+SceneFile chooseView(const SceneFile& file, TerrainScene& scene) {
+    const bool free = file.chosen && !file.builtIn,
+               freeSun = free && !file.sunGiven && file.paint != GroundPaint::Hillshade;
+    if (!free || file.startPosition) scene.startPose = startPoseOf(file, scene);
+    SceneFile chosen = file;
+    if (!free || (file.startPosition && !freeSun)) return chosen;
+    const FirstView view = file.startPosition
+                               ? chooseSun(scene.ground, scene.startPose, file.verticalFov)
+                               : chooseFirstView(scene.ground, scene.clearance, file.verticalFov);
+    scene.startPose = view.pose;
+    if (!file.startPosition) scene.report.notes.push_back("first view chosen by what is seen of the ground");
+    if (!freeSun) return chosen;
+    chosen.look.sunAzimuth = view.sunAzimuth;
+    chosen.look.sunElevation = view.sunElevation;
+    scene.report.notes.push_back(
+        fmt::format("sun chosen for the first view: azimuth {:.0f}, {:.0f} degrees high",
+                    view.sunAzimuth / kRadians, view.sunElevation / kRadians));
+    return chosen;
+}
+
 // A physical sky counts heights from the sea where the ground is on the Earth or generated, else from the
 // lowest sample.
 void loadSky(const SceneFile& file, TerrainScene& scene) {
@@ -293,25 +317,25 @@ RecordedPath pathOf(const SceneFile& file, const TerrainScene& scene) {
 
 }  // namespace
 
-TerrainScene loadTerrain(const SceneFile& file, Progress& progress) {
-    if (!(file.verticalScale > 0 && std::isfinite(file.verticalScale)))
-        throw Error(file.file.string(), "vertical scale",
-                    fmt::format("expected a number above 0, got {:g}", file.verticalScale), "");
+TerrainScene loadTerrain(const SceneFile& asked, Progress& progress) {
+    if (!(asked.verticalScale > 0 && std::isfinite(asked.verticalScale)))
+        throw Error(asked.file.string(), "vertical scale",
+                    fmt::format("expected a number above 0, got {:g}", asked.verticalScale), "");
     TerrainScene scene;
     progress.report(0, "reading the ground");
     Progress reading(progress, 0, 0.6), colouring(progress, 0.6, 0.9), lighting(progress, 0.9, 1);
-    LoadedGround loaded = file.builtIn ? loadBuiltIn(file, scene, reading) : loadDem(file, scene, reading);
-    scene.verticalScale = file.verticalScale;
-    scene.look = file.look;
-    loadColor(file, loaded, scene, colouring);
+    LoadedGround loaded = asked.builtIn ? loadBuiltIn(asked, scene, reading) : loadDem(asked, scene, reading);
+    scene.verticalScale = asked.verticalScale;
     const glm::dvec2 spacing = scene.tiled     ? scene.tiled->levels->spacing(0)
                                : scene.standIn ? scene.standIn->spacing
                                                : scene.ground.spacing();
     scene.clearance =
-        file.clearance > 0 ? file.clearance : kClearancePerSpacing * std::max(spacing.x, spacing.y);
-    scene.lens.verticalFov = file.verticalFov;
+        asked.clearance > 0 ? asked.clearance : kClearancePerSpacing * std::max(spacing.x, spacing.y);
+    scene.lens.verticalFov = asked.verticalFov;
     scene.lens.nearDepth = std::min(kNearPerSpacing * std::min(spacing.x, spacing.y), 0.25 * scene.clearance);
-    scene.startPose = startPoseOf(file, scene);
+    const SceneFile file = chooseView(asked, scene);
+    scene.look = file.look;
+    loadColor(file, loaded, scene, colouring);
     loadSky(file, scene);
     if (!file.light.empty()) loadLight(file, scene, lighting);
     if (!file.landmarks.empty())

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "engine/math/constants.h"
 #include "raster_files.h"
 #include "terrain/ground/nodata.h"
 #include "terrain/scene/landmark.h"
@@ -58,6 +59,37 @@ TEST(TerrainLoader, ChoosesWhatTheSceneDoesNotSay) {
         const glm::dvec3 p = sample.pose.position;
         EXPECT_GE(p.z - scene.ground.heightAt(glm::dvec2(p)), scene.clearance) << sample.time;
     }
+}
+
+TEST(TerrainLoader, ChoosesViewAndSunWhereNothingSaysThem) {
+    const TempFolder folder;
+    SceneFile file = sceneOf(writeRaster(folder / "hills.tif", hillSpec()));
+    const TerrainScene plain = load(file);
+    file.chosen = true;
+    const TerrainScene scene = load(file);
+    EXPECT_NE(scene.startPose.position, plain.startPose.position);
+    EXPECT_NE(scene.look.sunAzimuth, plain.look.sunAzimuth);
+    EXPECT_LE(scene.look.sunElevation, 35 * kRadians);
+    EXPECT_THAT(scene.report.notes, testing::Contains(HasSubstr("sun chosen for the first view")));
+    // The same ground, the same choice.
+    EXPECT_EQ(load(file).startPose.position, scene.startPose.position);
+}
+
+TEST(TerrainLoader, ChoosesNothingThatIsSaid) {
+    const TempFolder folder;
+    SceneFile file = sceneOf(writeRaster(folder / "hills.tif", hillSpec()));
+    file.chosen = true;
+    file.startPosition = glm::dvec3(10, 20, 120);
+    file.startHeading = 1.2;
+    file.sunGiven = true;
+    const TerrainScene scene = load(file);
+    EXPECT_NEAR(anglesOf(scene.startPose).heading, 1.2, 1e-9);
+    EXPECT_EQ(scene.look.sunAzimuth, TerrainLook().sunAzimuth);
+    EXPECT_EQ(scene.look.sunElevation, TerrainLook().sunElevation);
+    // Hillshade has the sun of maps.
+    file.sunGiven = false;
+    file.paint = GroundPaint::Hillshade;
+    EXPECT_EQ(load(file).look.sunAzimuth, TerrainLook().sunAzimuth);
 }
 
 // The zero-parallax distance is that of the ground straight ahead.

@@ -59,6 +59,8 @@ SceneFile describeTerrain(const SceneOptions& options) {
     if (options.visibility_m) scene.look.visibility = *options.visibility_m;
     if (options.light.kind == LightChoice::Kind::Auto) scene.light = "auto";
     if (options.light.kind == LightChoice::Kind::File) scene.light = options.light.file;
+    scene.chosen = options.chosenLook && !asMedium(options);
+    scene.sunGiven = scene.sunGiven || options.sun.has_value();
     if (options.sun) scene.look.sunAzimuth = options.sun->azimuth;
     if (options.sun) scene.look.sunElevation = options.sun->elevation;
     if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;  // the eyes follow it

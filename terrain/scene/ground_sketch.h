@@ -1,0 +1,40 @@
+// A copy of a ground at some ten thousand places, whatever its size: enough to tell what would be seen of it.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "terrain/ground/heightfield.h"
+
+namespace stereonav {
+
+class GroundSketch {
+public:
+    static constexpr int kMostSide = 128;  // places a side
+
+    explicit GroundSketch(const Heightfield& ground);
+
+    // Metres in the world and metres a metre: the ground around a place.
+    struct At {
+        double height;
+        glm::dvec2 gradient;
+    };
+    // Returns the ground's mean around a place, NaN beyond the border and in holes.
+    At at(const glm::dvec2& world) const;
+    // Returns the highest of some samples within a distance, the lowest ground of all where there is none.
+    double highestAround(const glm::dvec2& world, double distance) const;
+
+    glm::dvec2 half() const { return mHalf; }      // half extents, metres
+    double usualHeight() const { return mUsual; }  // metres, the median
+    double highest() const { return mHighest; }    // metres, of the means
+    glm::dvec2 summit() const { return mSummit; }  // world, of that mean
+
+private:
+    int mWidth = 2, mHeight = 2;  // places, >= 2
+    glm::dvec2 mHalf{1.0}, mStep{1.0};
+    std::vector<float> mMeans, mTops;  // metres; NaN: unknown
+    double mLowest = 0, mUsual = 0, mHighest = 0;
+    glm::dvec2 mSummit{0.0};
+};
+
+}  // namespace stereonav
