@@ -168,7 +168,7 @@ std::vector<Option> lookOptions() {
          .value = numberValue(kVisibilityRange),
          .help = "visibility at sea level in the air of --sky physical (meteorological range)",
          .advice = "5 is haze, 60 a clear day, 250 the cleanest air",
-         .fallback = "60",
+         .fallback = "60; with --look auto as far as suits the ground, 60 to 250",
          .commands = kShowing,
          .scenes = kTerrains,
          .rules = {{[](const Asked& asked) { return !isPhysicalSky(asked); }, "needs --sky physical",

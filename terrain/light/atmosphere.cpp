@@ -158,6 +158,7 @@ Atmosphere::Elevation Atmosphere::elevation(double sine) const {
 
 Atmosphere::Atmosphere(const TerrainLook& look)
     : mSeenFrom(std::max(look.skySeenFrom - look.seaLevel, 1.0)),
+      mHazyBelow(look.hazyBelow),
       mToSun(directionToSun(look.sunAzimuth, look.sunElevation)) {
     mAir.any = true;
     mAir.seaLevel = static_cast<float>(look.seaLevel);
@@ -248,7 +249,13 @@ AirSeen Atmosphere::along(const glm::dvec3& eye, const glm::dvec3& direction, do
 
 glm::vec3 Atmosphere::sky(const glm::vec3& direction) const {
     const double cosine = glm::dot(glm::dvec3(direction), mToSun);
-    const Elevation e = elevation(direction.z);
+    Elevation e = elevation(direction.z);
+    if (mHazyBelow && direction.z < 0) {
+        const Elevation horizon = elevation(0);
+        const float plain = glm::smoothstep(0.03f, 0.5f, -direction.z);
+        e = {glm::mix(horizon.molecules, e.molecules, plain), glm::mix(horizon.haze, e.haze, plain),
+             glm::mix(horizon.ambient, e.ambient, plain), glm::mix(horizon.ground, e.ground, plain)};
+    }
     glm::vec3 light = static_cast<float>(phaseOfMolecules(cosine)) * e.molecules +
                       static_cast<float>(phaseOfHaze(cosine)) * e.haze + e.ambient + mGround * e.ground;
     // The disc, blurred over a tenth of a degree.

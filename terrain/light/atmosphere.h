@@ -41,7 +41,7 @@ public:
     AirSeen along(const glm::dvec3& eye, const glm::dvec3& direction, double t) const;
 
     // Returns the light of the sky, linear, with the sun's disc, seen from the look's height over the round
-    // Earth; below the horizon a level grey plain. direction: unit.
+    // Earth; below the horizon a level grey plain, in the haze where the look says so. direction: unit.
     glm::vec3 sky(const glm::vec3& direction) const;
 
     const AirData& data() const { return mAir; }
@@ -59,7 +59,8 @@ private:
     void makeElevations();
 
     AirData mAir;
-    double mSeenFrom = 0;                        // metres above the sea
+    double mSeenFrom = 0;  // metres above the sea
+    bool mHazyBelow = false;
     glm::dvec3 mToSun{0, 0, 1}, mSunlight{0.0};  // unit; above the air, linear
     double mSunUp = 1;                           // share of the disc above the horizontal
     glm::vec3 mGround{0.0f};                     // what the plain sends out, linear

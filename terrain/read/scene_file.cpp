@@ -81,6 +81,7 @@ void readColorAndSky(TomlSection color, TomlSection sky, const fs::path& folder,
 void readLook(TomlSection section, SceneFile& scene) {
     TerrainLook& look = scene.look;
     scene.sunGiven = section.has("sun_azimuth_deg") || section.has("sun_elevation_deg");
+    scene.fogGiven = section.has("fog_distance_m");
     section.readDegrees("sun_azimuth_deg", look.sunAzimuth, kTurnRange);
     section.readDegrees("sun_elevation_deg", look.sunElevation, kUprightRange);
     read(section, "ambient", look.ambient, kShare);

@@ -30,6 +30,8 @@ struct TerrainLook {
     bool physicalSky = false;
     double visibility = kUsualVisibility;  // metres: meteorological range at the sea
     double seaLevel = 0, skySeenFrom = 0;  // world heights, metres; the loader sets them
+    // Whether below the horizon is the sky's light at it, as where ground ends in haze, and not a plain.
+    bool hazyBelow = false;
 };
 
 // What colours ground without a picture: its tints, or how it lies (terrain/scene/slope_color.h).
@@ -65,9 +67,9 @@ struct SceneFile {
     std::filesystem::path light;            // baked light; "auto": the cache's; "" for none
     bool colorsAlone = false;  // the ground's, without the sun's light: whoever shows it lights it
     TerrainLook look;
-    // Whether first view and sun are chosen where nothing says them, and what is said.
+    // Whether first view, sun and sky are chosen where nothing says them, and what is said.
     bool chosen = false;
-    bool sunGiven = false;
+    bool sunGiven = false, fogGiven = false, visibilityGiven = false;
     std::vector<LandmarkFile> landmarks;
     std::optional<glm::dvec3> startPosition;  // world metres; z above the ground when startAboveGround
     bool startAboveGround = true;

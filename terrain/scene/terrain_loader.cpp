@@ -257,6 +257,41 @@ SceneFile chooseView(const SceneFile& file, TerrainScene& scene) {
     return chosen;
 }
 
+// Metres across the whole ground.
+double extentOfAll(const TerrainScene& scene) {
+    const Heightfield& ground = scene.ground;
+    return glm::length(glm::dvec2(ground.width() - 1, ground.height() - 1) * ground.spacing());
+}
+
+// The visibility with which the far end of the ground loses a third of its contrast to haze, but as far as
+// the clearest air lets one see, and no worse than on a usual day.
+double visibilityOver(double extent) {
+    constexpr double kMolecules = 1.35e-5, kHazeLeft = 0.35, kClearest = 250e3;  // a metre
+    constexpr double kContrastLeft = 3.912;
+    return std::clamp(kContrastLeft / (kMolecules + kHazeLeft / extent), kUsualVisibility, kClearest);
+}
+
+// Chooses the physical sky and its haze where neither sky nor fog is given: for ground on the Earth, which is
+// what a landscape without a place is taken for. Air would hide a far larger extent.
+void chooseAir(SceneFile& file, TerrainScene& scene) {
+    constexpr double kMostExtent = 400e3, kLeastExtent = 500;  // metres
+    const double extent = extentOfAll(scene);
+    const bool landscape = scene.earth || (extent >= kLeastExtent && !scene.report.placed);
+    const bool air = landscape && scene.body.isEarth() && extent <= kMostExtent && !file.builtIn;
+    if (!file.look.physicalSky && (!air || !file.sky.empty() || file.fogGiven)) return;
+    if (!file.look.physicalSky && !scene.earth)
+        scene.report.notes.push_back("taken for a landscape on the Earth: sky and air are chosen");
+    file.look.physicalSky = file.look.hazyBelow = true;
+    if (!file.visibilityGiven) file.look.visibility = visibilityOver(extent);
+}
+
+// Returns the description with all that is chosen for the ground.
+SceneFile choose(const SceneFile& asked, TerrainScene& scene) {
+    SceneFile file = chooseView(asked, scene);
+    if (file.chosen) chooseAir(file, scene);
+    return file;
+}
+
 // A physical sky counts heights from the sea where the ground is on the Earth or generated, else from the
 // lowest sample.
 void loadSky(const SceneFile& file, TerrainScene& scene) {
@@ -333,7 +368,7 @@ TerrainScene loadTerrain(const SceneFile& asked, Progress& progress) {
         asked.clearance > 0 ? asked.clearance : kClearancePerSpacing * std::max(spacing.x, spacing.y);
     scene.lens.verticalFov = asked.verticalFov;
     scene.lens.nearDepth = std::min(kNearPerSpacing * std::min(spacing.x, spacing.y), 0.25 * scene.clearance);
-    const SceneFile file = chooseView(asked, scene);
+    const SceneFile file = choose(asked, scene);
     scene.look = file.look;
     loadColor(file, loaded, scene, colouring);
     loadSky(file, scene);

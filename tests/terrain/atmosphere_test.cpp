@@ -193,6 +193,28 @@ int channel(PackedColor color, int c) {
     return static_cast<int>(color >> 10 * c & 1023u);
 }
 
+TEST(Atmosphere, BelowTheHorizonIsTheSkyAtItWhereGroundEndsInHaze) {
+    TerrainLook look;
+    look.physicalSky = true;
+    look.visibility = 100e3;
+    look.skySeenFrom = 3000;
+    const Atmosphere plain(look);
+    look.hazyBelow = true;
+    const Atmosphere hazy(look);
+    const auto at = [](double degrees) {
+        const double e = degrees * kPi / 180;
+        return glm::vec3(std::cos(e), 0, std::sin(e));
+    };
+    for (const double above : {0.0, 0.5, 20.0, 90.0}) EXPECT_EQ(hazy.sky(at(above)), plain.sky(at(above)));
+    // No darker band within some degrees of the horizon, where a plain is.
+    const double horizon = luminance(hazy.sky(at(0)));
+    for (const double below : {-1.0, -3.0, -6.0}) {
+        EXPECT_NEAR(luminance(hazy.sky(at(below))), horizon, 0.1 * horizon) << below;
+    }
+    EXPECT_LT(luminance(plain.sky(at(-6))), 0.8 * horizon);
+    EXPECT_EQ(hazy.sky({0, 0, -1}), plain.sky({0, 0, -1}));
+}
+
 TEST(Atmosphere, KernelsShowIt) {
     const glm::vec3 own = unpackColor(packColor({0.02f, 0.3f, 0.6f}));
     for (const double sun : {40.0, 3.0})

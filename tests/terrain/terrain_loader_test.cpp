@@ -61,7 +61,7 @@ TEST(TerrainLoader, ChoosesWhatTheSceneDoesNotSay) {
     }
 }
 
-TEST(TerrainLoader, ChoosesViewAndSunWhereNothingSaysThem) {
+TEST(TerrainLoader, ChoosesViewSunAndAirWhereNothingSaysThem) {
     const TempFolder folder;
     SceneFile file = sceneOf(writeRaster(folder / "hills.tif", hillSpec()));
     const TerrainScene plain = load(file);
@@ -70,6 +70,8 @@ TEST(TerrainLoader, ChoosesViewAndSunWhereNothingSaysThem) {
     EXPECT_NE(scene.startPose.position, plain.startPose.position);
     EXPECT_NE(scene.look.sunAzimuth, plain.look.sunAzimuth);
     EXPECT_LE(scene.look.sunElevation, 35 * kRadians);
+    EXPECT_TRUE(scene.look.physicalSky);
+    EXPECT_THAT(scene.report.skySource, HasSubstr("scattering in the air, visibility"));
     EXPECT_THAT(scene.report.notes, testing::Contains(HasSubstr("sun chosen for the first view")));
     // The same ground, the same choice.
     EXPECT_EQ(load(file).startPose.position, scene.startPose.position);
@@ -82,14 +84,37 @@ TEST(TerrainLoader, ChoosesNothingThatIsSaid) {
     file.startPosition = glm::dvec3(10, 20, 120);
     file.startHeading = 1.2;
     file.sunGiven = true;
+    file.fogGiven = true;
+    file.look.fogDistance = 5000;
     const TerrainScene scene = load(file);
     EXPECT_NEAR(anglesOf(scene.startPose).heading, 1.2, 1e-9);
     EXPECT_EQ(scene.look.sunAzimuth, TerrainLook().sunAzimuth);
     EXPECT_EQ(scene.look.sunElevation, TerrainLook().sunElevation);
+    EXPECT_FALSE(scene.look.physicalSky);
+    EXPECT_EQ(scene.look.fogDistance, 5000);
+    file.look.physicalSky = file.visibilityGiven = true;
+    file.look.visibility = 12e3;
+    EXPECT_EQ(load(file).look.visibility, 12e3);
     // Hillshade has the sun of maps.
     file.sunGiven = false;
     file.paint = GroundPaint::Hillshade;
     EXPECT_EQ(load(file).look.sunAzimuth, TerrainLook().sunAzimuth);
+}
+
+TEST(TerrainLoader, HazeSuitsTheExtent) {
+    const TempFolder folder;
+    RasterSpec spec = hillSpec();
+    SceneFile file = sceneOf(writeRaster(folder / "hills.tif", spec));
+    file.chosen = true;
+    EXPECT_EQ(load(file).look.visibility, 60e3) << "2 km across: a usual day";
+    spec.transform = {400000, 600, 0, 5000000, 0, -600};
+    file.dem = writeRaster(folder / "range.tif", spec);
+    const double far = load(file).look.visibility;
+    EXPECT_GT(far, 150e3) << "46 km across";
+    EXPECT_LT(far, 250e3);
+    spec.transform = {400000, 9000, 0, 5000000, 0, -9000};
+    file.dem = writeRaster(folder / "land.tif", spec);
+    EXPECT_FALSE(load(file).look.physicalSky) << "700 km of air hide all";
 }
 
 // The zero-parallax distance is that of the ground straight ahead.

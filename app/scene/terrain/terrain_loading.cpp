@@ -61,6 +61,7 @@ SceneFile describeTerrain(const SceneOptions& options) {
     if (options.light.kind == LightChoice::Kind::File) scene.light = options.light.file;
     scene.chosen = options.chosenLook && !asMedium(options);
     scene.sunGiven = scene.sunGiven || options.sun.has_value();
+    scene.visibilityGiven = options.visibility_m.has_value();
     if (options.sun) scene.look.sunAzimuth = options.sun->azimuth;
     if (options.sun) scene.look.sunElevation = options.sun->elevation;
     if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;  // the eyes follow it
