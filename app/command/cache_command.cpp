@@ -32,12 +32,13 @@ struct CacheOptions {
 };
 
 // Kinds of files by the beginnings of their names.
-constexpr std::array<std::pair<const char*, const char*>, 8> kKeptKinds{
+constexpr std::array<std::pair<const char*, const char*>, 9> kKeptKinds{
     {{"colon-", "colon"},
      {"lumen-", "lumen"},
      {"light-", "light of a volume"},
      {"terrain_light_", "light of a terrain"},
      {"window_", "light of a window's scene"},
+     {"terrain-sky-", "openness of a terrain"},
      {"terrain-bake-", "light, not finished"},
      {"terrain-v", "built-in terrain"},
      {"ground_", "tiles of ground"}}};

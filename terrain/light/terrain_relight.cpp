@@ -44,6 +44,14 @@ RelightRow lightOf(const SunAndSky& now, const TerrainLight& light) {
     return row;
 }
 
+// Makes bytes in the place of horizons mean how much of the sun is hidden: the kernel's (sine - horizon) *
+// softness + 1/2 becomes 1 - byte / 255.
+void hideBy(RelightRow& row) {
+    row.inverseSoftness = 0.5f / row.toSun[2];
+    row.horizonWeight[0] = 2 * row.toSun[2] / 255;
+    row.horizonWeight[1] = 0;
+}
+
 // The planes of horizons beside the sun's azimuth.
 struct Azimuths {
     int before, after;
@@ -77,14 +85,17 @@ TerrainRelight::TerrainRelight(const Heightfield& ground, TerrainLight light, Si
                 mHoles.push_back(static_cast<std::uint32_t>(j) * grid.width + i);
 }
 
-void TerrainRelight::relight(const SunAndSky& now, GroundBrightness& brightness, bool withSunShown) const {
+void TerrainRelight::relight(const SunAndSky& now, GroundBrightness& brightness, bool withSunShown,
+                             const std::vector<std::uint8_t>* hidden) const {
     const LightGrid& grid = mLight.grid;
     brightness.width = grid.width;
     brightness.height = grid.height;
     brightness.planes.resize(3 * grid.count());
     const bool horizons = mLight.settings.kind == TerrainLightKind::Transfer;
-    brightness.sunShown.resize(withSunShown && horizons ? grid.count() : 0);
-    const RelightRow all = lightOf(now, mLight);
+    const bool shadow = hidden && now.toSun.z > 0;
+    brightness.sunShown.resize(withSunShown && (horizons || shadow) ? grid.count() : 0);
+    RelightRow all = lightOf(now, mLight);
+    if (shadow) hideBy(all);
     const Azimuths azimuths = azimuthsOf(now.toSun, mLight.settings.azimuths);
     parallelFor(grid.height, [&](int j) {
         const std::size_t first = static_cast<std::size_t>(j) * grid.width;
@@ -98,6 +109,7 @@ void TerrainRelight::relight(const SunAndSky& now, GroundBrightness& brightness,
             row.horizonWeight[0] = static_cast<float>((1 - azimuths.next) / 255);
             row.horizonWeight[1] = static_cast<float>(azimuths.next / 255);
         }
+        if (shadow) row.horizon[0] = row.horizon[1] = hidden->data() + first;
         for (int c = 0; c < 3; ++c) row.normal[c] = mNormals.data() + c * grid.count() + first;
         row.light = brightness.planes.data() + first;
         if (!brightness.sunShown.empty()) row.sunShown = brightness.sunShown.data() + first;

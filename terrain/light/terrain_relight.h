@@ -3,6 +3,8 @@
 // their own: the light does not depend on the eye, and is filtered with the colour.
 #pragma once
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "engine/image/color_texture.h"
@@ -35,7 +37,11 @@ public:
 
     // Sets the brightness under this light. Samples in holes get the mean of those known beside them, or
     // none. withSunShown: GroundBrightness::sunShown is wanted too.
-    void relight(const SunAndSky& now, GroundBrightness& brightness, bool withSunShown = false) const;
+    // hidden: that of a ShadowCaster for that sun, in the place of baked horizons; null: none.
+    void relight(const SunAndSky& now, GroundBrightness& brightness, bool withSunShown = false,
+                 const std::vector<std::uint8_t>* hidden = nullptr) const;
+    // Takes openness at the same samples in place of the light's own.
+    void takeOpenness(std::vector<std::uint8_t> openness) { mLight.openness = std::move(openness); }
     // Returns sunShown between the baked samples, at a grid coordinate of the ground; 1 where it was not
     // asked for or baked.
     float sunShownAt(const GroundBrightness& brightness, const glm::dvec2& grid) const;

@@ -67,9 +67,10 @@ struct SceneFile {
     std::filesystem::path light;            // baked light; "auto": the cache's; "" for none
     bool colorsAlone = false;  // the ground's, without the sun's light: whoever shows it lights it
     TerrainLook look;
-    // Whether first view, sun and sky are chosen where nothing says them, and what is said.
+    // Whether first view, sun, sky and light are chosen where nothing says them, and what is said.
     bool chosen = false;
     bool sunGiven = false, fogGiven = false, visibilityGiven = false;
+    bool quickLight = false;  // light that is worked out with the loading (terrain/light/quick_light.h)
     std::vector<LandmarkFile> landmarks;
     std::optional<glm::dvec3> startPosition;  // world metres; z above the ground when startAboveGround
     bool startAboveGround = true;

@@ -14,7 +14,7 @@ TerrainIllumination::TerrainIllumination(const Heightfield& ground, const ColorT
 
 void TerrainIllumination::applyTo(const ColorTexture& albedo, const TerrainLook& look, ColorTexture& lit) {
     const SunAndSky now = sunAndSky(look, mSky);
-    mRelight.relight(now, mBrightness, look.specular > 0);
+    relight(now, look.specular > 0);
     mHighlightLight = exposureOf(now) * now.sunThroughAir;
     mRelight.lightTexture(albedo, mBrightness, {exposureOf(now), mShare}, lit);
 }
@@ -22,7 +22,7 @@ void TerrainIllumination::applyTo(const ColorTexture& albedo, const TerrainLook&
 void TerrainIllumination::applyOver(const TerrainLook& look, const ColorTexture& plain,
                                     const std::vector<float>& plainLight, ColorTexture& lit) {
     const SunAndSky now = sunAndSky(look, mSky);
-    mRelight.relight(now, mBrightness, look.specular > 0);
+    relight(now, look.specular > 0);
     mHighlightLight = exposureOf(now) * now.sunThroughAir;
     GroundBrightness quotient = mBrightness;
     const float exposure = exposureOf(now);
@@ -35,6 +35,14 @@ void TerrainIllumination::applyOver(const TerrainLook& look, const ColorTexture&
     mRelight.lightTexture(plain, quotient, {1.0f, mShare}, lit);
 }
 
+void TerrainIllumination::relight(const SunAndSky& now, bool withSunShown) {
+    if (mCaster && now.toSun != mHiddenFrom) {
+        mHidden = mCaster->hidden(now.toSun);
+        mHiddenFrom = now.toSun;
+    }
+    mRelight.relight(now, mBrightness, withSunShown, mCaster ? &mHidden : nullptr);
+}
+
 PartLight TerrainIllumination::partLight(const Heightfield& ground, const TerrainLook& look) const {
     const SunAndSky now = sunAndSky(look, mSky);
     PartLight part(ground, light().grid, mBrightness, look, {exposureOf(now), mShare});
@@ -43,7 +51,8 @@ PartLight TerrainIllumination::partLight(const Heightfield& ground, const Terrai
 }
 
 std::size_t TerrainIllumination::byteCount() const {
-    return mAlbedo.byteCount() + mRelight.light().byteCount() +
+    return mAlbedo.byteCount() + mRelight.light().byteCount() + mHidden.size() +
+           (mCaster ? mCaster->byteCount() : 0) +
            (mBrightness.planes.size() + mBrightness.sunShown.size()) * sizeof(float);
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "terrain/light/cast_shadow.h"
 #include "terrain/light/terrain_relight.h"
 #include "terrain/scene/part_light.h"
 
@@ -34,6 +36,12 @@ public:
     void applyOver(const TerrainLook& look, const ColorTexture& plain, const std::vector<float>& plainLight,
                    ColorTexture& lit);
 
+    // Lets the ground cast the sun's shadow from the next apply() on, for light without horizons.
+    void castShadowsOf(const Heightfield& ground) { mCaster.emplace(ground, light().grid); }
+    bool castsShadows() const { return mCaster.has_value(); }
+    // Takes openness at the same samples, which is shown after the next apply().
+    void takeOpenness(std::vector<std::uint8_t> openness) { mRelight.takeOpenness(std::move(openness)); }
+
     // Takes light that was baked at finer samples, as a part of this: for parts of the ground. Null: there is
     // none.
     void takeFiner(std::shared_ptr<const FineLight> fine) { mFine = std::move(fine); }
@@ -54,12 +62,17 @@ public:
     std::size_t byteCount() const;
 
 private:
+    void relight(const SunAndSky& now, bool withSunShown);
+
     ColorTexture mAlbedo;
     SkyRadiance mSky;
     TerrainRelight mRelight;
     GroundBrightness mBrightness;
     glm::vec3 mHighlightLight{1.0f};  // shares, by colour
     float mShare;
+    std::optional<ShadowCaster> mCaster;  // none: shadows are baked, or there are none
+    std::vector<std::uint8_t> mHidden;    // what it says under mHiddenFrom
+    glm::dvec3 mHiddenFrom{0.0};
     std::shared_ptr<const FineLight> mFine;
 };
 

@@ -12,12 +12,14 @@
 #include <optional>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/camera/default_eyes.h"
 #include "engine/math/constants.h"
 #include "terrain/built_in/built_in_terrain.h"
 #include "terrain/ground/nodata.h"
 #include "terrain/light/atmosphere.h"
 #include "terrain/light/fine_bake.h"
+#include "terrain/light/quick_light.h"
 #include "terrain/light/sky_source.h"
 #include "terrain/read/dem_reader.h"
 #include "terrain/read/height_limits.h"
@@ -46,7 +48,7 @@ struct LoadedGround {
 
 // Returns whether the ground's colours are to be without light.
 bool litLater(const SceneFile& file) {
-    return file.colorsAlone || !file.light.empty();
+    return file.colorsAlone || !file.light.empty() || file.quickLight;
 }
 
 LoadedGround loadBuiltIn(const SceneFile& file, TerrainScene& scene, Progress& progress) {
@@ -285,11 +287,36 @@ void chooseAir(SceneFile& file, TerrainScene& scene) {
     if (!file.visibilityGiven) file.look.visibility = visibilityOver(extent);
 }
 
+// Whether light is worked out with the loading: for ground in its own colours, where memory suffices. The
+// built-in terrain has its light in its colours.
+bool quickLightSuits(const SceneFile& file, const TerrainScene& scene) {
+    if (!file.quickLight || file.builtIn || !file.light.empty() || !file.image.empty()) return false;
+    if (file.paint != GroundPaint::None || file.colorsAlone) return false;
+    const double samples = double(scene.ground.width()) * scene.ground.height(),
+                 needed = bytesOfQuickLight(samples) + 2 * bytesOfTint(samples);
+    return needed <= availableMemoryFor(needed);
+}
+
 // Returns the description with all that is chosen for the ground.
 SceneFile choose(const SceneFile& asked, TerrainScene& scene) {
     SceneFile file = chooseView(asked, scene);
     if (file.chosen) chooseAir(file, scene);
+    file.quickLight = quickLightSuits(file, scene);
     return file;
+}
+
+// Works out light at few samples, in the place of a bake.
+void lightQuickly(TerrainScene& scene, Progress& progress) {
+    const TerrainLight sparse = sparseOpenness(scene.ground, kQuickSkySamples, progress);
+    scene.illumination = std::make_unique<TerrainIllumination>(scene.ground, scene.color, scene.sky,
+                                                               spreadOpenness(scene.ground, sparse), 1.0f);
+    scene.illumination->castShadowsOf(scene.ground);
+    scene.illumination->apply(scene.look, scene.color);
+    scene.report.lightSource = fmt::format(
+        "worked out with the first picture: the sun's shadow at {}x{} samples, "
+        "openness at {}x{}",
+        scene.illumination->light().grid.width, scene.illumination->light().grid.height, sparse.grid.width,
+        sparse.grid.height);
 }
 
 // A physical sky counts heights from the sea where the ground is on the Earth or generated, else from the
@@ -373,6 +400,7 @@ TerrainScene loadTerrain(const SceneFile& asked, Progress& progress) {
     loadColor(file, loaded, scene, colouring);
     loadSky(file, scene);
     if (!file.light.empty()) loadLight(file, scene, lighting);
+    if (file.quickLight) lightQuickly(scene, lighting);
     if (!file.landmarks.empty())
         scene.landmarks = std::make_unique<LandmarkSet>(file.landmarks, scene.ground, scene.look);
     scene.path = pathOf(file, scene);

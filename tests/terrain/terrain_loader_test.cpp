@@ -8,6 +8,7 @@
 #include "raster_files.h"
 #include "terrain/ground/nodata.h"
 #include "terrain/scene/landmark.h"
+#include "terrain/scene/terrain_illumination.h"
 #include "tests/support/own_cache.h"
 
 namespace stereonav {
@@ -61,17 +62,21 @@ TEST(TerrainLoader, ChoosesWhatTheSceneDoesNotSay) {
     }
 }
 
-TEST(TerrainLoader, ChoosesViewSunAndAirWhereNothingSaysThem) {
+TEST(TerrainLoader, ChoosesViewSunAirAndLightWhereNothingSaysThem) {
     const TempFolder folder;
     SceneFile file = sceneOf(writeRaster(folder / "hills.tif", hillSpec()));
     const TerrainScene plain = load(file);
-    file.chosen = true;
+    file.chosen = file.quickLight = true;
     const TerrainScene scene = load(file);
     EXPECT_NE(scene.startPose.position, plain.startPose.position);
     EXPECT_NE(scene.look.sunAzimuth, plain.look.sunAzimuth);
     EXPECT_LE(scene.look.sunElevation, 35 * kRadians);
     EXPECT_TRUE(scene.look.physicalSky);
     EXPECT_THAT(scene.report.skySource, HasSubstr("scattering in the air, visibility"));
+    ASSERT_NE(scene.illumination, nullptr);
+    EXPECT_EQ(scene.illumination->light().grid.width, 60);
+    EXPECT_EQ(scene.report.lightSource,
+              "worked out with the first picture: the sun's shadow at 60x50 samples, openness at 60x50");
     EXPECT_THAT(scene.report.notes, testing::Contains(HasSubstr("sun chosen for the first view")));
     // The same ground, the same choice.
     EXPECT_EQ(load(file).startPose.position, scene.startPose.position);
@@ -80,7 +85,7 @@ TEST(TerrainLoader, ChoosesViewSunAndAirWhereNothingSaysThem) {
 TEST(TerrainLoader, ChoosesNothingThatIsSaid) {
     const TempFolder folder;
     SceneFile file = sceneOf(writeRaster(folder / "hills.tif", hillSpec()));
-    file.chosen = true;
+    file.chosen = file.quickLight = true;
     file.startPosition = glm::dvec3(10, 20, 120);
     file.startHeading = 1.2;
     file.sunGiven = true;
@@ -95,10 +100,11 @@ TEST(TerrainLoader, ChoosesNothingThatIsSaid) {
     file.look.physicalSky = file.visibilityGiven = true;
     file.look.visibility = 12e3;
     EXPECT_EQ(load(file).look.visibility, 12e3);
-    // Hillshade has the sun of maps.
+    // Hillshade has the sun of maps, and is light itself.
     file.sunGiven = false;
     file.paint = GroundPaint::Hillshade;
     EXPECT_EQ(load(file).look.sunAzimuth, TerrainLook().sunAzimuth);
+    EXPECT_EQ(load(file).illumination, nullptr);
 }
 
 TEST(TerrainLoader, HazeSuitsTheExtent) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "app/scene/terrain/daylight.h"
+#include "app/scene/terrain/finer_sky.h"
 #include "app/scene/terrain/ground_paint.h"
 #include "app/scene/terrain/ground_painting.h"
 #include "app/scene/terrain/terrain_facts.h"
@@ -168,6 +169,35 @@ private:
     TerrainDaylight mBaker;
 };
 
+// Turns the sun over ground whose light was worked out quickly, and takes openness at more samples as it
+// comes. All functions but changes() are called between frames.
+class ShownTerrain::BetterSky final : public TurningLight, public SeenLight {
+public:
+    BetterSky(TerrainScene& terrain, GroundColors& colors)
+        : mTerrain(terrain), mColors(colors), mFiner(terrain.ground) {}
+
+    SunPlace place() const override { return mColors.sun(); }
+    void turnTo(const SunPlace& to) override {
+        std::optional<FinerSky::Openness> finer = mFiner.take();
+        if (finer) {
+            mTerrain.illumination->takeOpenness(std::move(finer->samples));
+            mTerrain.report.lightSource =
+                fmt::format("worked out: the sun's shadow at {}x{} samples, openness at {}x{}",
+                            mTerrain.illumination->light().grid.width,
+                            mTerrain.illumination->light().grid.height, finer->width, finer->height);
+        }
+        if (finer || to != place()) mColors.turnSun(to);
+    }
+
+    void seen(const EyeView&, const EyeImage&) override { mFiner.begin(); }
+    std::uint64_t changes() const override { return mFiner.count(); }
+
+private:
+    TerrainScene& mTerrain;
+    GroundColors& mColors;
+    FinerSky mFiner;
+};
+
 // Redraws pictures that did not wait for tiles when these have arrived.
 class ShownTerrain::LateTiles final : public SeenLight, public LateDetail {
 public:
@@ -220,6 +250,13 @@ ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsI
         offer<const StandIn>(*mCoarse);
     }
     if (!mTerrain.illumination) return;
+    if (lightsItself && mTerrain.illumination->castsShadows() && !mTiles) {
+        auto better = std::make_unique<BetterSky>(mTerrain, mColors);
+        offer<TurningLight>(*better);
+        offer<SeenLight>(*better);
+        mSun = std::move(better);
+        return;
+    }
     mSun = std::make_unique<Sun>(mColors);
     offer<TurningLight>(*mSun);
 }

@@ -54,7 +54,8 @@ private:
 
 // Offers RayCast, const TerrainScene, MapFromAbove, SceneBox, PlaceReader and LineMeasurer; OnEarth where its
 // place is known; with baked light a TurningLight. A tinted ground under the plain sun also offers light that
-// is computed while it is shown (daylight.h) and can turn: a TurningLight and a SeenLight.
+// is computed while it is shown (daylight.h) and can turn: a TurningLight and a SeenLight. So does ground
+// whose light was worked out quickly, and becomes finer (finer_sky.h).
 class ShownTerrain final : public Scene {
 public:
     // lightsItself: whether sky light and shadows may be computed, from the first frame on that is passed to
@@ -74,6 +75,7 @@ public:
 private:
     class Sun;
     class Daylight;
+    class BetterSky;
     class LateTiles;
     class CoarseGround;
 

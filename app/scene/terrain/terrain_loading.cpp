@@ -62,6 +62,7 @@ SceneFile describeTerrain(const SceneOptions& options) {
     scene.chosen = options.chosenLook && !asMedium(options);
     scene.sunGiven = scene.sunGiven || options.sun.has_value();
     scene.visibilityGiven = options.visibility_m.has_value();
+    scene.quickLight = scene.chosen && !options.light.given();
     if (options.sun) scene.look.sunAzimuth = options.sun->azimuth;
     if (options.sun) scene.look.sunElevation = options.sun->elevation;
     if (options.zeroParallax_m) scene.zeroParallax = options.zeroParallax_m;  // the eyes follow it
