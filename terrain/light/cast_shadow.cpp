@@ -77,7 +77,8 @@ std::vector<std::uint8_t> ShadowCaster::hidden(const glm::dvec3& toSun) const {
             }
             here[n] = std::max(height, shadow);
             if (height <= kNothing || shadow <= height) continue;
-            // Its edge is as wide as what rays sink from line to line: a step of the samples on level ground.
+            // The shadow's edge is as wide as what rays sink from line to line: a step of the samples on
+            // level ground.
             hidden[sun.index(line, n)] = static_cast<std::uint8_t>(
                 255 * std::min(1.0, (shadow - height) / std::max(fall, 1e-30)) + 0.5);
         }

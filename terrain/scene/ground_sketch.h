@@ -30,11 +30,11 @@ public:
     glm::dvec2 summit() const { return mSummit; }  // world, of that mean
 
 private:
-    int mWidth = 2, mHeight = 2;  // places, >= 2
-    glm::dvec2 mHalf{1.0}, mStep{1.0};
-    std::vector<float> mMeans, mTops;  // metres; NaN: unknown
-    double mLowest = 0, mUsual = 0, mHighest = 0;
-    glm::dvec2 mSummit{0.0};
+    int mWidth = 2, mHeight = 2;                   // places, >= 2
+    glm::dvec2 mHalf{1.0}, mStep{1.0};             // metres: half extents, between places
+    std::vector<float> mMeans, mTops;              // metres; NaN: unknown
+    double mLowest = 0, mUsual = 0, mHighest = 0;  // metres
+    glm::dvec2 mSummit{0.0};                       // metres, world
 };
 
 }  // namespace stereonav

@@ -72,7 +72,7 @@ private:
     float mShare;
     std::optional<ShadowCaster> mCaster;  // none: shadows are baked, or there are none
     std::vector<std::uint8_t> mHidden;    // what it says under mHiddenFrom
-    glm::dvec3 mHiddenFrom{0.0};
+    glm::dvec3 mHiddenFrom{0.0};          // unit, to the sun
     std::shared_ptr<const FineLight> mFine;
 };
 
