@@ -15,12 +15,12 @@ namespace stereonav {
 namespace {
 
 constexpr double kAspect = 16.0 / 9;
-constexpr int kColumns = 25;          // of the picture, in which the ground is looked at
+constexpr int kColumns = 25;          // columns of the picture in which the ground is looked at
 constexpr double kFirstWay = 0.01;    // shares of the extent: where a column begins
 constexpr double kWayGrows = 1.06;    // from a place of a column to the next
 constexpr double kSkyWished = 0.3;    // share of the picture
-constexpr double kTopWished = 0.84;   // of half the picture's height: the summit's most
-constexpr double kEyesWithin = 0.96;  // of the half extents: eyes stay within
+constexpr double kTopWished = 0.84;   // highest place of the summit, as a share of half the height
+constexpr double kEyesWithin = 0.96;  // share of the half extents within which eyes stay
 constexpr double kLeastAbove = 0.03;  // shares of the half extents above all ground as near as that
 constexpr double kSteepest = 1.2;     // radians, of the view
 
