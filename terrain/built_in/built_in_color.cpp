@@ -72,8 +72,9 @@ float sunSeen(const Relief& relief, const Sampler& height, int i, int j, const v
 
 // Share of the sky seen: the mean height of the surrounding horizon, in eight directions.
 float skySeen(const Relief& relief, const Sampler& height, int i, int j) {
-    constexpr float c = 0.70710678f;
-    constexpr float kX[8] = {1, c, 0, -c, -1, -c, 0, c}, kY[8] = {0, c, 1, c, 0, -c, -1, -c};
+    constexpr float kSlant = 0.70710678f;  // sqrt(1/2)
+    constexpr float kX[8] = {1, kSlant, 0, -kSlant, -1, -kSlant, 0, kSlant};
+    constexpr float kY[8] = {0, kSlant, 1, kSlant, 0, -kSlant, -1, -kSlant};
     const float start = relief.heights[static_cast<std::size_t>(j) * relief.size + i];
     float blocked = 0;
     for (int k = 0; k < 8; ++k) {

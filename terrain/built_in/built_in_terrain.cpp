@@ -79,6 +79,7 @@ std::optional<BuiltInTerrain> readCache(const fs::path& file, std::uint64_t seed
     for (int y = 0; y < terrain.color.height(); ++y)
         in.read(reinterpret_cast<char*>(terrain.color.row(y)), static_cast<std::streamsize>(rowBytes(size)));
     const Header whole = headerOf(terrain, seed);
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the bytes have to be equal, and none is padding.
     if (!in || std::memcmp(&header, &whole, sizeof header) != 0) return std::nullopt;
     noteUse(file);
     return terrain;

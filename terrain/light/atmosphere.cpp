@@ -59,7 +59,7 @@ double phaseOfMolecules(double cosine) {
     return 3 / (16 * kPi) * (1 + cosine * cosine);
 }
 double phaseOfHaze(double cosine) {
-    constexpr double g = kForward;
+    const double g = kForward;
     return 3 / (8 * kPi) * (1 - g * g) * (1 + cosine * cosine) /
            ((2 + g * g) * std::pow(1 + g * g - 2 * g * cosine, 1.5));
 }
@@ -209,7 +209,7 @@ Atmosphere::Atmosphere(const TerrainLook& look)
         mAir.ambient[c] = static_cast<float>(exposure * ambient[c]);
         mAir.toSun[c] = static_cast<float>(mToSun[c]);
     }
-    constexpr double g = kForward;
+    const double g = kForward;
     mAir.phaseMolecules = static_cast<float>(3 / (16 * kPi));
     mAir.phaseHaze = static_cast<float>(3 / (8 * kPi) * (1 - g * g) / (2 + g * g));
     mAir.hazeTop = static_cast<float>(1 + g * g);

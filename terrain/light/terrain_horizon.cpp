@@ -35,6 +35,7 @@ void bakeHorizonRow(const GroundHorizon& ground, const LightGrid& grid, int row,
                     std::uint8_t* horizon, std::size_t planeSize, const std::function<void()>& each) {
     constexpr int kLookAt = 16;  // samples between two calls of `each`
     std::vector<glm::dvec2> directions;
+    directions.reserve(static_cast<std::size_t>(azimuths));
     for (int a = 0; a < azimuths; ++a) directions.push_back(azimuthDirection(a, azimuths));
     const int j = grid.row(row);
     for (int n = 0; n < grid.width; ++n) {

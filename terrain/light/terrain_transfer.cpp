@@ -158,7 +158,7 @@ SkyTransfer::SkyTransfer(int order, int azimuths) : mCount(lightHarmonics(order)
         for (int g = 0; g < 3; ++g) {
             const double z = (e + 0.5 + 0.5 * kNode[g]) / kEntries, w = 0.5 * kWeight[g] / kEntries;
             polarParts(z, order, parts);
-            for (int k = 0; k < mCount; ++k) {
+            for (std::size_t k = 0; 2 * k < sum.size(); ++k) {
                 sum[2 * k] += w * parts[k] * std::sqrt(1 - z * z);
                 sum[2 * k + 1] += w * parts[k] * z;
             }
@@ -178,13 +178,14 @@ void SkyTransfer::direct(const SkyWedges& wedges, float* transfer) const {
     std::fill_n(transfer, mCount, 0.0f);
     const float up = static_cast<float>(wedges.normal().z);
     const float* factor = mAzimuth.data();
+    const std::ptrdiff_t count = mCount;
     for (const SkyWedges::Wedge& w : wedges.wedges()) {
         const float at = static_cast<float>(std::clamp(w.top, 0.0, 1.0) * kEntries);
         const int e = std::min(static_cast<int>(at), kEntries - 1);
         const float next = at - static_cast<float>(e), along = static_cast<float>(w.along);
         const float* low = &mIntegrals[static_cast<std::size_t>(e) * mCount * 2];
-        const float* high = low + 2 * mCount;
-        for (int k = 0; k < mCount; ++k) {
+        const float* high = low + 2 * count;
+        for (std::ptrdiff_t k = 0; k < count; ++k) {
             const float level = low[2 * k] + next * (high[2 * k] - low[2 * k]);
             const float rise = low[2 * k + 1] + next * (high[2 * k + 1] - low[2 * k + 1]);
             transfer[k] += factor[k] * (along * level + up * rise);

@@ -37,9 +37,10 @@ int MeshTriangulation::addTriangle() {
 }
 
 void MeshTriangulation::set(int triangle, int a, int b, int c) {
-    mVertex[3 * triangle] = a;
-    mVertex[3 * triangle + 1] = b;
-    mVertex[3 * triangle + 2] = c;
+    const std::size_t first = 3 * static_cast<std::size_t>(triangle);
+    mVertex[first] = a;
+    mVertex[first + 1] = b;
+    mVertex[first + 2] = c;
     if (mChanged) mChanged->push_back(triangle);
 }
 
@@ -85,8 +86,9 @@ void MeshTriangulation::insert(const glm::ivec2& point, int triangle, std::vecto
 
 // One triangle becomes three.
 void MeshTriangulation::splitInside(int t, int p) {
-    const int a = mVertex[3 * t], b = mVertex[3 * t + 1], c = mVertex[3 * t + 2];
-    const int twinBc = mTwin[3 * t + 1], twinCa = mTwin[3 * t + 2];
+    const std::size_t first = 3 * static_cast<std::size_t>(t);
+    const int a = mVertex[first], b = mVertex[first + 1], c = mVertex[first + 2];
+    const int twinBc = mTwin[first + 1], twinCa = mTwin[first + 2];
     const int u = addTriangle(), v = addTriangle();
     set(t, a, b, p);
     set(u, b, c, p);

@@ -106,6 +106,7 @@ tinygltf::Value valueOf(const nlohmann::ordered_json& json) {
     if (json.is_number()) return tinygltf::Value(json.get<double>());
     if (json.is_array()) {
         tinygltf::Value::Array values;
+        values.reserve(json.size());
         for (const auto& one : json) values.push_back(valueOf(one));
         return tinygltf::Value(std::move(values));
     }

@@ -111,8 +111,10 @@ RecordedPath followTrack(const Heightfield& ground, const std::vector<glm::dvec2
     const double seconds = std::clamp(line.length() / height, 2 * kFollowStep, kLongestFollow);
     const int count = static_cast<int>(std::ceil(seconds / kFollowStep)) + 1;
     std::vector<glm::dvec2> at;
+    at.reserve(static_cast<std::size_t>(count));
     for (int n = 0; n < count; ++n) at.push_back(line.at(line.length() * n / (count - 1)));
     std::vector<glm::dvec2> ways;
+    ways.reserve(at.size());
     for (int n = 0; n < count; ++n)
         ways.push_back(at[static_cast<std::size_t>(std::min(count - 1, n + 1))] -
                        at[static_cast<std::size_t>(std::max(0, n - 1))]);

@@ -115,12 +115,12 @@ void FanSweep::read(int at, Column& column) {
         row.aheadRow = (at + 1) % ReadRow::kTopRows;
     }
     row.eye = floatOf(mTask.eye.z), row.eyeRest = floatOf(mTask.eye.z - double(row.eye));
-    column.tops.resize(static_cast<std::size_t>(column.rows / ReadRow::kTopRows + 1));
+    column.tops.resize(static_cast<std::size_t>(column.rows / ReadRow::kTopRows) + 1);
     row.height = column.height, row.tops = column.tops.data();
     row.tallest = mTallest, row.steepest = mSteepest;
     mTask.kernels.readHeights(row);
     mTallest = row.tallest, mSteepest = row.steepest;
-    WalkColumn& walked = mWalkColumns[static_cast<std::size_t>(at + 1)];
+    WalkColumn& walked = mWalkColumns[static_cast<std::size_t>(at) + 1];
     walked.offset = mStored;
     walked.shift = column.start - mLastStart;
     walked.top = mGround.rows() - 2 - column.start;

@@ -201,6 +201,7 @@ PartSum sumOver(const GroundSamples& ground, const Corners& outline, const Each&
         if (done) done(double(first - begin) / (end - begin));
         std::vector<PartSum> rows(static_cast<std::size_t>(std::min(kRows, end - first)));
         parallelFor(static_cast<int>(rows.size()), [&](int n) {
+            // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): each row keeps tiles of its own.
             const GroundSamples samples = ground;
             CellRow(outline, first + n).eachCell([&](int i, const Corners& part) {
                 each(Cell(samples, i, first + n), part, rows[static_cast<std::size_t>(n)]);
@@ -213,6 +214,7 @@ PartSum sumOver(const GroundSamples& ground, const Corners& outline, const Each&
 
 Corners onGrid(const GroundSamples& ground, const std::vector<glm::dvec2>& world) {
     Corners grid;
+    grid.reserve(world.size());
     for (const glm::dvec2& corner : world) grid.push_back(ground.gridFromWorld(corner));
     return grid;
 }
@@ -252,6 +254,7 @@ AreaMeasure errorsOfArea(const GroundSamples& ground, const std::vector<glm::dve
                                                  &AreaMeasure::highest};
     const auto valuesOf = [&](const AreaMeasure& measure) {
         std::vector<double> values;
+        values.reserve(std::size(kFigures));
         for (const auto figure : kFigures) values.push_back(measure.*figure);
         return values;
     };

@@ -165,6 +165,7 @@ LineMeasure errorsOfLine(const GroundSamples& ground, const std::vector<glm::dve
         &LineMeasure::descent,  &LineMeasure::lowest, &LineMeasure::highest};
     const auto valuesOf = [&](const LineMeasure& measure) {
         std::vector<double> values;
+        values.reserve(std::size(kFigures));
         for (const auto figure : kFigures) values.push_back(measure.*figure);
         return values;
     };

@@ -82,7 +82,7 @@ double GroundSamples::heightAt(const glm::dvec2& world) const {
 }
 
 const SurveyTiles::Tile* GroundSamples::tileOf(const glm::ivec2& number) const {
-    Slot& slot = mSlots[static_cast<std::size_t>((number.y & 1) * 2 + (number.x & 1))];
+    Slot& slot = mSlots[(number.y & 1) * 2 + (number.x & 1)];
     slot = {number, mTiles->tile(number)};
     return slot.tile.get();
 }

@@ -169,7 +169,8 @@ private:
                             std::numeric_limits<float>::quiet_NaN());
                 const int x = i * kTileSide, width = std::min(kTileSide, plan.size.x - x);
                 for (int j = from; j < to; ++j)
-                    std::copy_n(rows.row(j) + x, width, tile.data() + (j - from) * kTileSide);
+                    std::copy_n(rows.row(j) + x, width,
+                                tile.data() + static_cast<std::size_t>(j - from) * kTileSide);
                 const std::size_t number = static_cast<std::size_t>(level.tileRow) * plan.tiles.x + i;
                 level.checks[number] = checkOf(tile.data(), kTileBytes);
                 mWriter.write(plan.data + kTileBytes * number, tile.data(), kTileBytes);

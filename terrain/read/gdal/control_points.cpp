@@ -27,6 +27,7 @@ constexpr const char* kPointsPlace = "ground control points";
 std::vector<GDAL_GCP> gdalPoints(const std::vector<ControlPoint>& points) {
     static char none[] = "";
     std::vector<GDAL_GCP> list;
+    list.reserve(points.size());
     for (const ControlPoint& p : points)
         list.push_back({none, none, p.pixel.x, p.pixel.y, p.reference.x, p.reference.y, 0.0});
     return list;
@@ -40,6 +41,7 @@ void* polynomial(const std::vector<ControlPoint>& points) {
 std::vector<ControlPoint> pointsOf(GDALDataset& dataset, bool degrees, double turn) {
     std::vector<ControlPoint> points;
     const GDAL_GCP* list = dataset.GetGCPs();
+    points.reserve(static_cast<std::size_t>(dataset.GetGCPCount()));
     for (int k = 0; k < dataset.GetGCPCount(); ++k)
         points.push_back({{list[k].dfGCPPixel, list[k].dfGCPLine}, {list[k].dfGCPX, list[k].dfGCPY}});
     // Over the date line: all within half a turn of the first.

@@ -68,7 +68,7 @@ bool needsDoubles(GDALDataType type) {
 // ends.
 std::string wrapped(const FolderFile& file, GDALDataset& dataset, const char* type) {
     static std::atomic<int> count = 0;
-    const std::string name = fmt::format("{}{}.vrt", kOwnVirtualRasters, count++);
+    std::string name = fmt::format("{}{}.vrt", kOwnVirtualRasters, count++);
     ProgramWords words;
     words.add("-of").add("VRT").add("-b").add(std::to_string(file.band.number)).add("-ot").add(type);
     if (file.band.nodata) words.add("-a_nodata").add(fmt::format("{:.17g}", *file.band.nodata));
@@ -93,6 +93,7 @@ bool customaryIsMissing(const std::vector<FolderFile>& files, const GdalMessages
     const bool unnamed =
         std::any_of(files.begin(), files.end(), [](const FolderFile& file) { return !file.band.nodata; });
     std::vector<FilePlan> plans;
+    plans.reserve(files.size());
     for (const FolderFile& file : files) plans.push_back(file.plan);
     if (!unnamed || !filesAreMixed(plans)) return false;
     for (const FolderFile& file : files) {

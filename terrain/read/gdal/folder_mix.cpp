@@ -42,6 +42,7 @@ bool turnTogether(std::vector<FilePlan*>& plans, double turn) {
     if (extent() <= 0.5 * turn) return false;
     // From the widest stretch without any file on, eastward.
     std::vector<std::pair<double, double>> along;  // west within one turn, and how wide
+    along.reserve(plans.size());
     for (const FilePlan* plan : plans)
         along.emplace_back(plan->west - turn * std::floor(plan->west / turn), plan->east - plan->west);
     std::sort(along.begin(), along.end());

@@ -214,7 +214,7 @@ std::string wktOf(const OGRSpatialReference& system) {
     const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
     char* text = nullptr;
     system.exportToWkt(&text, options);
-    const std::string wkt = text ? text : "";
+    std::string wkt = text ? text : "";
     CPLFree(text);
     return wkt;
 }

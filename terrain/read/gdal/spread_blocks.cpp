@@ -54,6 +54,7 @@ std::vector<glm::ivec2> spreadOrder(int columns, int rows) {
         }
     std::sort(all.begin(), all.end(), [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
     std::vector<glm::ivec2> order;
+    order.reserve(all.size());
     for (const Keyed& one : all) order.push_back(one.place);
     return order;
 }
