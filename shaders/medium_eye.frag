@@ -8,9 +8,9 @@
 uniform int uEye;
 uniform ivec2 uEyeAt;           // corner of its region in the target
 uniform vec3 uEyeOrigin[EYES];
-uniform vec3 uEyeCorner[EYES];  // direction of the region's corner; length 1 along the view, as all pixels'
-uniform vec3 uEyeAcross[EYES];  // a pixel on, to the right
-uniform vec3 uEyeDown[EYES];
+uniform vec3 uEyeCorner[EYES];  // ray through the region's corner, of length 1 along the view axis, as all rays
+uniform vec3 uEyeAcross[EYES];  // step of the ray from a pixel to the next on its right
+uniform vec3 uEyeDown[EYES];    // the same for the next below
 uniform float uEyePixel[EYES];  // width of a pixel at unit depth
 uniform float uFromEye;         // place of the slab's middle along the axis of the sweep: metres
 layout(binding = 4) uniform sampler2D uBefore;
@@ -24,9 +24,9 @@ uniform vec4 uShading;  // ambient, diffuse, specular, shininess
 #if BAKED
 layout(binding = 5) uniform sampler3D uBaked;  // linear light times weight, and the weight
 uniform mat4x3 uBakedFromPlace;                // to texture coordinates
-uniform vec2 uBakedShares;                     // exposure, share of the lamp beside it
+uniform vec2 uBakedShares;                     // x: exposure of baked light; y: share of lamp shading added to it
 #if BEYOND
-layout(binding = 6) uniform sampler3D uBeyond;  // light where those texels are not known, known everywhere
+layout(binding = 6) uniform sampler3D uBeyond;  // linear light where uBaked's texels are not known; known everywhere
 uniform mat4x3 uBeyondFromPlace;
 #endif
 #endif
@@ -56,7 +56,7 @@ float shading(vec3 gradient, vec3 way, vec3 view) {
     float toLight = dot(normal, way), toEye = dot(normal, view), long2 = dot(middle, middle);
     float sum = uShading.x + uShading.y * abs(toLight);
     float shine = abs(dot(normal, middle)) * inversesqrt(max(long2, 1e-30));
-    // pow for its own sake: exponents are any number, and few places have a surface weight.
+    // pow() is affordable: few places have a surface weight. Exponents need not be whole numbers.
     return toLight * toEye > 0.0 && long2 > 0.0 ? sum + uShading.z * pow(clamp(shine, 1e-30, 1.0), uShading.w) : sum;
 }
 

@@ -1,6 +1,6 @@
-// Helpers (helper_program.h) of one kind, started as they are asked for: one for each thread that asks at
-// once. One that gave an answer is kept for the next request and ends with the pool; one that met damage
-// keeps what it took for it, and is not asked again.
+// Helpers (helper_program.h) of one kind, started when they are needed: as many as threads ask at the same
+// time. A helper that gave an answer is kept for the next request, until the pool ends or it makes room for
+// another. One that refused, as over damaged data, is ended at once, and its memory with it.
 #pragma once
 
 #include <filesystem>
@@ -19,9 +19,9 @@ public:
     // Name and purpose are HelperProgram's. mostIdle: number of idle helpers that are kept at most.
     HelperPool(std::string name, std::string purpose, std::size_t mostIdle);
 
-    // Asks a helper, from any thread. A helper that has seen what comes from one folder sees nothing from
-    // another: whoever took it over by a file may not change what is read of somebody else's. Throws Error
-    // where none can be started, and Cancelled.
+    // Asks a helper, from any thread. folder: where the request's data come from. A helper is asked about
+    // one folder only: a malicious file that took it over can then not falsify what is read from another
+    // folder. Throws Error where no helper can be started, and Cancelled.
     HelperAnswer ask(const std::filesystem::path& folder, std::string_view request,
                      const HelperLimits& limits);
 

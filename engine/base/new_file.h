@@ -1,5 +1,5 @@
-// Places for new files, where nothing that is there already is written over: a new file gets a number
-// instead.
+// Places for new files. What exists already is never written over: where the wanted place is taken, the new
+// file's name gets a number.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// The pipeline of the right eye: rows warped in bands, region V, colours shaded again where they depend
-// on the view, holes cast.
+// The pipeline of the right eye: rows are warped in bands, with colours shaded again where they depend on the
+// view; region V (border_occluders.h) is marked as holes; holes are cast.
 #include "engine/stereo/right_eye.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kRowsOfWarpTask = 8;  // rows of a warp task: some ten microseconds
 // Share of holes from which the whole picture is cast: a ray into a hole takes 1.4 to 2.6 times as long as
-// one of a full cast (colon, 500x400), which no surface that warped well makes up for then.
+// one of a full cast (colon, 500x400), so that the rays saved on the few warped pixels no longer pay for it.
 constexpr double kMostHoles = 0.6;
 
 // Warps what a highlight needs: base colour between the two linked pixels (or of the nearest one), and the
@@ -53,8 +53,8 @@ void warpHighlight(const WarpJob& job, const WarpScratch& scratch, int y) {
     }
 }
 
-// The forward warps know the nearest of the splats, which is what rays may start from; shading needs the
-// depth of the pixel itself.
+// Replaces the depths of a row's warped pixels by those of the left pixels that they came from, for shading.
+// Forward warps write the nearest depth of all splats on a pixel instead, as the start of rays.
 void useOwnDepths(const WarpJob& job, const WarpScratch& scratch, int y) {
     const float* leftDepth = job.left.viewDepth.row(y);
     float* depth = job.right.viewDepth.row(y);
@@ -63,7 +63,8 @@ void useOwnDepths(const WarpJob& job, const WarpScratch& scratch, int y) {
         if (!holes[p]) depth[p] = leftDepth[scratch.source[p]];
 }
 
-// Runs of warped surface; holes are cast for the right eye anyway, sky has no surface.
+// Shades a row's runs of warped surface for the right eye. Leaves out holes, which are cast for the right eye
+// anyway, and sky, which has no surface.
 void shadeHighlightAgain(const EyeRenderer& renderer, const WarpJob& job, int y) {
     const float* depth = job.right.viewDepth.row(y);
     const std::uint8_t* holes = job.mask.row(y);
@@ -80,23 +81,27 @@ void shadeHighlightAgain(const EyeRenderer& renderer, const WarpJob& job, int y)
     }
 }
 
-// Holes that stay holes; what shades whole rows leaves anything there.
+// Sets the holes of a row to black, for methods that do not cast them: shading a whole row has written
+// arbitrary colours there.
 void blackenHoles(const WarpJob& job, int y) {
     const std::uint8_t* holes = job.mask.row(y);
     PackedColor* color = job.right.color.row(y);
     for (int p = 0; p < job.width(); ++p) color[p] = holes[p] ? 0u : color[p];
 }
 
-// The depth before which the ray of a hole meets nothing. The right ray of column p crosses the left rays
-// from the right, that of column x at the depth scale / (x + shift - p). What the left eye saw at the hole's
-// right end, the pixel b, survived: nothing that it saw further right lies in front of the ray. So the ray is
-// free up to where it crosses the left ray of b; one pixel of margin stands for what lies between left rays.
+// Writes for each hole of a row the depth before which its ray meets nothing. The right ray of column p
+// crosses the left rays one after the other, those further right at smaller depths: that of column x at the
+// depth scale / (x + shift - p). Let b be the warped pixel at the hole's right end, and x the column where
+// the left eye saw its surface. That surface was not hidden in the warp, so nothing that the left eye saw to
+// the right of x lies in front of the ray of p. The ray is free up to where it crosses the left ray of x; a
+// margin of one pixel allows for what lies between left rays.
 void startHoles(const WarpJob& job, int y) {
     constexpr float kMargin = 1.0f;
     const std::uint8_t* holes = job.mask.row(y);
     float* depth = job.right.viewDepth.row(y);
     const float perPixel = 1.0f / job.scale();
-    // Eight pixels at a time, most of which are none; the row's padding is.
+    // Tests eight mask bytes at a time, since most hold no hole. The last eight may reach into the row's
+    // padding, which may be read and is left out below.
     for (int first = (job.width() - 1) / 8 * 8; first >= 0; first -= 8) {
         std::uint64_t word;
         std::memcpy(&word, holes + first, sizeof word);
@@ -110,7 +115,8 @@ void startHoles(const WarpJob& job, int y) {
     }
 }
 
-// Does it with the pixels' own depths; afterwards the row holds those that rays may start from again.
+// Calls shade() while the row holds the depths of useOwnDepths(); afterwards the row has its former depths
+// again, from which rays may start. Methods that warp between two left pixels shade with the row as it is.
 template <typename Shade>
 void withOwnDepths(const WarpJob& job, WarpScratch& scratch, int y, const Shade& shade) {
     if (job.method.between) return shade();

@@ -44,9 +44,10 @@ SizeOption PanelStage::eyeSize() const {
     return eyeSizeAt(mode, placeOf(mode));
 }
 
-// Lays out the interface for user input, and otherwise ten times a second together with a new picture. In
-// flight each picture has other figures, but nobody reads them that fast, and drawing the window only for its
-// figures would delay the next picture.
+// Lays out the interface in each turn, but less often in flight: for user input, ten times a second at most
+// together with new pictures, and after kMostFiguresWait without one. In flight each picture has other
+// figures, but nobody reads them that fast, and drawing the window only for its figures would delay the next
+// picture.
 bool PanelStage::layOut(const InterfacePlaces& places, double dt, bool fresh, bool busy,
                         const std::function<void()>& draw) {
     mSinceLayout += dt;

@@ -1,5 +1,5 @@
-// Draws the window: the picture in its mode with everything over it, when something has changed, since the
-// CPU is needed for ray casting.
+// Draws the window: the picture in its mode with everything over it. Draws only when something has changed,
+// because ray casting needs the CPU.
 #pragma once
 
 #include <functional>
@@ -21,8 +21,9 @@ public:
                   PanelStage& stage, FramePresenter& pictures, const PicturePointer& pointer,
                   PictureMarks& marks);
 
-    // turn: runs since the turn began; dt: seconds of the last one; busy: something is being loaded;
-    // drawPanels: lays out the panels. Returns true where the window was drawn.
+    // Draws in one turn of the window's loop. turn: a stopwatch started when the turn began; dt: seconds that
+    // the last turn took; busy: something is being loaded; drawPanels: lays out the panels. Returns true
+    // where the window was drawn.
     bool draw(const Stopwatch& turn, double dt, bool busy, const std::function<void()>& drawPanels);
 
 private:

@@ -38,16 +38,18 @@ struct BakeKeeping {
 enum class BakeEnd { Reached, TimeUp, Cancelled };
 
 // Bakes on all threads; the result does not depend on their number. Sums that already have samples go on from
-// there: a bake to a number of samples that was broken off gives the same bytes as one that was not, and so
-// does one that went on from another multiple of 128. Never throws Cancelled: cancelling is an end like
-// others. peers: the processes of this run, whose first one this is: it deals out bricks and has the sums of
-// all; the same bytes as alone. A failure of another one is an end as by Cancelled; Peers::throwIfFailed
-// tells.
+// there. A bake to a number of samples gives the same bytes whether it runs in one go, is broken off and
+// continued, or goes on from a finished bake of fewer samples, a multiple of 128. Never throws Cancelled: a
+// cancelled bake returns BakeEnd::Cancelled.
+// peers: the processes that share this bake; null: this one alone. runBake is called in the first of them: it
+// deals out the bricks, collects the sums of all, and gets the same bytes as a process alone. When another
+// process fails, the bake ends as Cancelled, and Peers::throwIfFailed throws.
 BakeEnd runBake(BakeSums& sums, const BakeSource& source, const BakeGoal& goal, Progress& progress,
                 const BakeKeeping& keeping = {}, Peers* peers = nullptr);
 
-// Lights, in the other processes, the bricks that the first one's runBake deals. Their sums are of the same
-// texels, and of no use afterwards. Throws Error, Cancelled.
+// Lights bricks for runBake of the first process; called in each of the other processes. sums: of the same
+// texels as in the first process; of no use afterwards, since the results are sent there. Throws Error,
+// Cancelled.
 void serveBake(BakeSums& sums, const BakeSource& source, Peers& peers);
 
 }  // namespace stereonav

@@ -1,5 +1,6 @@
 // Real spherical harmonics of unit directions (Wyman et al. 2006, appendix, eq. 12). Order n means bands 0 to
-// n - 1, n^2 coefficients, coefficient l (l + 1) + m. Polar axis z, which is up.
+// n - 1, which have n^2 coefficients; that of band l and degree m has the index l (l + 1) + m. The polar axis
+// is z, which is up.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -21,18 +22,18 @@ constexpr int harmonicsCount(int order) {
 void evaluateHarmonics(const glm::dvec3& direction, int order, double* values);
 void evaluateHarmonics(const glm::vec3& direction, int order, float* values);
 
-// Returns the rotation nearest to a matrix (its polar factor), to which it should be close. A turn that is
-// dragged on from frame to frame is a product of ever more rounded matrices; band l of a harmonics rotation
-// is of degree l in them, so what they lose in orthogonality it loses l-fold. Throws Error for a matrix that
-// is no rotation at all: not finite, flattened or mirrored.
+// Returns the rotation nearest to a matrix that is almost one (its polar factor). A rotation that the user
+// drags on from frame to frame is a product of more and more rounded matrices, and drifts from orthogonality.
+// The matrix of band l is a polynomial of degree l in its elements: there the error is l times as large.
+// Throws Error for a matrix that is no rotation at all: not finite, flattened or mirrored.
 glm::dmat3 nearestRotation(const glm::dmat3& almost);
 
 // Turns coefficients so that the function they stand for is rotated: (R f)(w) = f(R^-1 w). Matrices band by
 // band by the recursion of Ivanic and Ruedenberg (1996, with the corrections of 1998).
 class HarmonicsRotation {
 public:
-    // rotation: proper and orthogonal; the nearest one is taken. Throws Error where that is none, and for an
-    // order out of 1..kMaxHarmonicsOrder.
+    // rotation: a rotation matrix, but for rounding; nearestRotation() of it is used. Throws Error where
+    // nearestRotation() does, and for an order out of 1..kMaxHarmonicsOrder.
     HarmonicsRotation(const glm::dmat3& rotation, int order);
     int order() const { return mOrder; }
     // Turns coefficients. from and to: harmonicsCount(order) values; not the same memory.

@@ -9,11 +9,11 @@ namespace stereonav::STEREONAV_ISA {
 // Texels' rays in the middle of a slab.
 struct TexelPlaces {
     V3 place;
-    V3 way;     // metres of way for one along the axis
-    F length;   // the way's length
+    V3 way;     // way along the ray per metre along the sweep's axis
+    F length;   // length of `way`
     F size;     // metres across a texel there
     M crosses;  // rays that cross slabs
-    M valid;    // those of them that do so past a lamp
+    M valid;    // those that cross in front of the lamp; all of parallel light
 };
 // Returns right x + up y of the light's fan.
 STEREONAV_INLINE V3 alongFan(const SweepLight& light, F x, F y) {
@@ -26,7 +26,7 @@ STEREONAV_INLINE TexelPlaces texelPlaces(const SweepLight& light, float middle, 
     const V3 aside = alongFan(light, u, v);
     const F asideAxis = mulAdd(F(light.axis[0]), u, F(light.axis[1]) * v);
     TexelPlaces p;
-    if (light.parallel) {  // from the fan's plane on
+    if (light.parallel) {  // the way starts in the plane of the fan's origins
         const F way = (F(middle) - asideAxis) * F(light.length);
         p.place = {mulAdd(way, F(light.forward[0]), aside.x), mulAdd(way, F(light.forward[1]), aside.y),
                    mulAdd(way, F(light.forward[2]), aside.z)};
@@ -123,8 +123,8 @@ struct TexelRow {
     int slab;
     Lags lags;  // where slabs lean
 };
-// Returns light as V11 has it: a tap whose ray is met later has lost more of its light on the way. depth:
-// tau_i there, a metre; later: metres.
+// Returns a tap's light with the factor of V11: a tap that meets its ray later than the texel itself has been
+// weakened more, and counts for more. depth: tau_i at the tap, per metre; later: metres (Lags).
 STEREONAV_INLINE F leveled(F light, F depth, F later) {
     return mulAdd(light, clamp(depth * later, F(-1.0f), F(1.0f)), light);
 }
