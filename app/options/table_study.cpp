@@ -154,7 +154,7 @@ std::vector<Option> isosurfaceOptions() {
          .help = kUpHelp,
          .advice = kUpAdvice,
          .group = kStudyGroup,
-         .fallback = "z",
+         .fallback = "z; with --look auto guessed where the file does not say it",
          .commands = kShowing | kBake,
          .scenes = kVolumes,
          .panel = OptionPanel::Study,
