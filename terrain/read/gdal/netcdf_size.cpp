@@ -20,7 +20,7 @@ public:
         if (failed) mBytes = 0;
         char magic[4] = {};
         mStream.read(magic, sizeof magic);
-        if (std::string_view(magic, 3) == "CDF") mVersion = magic[3];
+        if (std::string_view(magic, 3) == "CDF") mVersion = static_cast<unsigned char>(magic[3]);
     }
     int version() const { return mVersion; }
     bool whole() const { return mStream.good() && !mTooMany; }
