@@ -12,7 +12,8 @@ protected:
     }
     std::string picture(const std::string& scene, std::vector<std::string> options) {
         const std::string file = (mFolder / "picture.png").string();
-        options.insert(options.begin(), {"render", scene, "--size", "64x48", "--out", file});
+        options.insert(options.begin(),
+                       {"render", scene, "--look", "plain", "--size", "64x48", "--out", file});
         mLast = run(options);
         EXPECT_EQ(mLast.status, 0) << mLast.err;
         return contentOf(file);

@@ -20,10 +20,11 @@ protected:
         EXPECT_EQ(done.status, 0) << done.err;
         return file;
     }
-    // The picture's bytes.
+    // The picture's bytes. Plain: every light on the same surface, from the same place.
     std::string picture(const std::string& scene, std::vector<std::string> options) const {
         const std::string file = (mFolder / "picture.png").string();
-        options.insert(options.begin(), {"render", scene, "--size", "64x48", "--out", file});
+        options.insert(options.begin(),
+                       {"render", scene, "--look", "plain", "--size", "64x48", "--out", file});
         const Outcome done = run(options);
         EXPECT_EQ(done.status, 0) << done.err;
         return contentOf(file);
