@@ -34,8 +34,8 @@ protected:
     Plane<PackedColor> picture(const std::string& scene, std::vector<std::string> options) const {
         const std::string file = (mFolder / "picture.png").string();
         const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight);
-        options.insert(options.begin(),
-                       {"render", scene, "--size", size, "--mode", "ml", "--edges", "0", "--out", file});
+        options.insert(options.begin(), {"render", scene, "--look", "plain", "--size", size, "--mode", "ml",
+                                         "--edges", "0", "--out", file});
         const Outcome done = run(options);
         EXPECT_EQ(done.status, 0) << done.err;
         return readColorImage(file);

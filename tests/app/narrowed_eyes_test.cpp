@@ -126,8 +126,8 @@ TEST_F(NarrowedEyesTest, AreThoseOfCompare) {
     const auto json = nlohmann::json::parse(contentOf(place() / "a.json"));
     EXPECT_LT(json["least_separation_m"].get<double>(), 0.6 * json["separation_m"].get<double>());
     EXPECT_NE((outcome.out + outcome.err).find("where narrow"), std::string::npos);
-    ASSERT_EQ(run({"render", scene, "--size", "64x48", "--no-cache", "--method", "full", "--edges", "0",
-                   "--mode", "mr", "--out", "a.png"})
+    ASSERT_EQ(run({"render", scene, "--look", "plain", "--size", "64x48", "--no-cache", "--method", "full",
+                   "--edges", "0", "--mode", "mr", "--out", "a.png"})
                   .status,
               0);
     EXPECT_EQ(contentOf(place() / "a.png"), contentOf(place() / "images/full_right.png"));

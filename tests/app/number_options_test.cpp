@@ -16,6 +16,7 @@ namespace {
 // Files, names and words; some hold numbers beside a word, and are checked where they are read.
 const std::set<std::string> kWords{"SCENE",
                                    "--late-warp",
+                                   "--look",
                                    "--refine",
                                    "--truth-rays",
                                    "--simd",
