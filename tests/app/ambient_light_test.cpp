@@ -207,7 +207,7 @@ TEST_F(AmbientLight, ASigmaIsChosenFromWhatIsShown) {
     for (const std::string by : {"variance", "gradient"}) {
         const std::vector<std::string> options{"--isosurface", "--opacity", "0.3", "--modulate", by};
         std::vector<std::string> asked = options;
-        asked.insert(asked.begin(), {"info", file});
+        asked.insert(asked.begin(), {"info", file, "--look", "plain"});
         const std::string told = run(asked).out;
         const std::string words = "opacity modulated by " + by + ", whole from ";
         const std::size_t at = told.find(words);

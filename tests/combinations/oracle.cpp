@@ -95,7 +95,7 @@ std::vector<OraclePicture> sweptByOracle(const Scene& scene, const std::vector<E
                                              ? shown.sky(glm::normalize(view.rayDirection(x + 0.5, y + 0.5)))
                                              : shown.look.background;
                 picture.light[static_cast<std::size_t>(y) * view.width + x] =
-                    glm::dvec3(light) + static_cast<double>(light.w) * glm::dvec3(behind);
+                    glm::dvec3(shown.tone(glm::vec3(light) + light.w * behind));
             }
         oracles.push_back(std::move(picture));
     }
