@@ -11,11 +11,11 @@ namespace stereonav {
 constexpr double kWaterOfShifted = 1024;  // value of water in CT whose numbers begin at air
 
 struct ValueKinds {
-    bool hounsfield = false;  // Hounsfield units
-    bool shifted = false;     // CT with 1024 added, so that air is near 0
-    bool mask = false;        // two values
+    bool hounsfield = false;         // Hounsfield units
+    bool shifted = false;            // CT with 1024 added, so that air is near 0
+    bool mask = false;               // two values
     double lowest = 0, highest = 0;  // values
-    double spacing = 0.001;  // metres between voxels: edge of a cube of their volume
+    double spacing = 0.001;          // metres between voxels: edge of a cube of their volume
     // The value from which on something is no background, and that from which on it is dense; for values in
     // Hounsfield units those of skin and bone. lowest <= object <= dense <= highest unless in these.
     double object = 0, dense = 0;
