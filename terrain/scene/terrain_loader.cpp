@@ -48,7 +48,7 @@ struct LoadedGround {
 
 // Returns whether the ground's colours are to be without light.
 bool litLater(const SceneFile& file) {
-    return file.colorsAlone || !file.light.empty() || file.quickLight;
+    return file.colorsAlone || !file.light.empty() || (file.quickLight && !file.builtIn);
 }
 
 LoadedGround loadBuiltIn(const SceneFile& file, TerrainScene& scene, Progress& progress) {

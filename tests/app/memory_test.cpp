@@ -82,12 +82,13 @@ TEST_F(Memory, OfCellsIsCheckedWhenTheyAreCounted) {
                                    [](int i, int j, int k) { return (i + j + k) % 3 * 250; });  // all surface
     // Bricks of 16^3 cells have a number for each of 17^3 corners; those at the border, which stand half
     // empty, are more than the volume's size tells.
-    const Taken taken =
-        taking({"render", study, "--isosurface", "--isovalue", "300", "--size", "32x24", "--out", "a.png"});
+    const Taken taken = taking({"render", study, "--look", "plain", "--isosurface", "--isovalue", "300",
+                                "--size", "32x24", "--out", "a.png"});
     ASSERT_GT(taken.asked, taken.askedElse + 4e5);
     std::filesystem::remove(place() / "a.png");
     allow(std::to_string((taken.asked + taken.askedElse) / 2).c_str());
-    expectTooMuch({study, "--isosurface", "--isovalue", "300"}, {"a surface of ", "choose another isovalue"});
+    expectTooMuch({study, "--look", "plain", "--isosurface", "--isovalue", "300"},
+                  {"a surface of ", "choose another isovalue"});
 }
 
 TEST_F(Memory, OfALumenIsCheckedByItsBox) {

@@ -42,7 +42,7 @@ TEST_F(TerrainNotes, AreOneLineEachWhereNothingIsQuiet) {
         EXPECT_EQ(outcome.status, 0);
         EXPECT_EQ(outcome.err, "") << words[0];
     }
-    const Json terrain = Json::parse(run({"info", parts, "--json"}).out).at("terrain");
+    const Json terrain = Json::parse(run({"info", parts, "--look", "plain", "--json"}).out).at("terrain");
     ASSERT_EQ(terrain.at("notes").size(), 1u);
     EXPECT_EQ(terrain.at("height_range_m"), Json::array({1000.0, 1000.0 + 9 * 31 + 4 * 23}));
     EXPECT_NE(run({"info", parts}).out.find("left aside"), std::string::npos);
