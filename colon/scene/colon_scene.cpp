@@ -148,6 +148,17 @@ SurfaceCells wallCells(const ColonScene& scene, Progress& progress) {
     return findSurfaceCells(field, setting, progress);
 }
 
+// What is said of a wall of which nothing is seen; "" of others.
+std::string warningOf(const ColonScene& scene, const ColonOptions& options) {
+    if (options.transfer.empty()) return "";
+    Progress quiet;
+    const GreyVolume& field = scene.volume.field;
+    const ValueCounts counts = countValues(field, 0, &scene.lumen.lumen, quiet);
+    if (counts.empty()) return "";
+    return warningOfEmpty(options.transfer, scene.volume.look.transfer, counts,
+                          kindsOf(counts, true, field.frame));
+}
+
 double middleRadius(const Centreline& line) {
     std::vector<double> radii;
     for (const CentrelinePoint& point : line.points) radii.push_back(point.radius);
@@ -205,6 +216,8 @@ ColonScene sceneOf(FoundColon found, const ColonOptions& options, Progress& prog
     scene.volume.look.transfer = wallTransfer(options, wall, scene.volume.look.surface);
     progress.report(0, "preparing the wall");
     scene.volume.cells = wallCells(scene, progress);
+    scene.warning = warningOf(scene, options);
+    if (!scene.warning.empty()) scene.notes.push_back(scene.warning);
     placeViewer(scene, options);
     return scene;
 }
@@ -291,6 +304,7 @@ void changeWall(ColonScene& scene, const ColonOptions& options, Progress& progre
                                       shownNumbers(field, transfer) == shownNumbers(field, look.transfer));
     look.transfer = std::move(transfer);
     if (!same) scene.volume.cells = wallCells(scene, progress);
+    scene.warning = warningOf(scene, options);
     progress.report(1, kChanging);
 }
 

@@ -26,7 +26,6 @@
 #include "engine/camera/orbit.h"
 #include "engine/math/constants.h"
 #include "engine/volume/seen_blocks.h"
-#include "engine/volume/transfer_text.h"
 
 namespace stereonav {
 namespace {
@@ -231,10 +230,8 @@ TransferFunction transferOf(const ColonOptions& options, const ColonScene& scene
 // What is said of a function that shows nothing; "" of others.
 std::string warningOf(const ColonOptions& options, const ColonScene& scene,
                       const TransferFunction& transfer) {
-    if (!scene.counts || options.transfer.empty() || showsSomething(transfer, *scene.counts, scene.kinds))
-        return "";
-    const bool curve = isCurveText(options.transfer.string());
-    return whyEmpty(curve ? "this curve" : options.transfer.filename().string(), *scene.counts, scene.kinds);
+    if (!scene.counts || options.transfer.empty()) return "";
+    return warningOfEmpty(options.transfer, transfer, *scene.counts, scene.kinds);
 }
 
 // The cells that hold the surface or, of a translucent volume, anything that is not transparent.

@@ -77,7 +77,7 @@ TransferFunction fittedMetal(const TransferPreset& preset, const ValueKinds& kin
 TransferFunction fittedPreset(const TransferPreset& preset, const ValueKinds& kinds) {
     if (preset.name == kMetal) return fittedMetal(preset, kinds);
     const std::string name(preset.name);
-    const TransferFunction function = parseTransferFunction(preset.text, name);
+    TransferFunction function = parseTransferFunction(preset.text, name);
     if (kinds.shifted) return shifted(function, name);
     if (kinds.hounsfield || !(kinds.lowest < kinds.highest)) return function;
     const double least = 1e-3 * (kinds.highest - kinds.lowest);
@@ -151,7 +151,10 @@ std::vector<std::string> emptyPresets(const ValueCounts& counts, const ValueKind
     return empty;
 }
 
-std::string whyEmpty(const std::string& name, const ValueCounts& counts, const ValueKinds& kinds) {
+std::string warningOfEmpty(const std::filesystem::path& given, const TransferFunction& function,
+                           const ValueCounts& counts, const ValueKinds& kinds) {
+    if (showsSomething(function, counts, kinds)) return "";
+    const std::string name = isCurveText(given.string()) ? "this curve" : given.filename().string();
     const std::vector<std::string> empty = emptyPresets(counts, kinds);
     std::vector<std::string_view> others;
     for (const TransferPreset& preset : transferPresets())

@@ -110,14 +110,26 @@ double around(const Bins& bins, std::size_t at) {
     return bins.voxelsIn(at < kReach ? 0 : at - kReach, std::min(at + kReach + 1, kBins));
 }
 
-// Returns the first bin of the emptiest place around a border between classes: it may move by 40 % down and
-// 60 % up, and not to `end`.
+// Whether bins on both sides of one hold clearly more voxels than it: the flank of a single peak has one
+// side.
+bool isValley(const Bins& bins, std::size_t at) {
+    constexpr double kClearly = 1.2;
+    double below = 0, above = 0;
+    for (std::size_t n = 0; n < kBins; ++n) {
+        double& side = n < at ? below : above;
+        side = std::max(side, around(bins, n));
+    }
+    return std::min(below, above) > kClearly * around(bins, at);
+}
+
+// Returns the first bin of the emptiest valley around a border between classes, the border where there is
+// none: it may move by 40 % down and 60 % up, and not to `end`.
 std::size_t valleyAt(const Bins& bins, std::size_t border, std::size_t end) {
     const std::size_t from = std::max<std::size_t>(1, border - border * 4 / 10);
     const std::size_t to = std::min(border + border * 6 / 10, end - 1);
     std::size_t best = border;
     for (std::size_t at = from; at <= to; ++at)
-        if (around(bins, at) < around(bins, best)) best = at;
+        if (around(bins, at) < around(bins, best) && isValley(bins, at)) best = at;
     return best;
 }
 

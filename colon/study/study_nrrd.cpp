@@ -398,6 +398,7 @@ VolumeHeader readNrrdHeader(const fs::path& file) {
     std::vector<std::size_t> axes = spaceAxes(nrrd, sizes, directions, header.labels.layers);
     header.labels.named = namedLabelsOf(file.string(), nrrd.keyed, header.labels.layers.count);
     std::vector<std::uint64_t> extents;
+    extents.reserve(axes.size());
     for (const std::size_t axis : axes) extents.push_back(sizes[axis]);
     header.size = threeSizes(file, extents);
     axes.resize(3);

@@ -21,12 +21,16 @@ double shareOfSlope(const glm::dvec3& normal) {
 
 }  // namespace
 
-TerrainLight sparseOpenness(const Heightfield& ground, double most, Progress& progress) {
+TerrainLightSettings sparseSettings(const Heightfield& ground, double most) {
     TerrainLightSettings settings;
     settings.kind = TerrainLightKind::Openness;
     settings.azimuths = 16;
     settings.stride = strideFor(ground, most);
-    return bakeTerrainLight(ground, settings, progress);
+    return settings;
+}
+
+TerrainLight sparseOpenness(const Heightfield& ground, double most, Progress& progress) {
+    return bakeTerrainLight(ground, sparseSettings(ground, most), progress);
 }
 
 TerrainLight spreadOpenness(const Heightfield& ground, const TerrainLight& sparse) {

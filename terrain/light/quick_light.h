@@ -12,6 +12,8 @@ constexpr double kMostLitSamples = 6e6;
 // Most samples whose horizons are looked for at once: a quarter of a second on one core.
 constexpr double kQuickSkySamples = 12'000;
 
+// Returns the settings of openness at `most` samples at most.
+TerrainLightSettings sparseSettings(const Heightfield& ground, double most);
 // Bakes openness at `most` samples at most, spread over the ground. Throws Error, Cancelled as a bake does.
 TerrainLight sparseOpenness(const Heightfield& ground, double most, Progress& progress);
 

@@ -221,6 +221,7 @@ double plateau(double value, double low, double high, double way) {
 // and of ranges.
 double scoreOf(const SeenGround& seen, double heading, double targetWay, double extent) {
     constexpr double kUsualSun = 30 * kRadians, kAside = 95 * kRadians;
+    if (seen.pieces.empty()) return -kInfinity;  // worse than any that shows some ground
     const double relief = std::max(reliefShown(lightOn(seen.pieces, heading - kAside, kUsualSun)),
                                    reliefShown(lightOn(seen.pieces, heading + kAside, kUsualSun)));
     return 1.0 * plateau(seen.sky, 0.2, 0.4, 0.2) + 1.2 * grown(seen.nearest / targetWay, 0.03, 0.2) -

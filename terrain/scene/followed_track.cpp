@@ -58,6 +58,7 @@ std::vector<Value> averaged(const std::vector<Value>& values, int reach) {
 std::vector<double> highestAround(const std::vector<double>& heights, int reach) {
     const int count = static_cast<int>(heights.size());
     std::vector<double> highest;
+    highest.reserve(heights.size());
     for (int n = 0; n < count; ++n)
         highest.push_back(*std::max_element(heights.begin() + std::max(0, n - reach),
                                             heights.begin() + std::min(count, n + reach + 1)));

@@ -40,8 +40,9 @@ Plane<float> coarseHeights(const Heightfield& ground, const GroundMap& map, Prog
             double sum = 0;
             int count = 0;
             for (int k = 0; k < kReads * kReads; ++k) {
-                const double height = ground.heightAt(
-                    worldOf(map, x + (k % kReads + 0.5) / kReads, y + (k / kReads + 0.5) / kReads));
+                const int column = k % kReads, row = k / kReads;
+                const double height =
+                    ground.heightAt(worldOf(map, x + (column + 0.5) / kReads, y + (row + 0.5) / kReads));
                 if (!std::isfinite(height)) continue;
                 sum += height;
                 ++count;

@@ -79,7 +79,8 @@ glm::dvec2 highestPlace(const Heightfield& ground) {
     const auto count = static_cast<std::ptrdiff_t>(ground.width()) * ground.height();
     const auto lower = [](float a, float b) { return std::isfinite(b) && (!std::isfinite(a) || a < b); };
     const auto k = std::max_element(begin, begin + count, lower) - begin;
-    return ground.worldFromGrid({double(k % ground.width()), double(k / ground.width())});
+    const auto row = k / ground.width(), column = k % ground.width();
+    return ground.worldFromGrid({double(column), double(row)});
 }
 
 glm::dvec2 onEllipse(const Heightfield& ground, double radius, double angle) {

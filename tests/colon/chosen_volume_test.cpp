@@ -94,6 +94,22 @@ TEST(ChosenIsovalue, LeavesWhatIsThin) {
     EXPECT_LT(value, 40);
 }
 
+// The flank of one peak has no valley: its emptiest place is as far out as it may be looked for.
+TEST(ChosenIsovalue, ValleyHasTwoSides) {
+    std::vector<std::pair<int, std::uint64_t>> flank;
+    for (int value = 0; value < 256; ++value)
+        flank.emplace_back(value, static_cast<std::uint64_t>(1e6 * std::exp(-value / 30.0)) + 1);
+    const double border = chosen(countsOf(flank), false).isovalue;
+    // Otsu's upper border of three classes is at 77.
+    EXPECT_GT(border, 65);
+    EXPECT_LT(border, 90);
+    // With an object beyond, the valley is before it.
+    for (int value = 70; value < 90; ++value) flank.emplace_back(value, 400000);
+    const double valley = chosen(countsOf(flank), false).isovalue;
+    EXPECT_GT(valley, 60);
+    EXPECT_LT(valley, 71);
+}
+
 TEST(ChosenIsovalue, OfFewValues) {
     EXPECT_EQ(chosen(countsOf({{0, 1000}, {100, 10}}), false).isovalue, 50) << "half way, of a mask";
     EXPECT_EQ(chosen(countsOf({{7, 1000}}), false).isovalue, 7);

@@ -1,6 +1,7 @@
 // Opening studies: the built-in colon, the real anatomy, and volumes that are seen from outside.
 #include "colon/scene/colon_scene.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,6 +21,9 @@
 namespace stereonav {
 namespace {
 namespace fs = std::filesystem;
+
+using testing::Contains;
+using testing::HasSubstr;
 
 fs::path dataFile(const std::string& name) {
     const char* given = std::getenv("STEREONAV_TEST_DATA");
@@ -89,6 +93,23 @@ TEST_F(ColonSceneTest, TranslucentWallHasMoreCells) {
     const ColonScene translucent = open(options);
     EXPECT_GT(translucent.volume.cells.records.size(), opaque.volume.cells.records.size());
     EXPECT_FALSE(translucent.volume.look.transfer.empty());
+}
+
+TEST_F(ColonSceneTest, AWallOfWhichNothingIsSeenIsSaid) {
+    ColonOptions options;
+    options.builtIn.size = {96, 96, 77};
+    options.transfer = "curve:5000:1:1:1:0,6000:1:1:1:1";
+    const ColonScene dark = open(options);
+    EXPECT_THAT(dark.warning, HasSubstr("this curve shows nothing here"));
+    EXPECT_THAT(dark.notes, Contains(dark.warning));
+    options.transfer = "wall_glass";
+    Progress progress;
+    const ColonScene glass = changedScene(dark, options, progress);
+    EXPECT_EQ(glass.warning, "");
+    EXPECT_EQ(open(options).warning, "");
+    // Changed in the window.
+    options.transfer = "curve:5000:1:1:1:0,6000:1:1:1:1";
+    EXPECT_EQ(changedScene(glass, options, progress).warning, dark.warning);
 }
 
 using ColonSceneFullSize = ColonSceneTest;

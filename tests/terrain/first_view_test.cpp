@@ -90,6 +90,25 @@ TEST(FirstView, StandsOnNoSummitOfARange) {
     EXPECT_GT(anglesOf(view.pose).pitch, -20 * kRadians);
 }
 
+// Most directions miss a ground of one row of cells.
+TEST(FirstView, ShowsSomeOfANarrowStrip) {
+    for (const int width : {2, 3, 20}) {
+        const Heightfield ground = viewedGround(width, 400, 10, [](double x, double y) {
+            return 200 * std::cos(y / 900) + 60 * std::sin(x + y / 130);
+        });
+        const FirstView view = chooseFirstView(ground, 2.5, kFov);
+        expectSound(ground, 2.5, view);
+        int shown = 0;
+        for (int j = 0; j < ground.height(); ++j) {
+            const glm::dvec3 place(ground.worldFromGrid({0.5 * (width - 1), double(j)}), ground.sample(0, j));
+            shown += glm::dot(place - view.pose.position, view.pose.forward()) > 0 &&
+                     std::abs(heightInPicture(view.pose, place)) < 1 &&
+                     std::abs(widthInPicture(view.pose, place)) < 0.5;
+        }
+        EXPECT_GT(shown, ground.height() / 10) << width;
+    }
+}
+
 TEST(FirstView, IsSoundOverAnyGround) {
     const auto hole = [](double x, double y) {
         return std::hypot(x, y) < 150 ? std::nan("") : 100 + 0.2 * x;

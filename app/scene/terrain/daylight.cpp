@@ -11,10 +11,8 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/base/lone_loops.h"
 #include "engine/base/memory.h"
 #include "engine/base/parallel.h"
-#include "engine/base/thread_priority.h"
 #include "terrain/light/terrain_light.h"
 #include "terrain/scene/ground_color.h"
 
@@ -93,70 +91,39 @@ std::string LitGround::source() const {
 }
 
 TerrainDaylight::TerrainDaylight(const TerrainScene& terrain, SimdTarget target)
-    : mTerrain(terrain), mLook(terrain.look), mTarget(target), mProgress(std::make_shared<Progress>()) {}
-
-TerrainDaylight::~TerrainDaylight() {
-    mStop = true;
-    mProgress->cancel();
-    if (mThread.joinable()) mThread.join();
-}
+    : mTerrain(terrain), mLook(terrain.look), mTarget(target) {}
 
 void TerrainDaylight::begin(std::shared_ptr<const ColorTexture> plain) {
-    if (!mThread.joinable()) mThread = std::thread([this, plain = std::move(plain)] { work(plain); });
-}
-
-std::unique_ptr<LitGround> TerrainDaylight::take() {
-    const std::lock_guard lock(mMutex);
-    return std::move(mNewest);
-}
-
-void TerrainDaylight::give(std::unique_ptr<LitGround> lit) {
-    {
-        const std::lock_guard lock(mMutex);
-        mNewest = std::move(lit);
-    }
-    ++mCount;
+    mWork.begin([this, plain = std::move(plain)] { work(plain); });
 }
 
 void TerrainDaylight::work(const std::shared_ptr<const ColorTexture>& plain) {
-    stepBehindTheWindow();
-    stepBehindTheWindow();  // a second time: the thread that makes frames goes first, too
-    loopOnThisThreadAlone();
-    interruptLoopsBy(&mStop);
-    try {
-        const Heightfield& ground = mTerrain.ground;
-        const double samples = double(ground.width()) * ground.height();
-        // Three textures exist at once while new light replaces old.
-        checkMemory("light of the ground", 3 * bytesOfTint(samples), "");
-        TerrainLook unlit = mLook;
-        unlit.ambient = 1;
-        const GroundColor albedo = tintedGround(ground, unlit, *mTerrain.tint, *mProgress);
-        const auto show = [&](TerrainLight light) {
-            auto lit = std::make_unique<LitGround>();
-            lit->light = std::make_unique<TerrainIllumination>(ground, albedo.texture, mTerrain.sky,
-                                                               std::move(light), 1.0f, mTarget);
-            lit->terrain = &mTerrain;
-            lit->plain = plain;
-            lit->sunOfColor = {mLook.sunAzimuth, mLook.sunElevation};
-            lit->color = albedo.texture;
-            lit->lightAgain(mLook);
-            give(std::move(lit));
-        };
-        if (std::optional<TerrainLight> kept = keptLight(ground)) {
-            show(std::move(*kept));
-        } else {
-            int before = 0;
-            for (const double most : kMostSamples) {
-                const TerrainLightSettings settings = settingsFor(ground, most);
-                if (settings.stride == before) break;
-                before = settings.stride;
-                show(bakeTerrainLight(ground, settings, *mProgress));
-            }
-        }
-    } catch (const std::exception&) {
-        // The scene has ended, or memory does not suffice: the ground keeps its light.
+    const Heightfield& ground = mTerrain.ground;
+    const double samples = double(ground.width()) * ground.height();
+    // Three textures exist at once while new light replaces old.
+    checkMemory("light of the ground", 3 * bytesOfTint(samples), "");
+    TerrainLook unlit = mLook;
+    unlit.ambient = 1;
+    const GroundColor albedo = tintedGround(ground, unlit, *mTerrain.tint, mWork.progress());
+    const auto show = [&](TerrainLight light) {
+        auto lit = std::make_unique<LitGround>();
+        lit->light = std::make_unique<TerrainIllumination>(ground, albedo.texture, mTerrain.sky,
+                                                           std::move(light), 1.0f, mTarget);
+        lit->terrain = &mTerrain;
+        lit->plain = plain;
+        lit->sunOfColor = {mLook.sunAzimuth, mLook.sunElevation};
+        lit->color = albedo.texture;
+        lit->lightAgain(mLook);
+        mWork.give(std::move(lit));
+    };
+    if (std::optional<TerrainLight> kept = keptLight(ground)) return show(std::move(*kept));
+    int before = 0;
+    for (const double most : kMostSamples) {
+        const TerrainLightSettings settings = settingsFor(ground, most);
+        if (settings.stride == before) break;
+        before = settings.stride;
+        show(bakeTerrainLight(ground, settings, mWork.progress()));
     }
-    mDone = true;
 }
 
 }  // namespace stereonav

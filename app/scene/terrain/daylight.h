@@ -3,13 +3,11 @@
 // plain sun until light is there. It runs on one thread, which gives way to those that make frames.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <thread>
 
+#include "app/scene/terrain/behind_frames.h"
 #include "engine/scene/capabilities.h"
 #include "engine/simd/simd_target.h"
 #include "terrain/scene/terrain_illumination.h"
@@ -36,35 +34,24 @@ class TerrainDaylight {
 public:
     // The terrain must have a tint, outlive this object, and change only its look, report and landmarks.
     TerrainDaylight(const TerrainScene& terrain, SimdTarget target);
-    ~TerrainDaylight();  // returns promptly
-    TerrainDaylight(const TerrainDaylight&) = delete;
-    TerrainDaylight& operator=(const TerrainDaylight&) = delete;
 
     // Begins the work; later calls do nothing. plain: the terrain's tint under its sun.
     void begin(std::shared_ptr<const ColorTexture> plain);
     // Returns the newest light since the last call, null where there is none.
-    std::unique_ptr<LitGround> take();
-    // Returns a number that grows as light comes.
-    std::uint64_t count() const { return mCount; }
-    // Returns whether no more light will come: all is done, or memory does not suffice.
-    bool done() const { return mDone; }
+    std::unique_ptr<LitGround> take() { return mWork.take(); }
+    std::uint64_t count() const { return mWork.count(); }  // grows as light comes
+    bool done() const { return mWork.done(); }             // whether no more light will come
 
     // Largest number of baked samples in each step; one bake per step, until every sample is baked.
     static constexpr double kMostSamples[] = {6'000, 60'000, 400'000};
 
 private:
     void work(const std::shared_ptr<const ColorTexture>& plain);
-    void give(std::unique_ptr<LitGround> lit);
 
     const TerrainScene& mTerrain;
     const TerrainLook mLook;  // copy of the look at the beginning: the scene's own changes with the sun
     const SimdTarget mTarget;
-    std::mutex mMutex;
-    std::unique_ptr<LitGround> mNewest;
-    std::atomic<std::uint64_t> mCount = 0;
-    std::atomic<bool> mStop = false, mDone = false;
-    std::shared_ptr<Progress> mProgress;
-    std::thread mThread;
+    BehindFrames<std::unique_ptr<LitGround>> mWork;
 };
 
 }  // namespace stereonav

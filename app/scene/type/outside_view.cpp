@@ -14,13 +14,24 @@ namespace {
 constexpr double kFov = 40 * kRadians;
 constexpr double kFraming = 0.85;      // share of the distance where a ball around the bounds fills the view
 constexpr double kExtentSeconds = 10;  // time to cross the extent at normal speed
+constexpr double kPointRadius = 1e-6;  // metres: of the ball around a point
+
+// Returns the radius, metres, below which an object counts as a point: floats tell no smaller parts apart
+// where its places are.
+double leastRadius(const std::vector<SurfaceSample>& samples) {
+    constexpr double kToldApart = 1e-6;
+    double reach = 0;
+    for (const SurfaceSample& sample : samples)
+        for (int k = 0; k < 3; ++k) reach = std::max(reach, std::abs(sample.place[k]));
+    return reach > 0 ? kToldApart * reach : kPointRadius;
+}
 
 }  // namespace
 
 void seeFromOutside(const glm::dvec3& low, const glm::dvec3& high, SeenAs seen, const std::string& flight,
                     Scene& scene) {
     const glm::dvec3 middle = 0.5 * (low + high);
-    const double half = 0.5 * glm::length(high - low), radius = half > 0 ? half : 1e-6;
+    const double half = 0.5 * glm::length(high - low), radius = half > 0 ? half : kPointRadius;
     const double distance = kFraming * radius / std::sin(0.5 * kFov);
     scene.lens.verticalFov = kFov;
     scene.lens.nearDepth = 0.005 * radius;
@@ -37,6 +48,7 @@ std::optional<double> seeFromBestSide(const std::vector<SurfaceSample>& samples,
     wanted.verticalFov = options.fov_deg ? *options.fov_deg * kRadians : kFov;
     wanted.aspect = options.aspect;
     wanted.front = kFront;
+    wanted.least = leastRadius(samples);
     const std::optional<FirstView> view = firstViewOf(samples, wanted);
     if (!view) return std::nullopt;
     scene.lens.verticalFov = kFov;
