@@ -60,7 +60,11 @@ Bins binsOf(const ValueCounts& counts) {
         if (below < (1 - kTail) * voxels) top = value;
         below += count;
     });
-    const double width = (top - lowest) / static_cast<double>(kBins - 1);
+    // Each bin takes as many stored numbers as the others: dips between bins of one number and of two are no
+    // valleys.
+    const double step = std::abs(counts.scale);
+    const double least = (top - lowest) / static_cast<double>(kBins - 1);
+    const double width = std::isfinite(least / step) ? std::ceil(least / step * (1 - 1e-12)) * step : least;
     Bins bins;
     forValues(counts, [&](double value, double count) {
         const double at = width > 0 ? std::min((value - lowest) / width, static_cast<double>(kBins - 1)) : 0;
@@ -113,7 +117,7 @@ double around(const Bins& bins, std::size_t at) {
 // Whether bins on both sides of one hold clearly more voxels than it: the flank of a single peak has one
 // side.
 bool isValley(const Bins& bins, std::size_t at) {
-    constexpr double kClearly = 1.2;
+    constexpr double kClearly = 1.25;
     double below = 0, above = 0;
     for (std::size_t n = 0; n < kBins; ++n) {
         double& side = n < at ? below : above;
