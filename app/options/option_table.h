@@ -15,8 +15,8 @@
 namespace stereonav {
 
 namespace command {
-// Bits of commands that rows of other commands, or the window, name. setCommands() assigns bits to all
-// others.
+// Bits of the commands that other code names: rows of other commands, or the window. setCommands() assigns
+// bits to all others.
 constexpr CommandSet kInfo = 1 << 0, kRender = 1 << 1, kPlay = 1 << 2, kCompare = 1 << 3, kReport = 1 << 4,
                      kMesh = 1 << 5, kBake = 1 << 6, kView = 1 << 7, kMeasure = 1 << 8, kProfile = 1 << 9;
 // Traits of commands; a row with a trait applies to all commands that have it.
@@ -59,13 +59,13 @@ struct Option {
     const char* advice = "";    // what to write instead of a refused value
     const char* group = "";     // heading in help
     const char* fallback = "";  // value in effect where the option is left out
-    // Place of a command's own option in help and pages, and of those that follow it in the command's list:
-    // behind this option, which several commands have; "": in the command's chapter. Scene files may say what
-    // stands behind options that they may say.
+    // Key of the shared option behind which a command's own option, and those that follow it in the command's
+    // list, stand in help and pages; "": in the command's own chapter. A scene file may set them where it may
+    // set that shared option.
     const char* behind = "";
     CommandSet commands = 0;  // commands that have it; empty for options of single commands
     SceneSet scenes = scene_type::kAll;
-    OptionRule elsewhere{};  // message with another scene, in place of the one about types
+    OptionRule elsewhere{};  // message where the scene has another type; empty: a general one
     std::vector<Exclusion> excludes{};
     std::vector<OptionRule> rules{};  // the first broken rule is reported
     bool required = false, repeated = false;

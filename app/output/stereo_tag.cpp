@@ -9,9 +9,9 @@ struct LayoutTag {
     StereoTag leftFirst, rightFirst;
 };
 
-// Squeezed eyes have pixels twice as wide or high; so have interleaved ones, since each has every other
-// column or row. FFmpeg halves Matroska's display size for these layouts (except a checkerboard), which is
-// right for whole eyes side by side: the aspect corrects it for the others.
+// The layouts' tags. aspect: squeezed eyes have pixels twice as wide or high, and so have interleaved ones,
+// since each has every other column or row. FFmpeg halves Matroska's display size for these layouts (except a
+// checkerboard), which is right for whole eyes side by side; the aspect corrects it for the others.
 constexpr LayoutTag kLayoutTags[] = {
     {OutputLayout::SideBySide, {1, 2, 3}, {11, -1, -1}},
     {OutputLayout::TopBottom, {3, 1, 4}, {2, -1, -1}},

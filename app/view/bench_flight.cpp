@@ -20,7 +20,7 @@ namespace stereonav {
 struct BenchFlight::Judgement {
     Progress progress;
     std::atomic<bool> done = false;
-    Facts times;  // times, without the errors, for a window that is closed meanwhile
+    Facts times;  // only times, without errors, for a window that is closed before the judgement
 };
 
 void BenchFlight::cast(const ViewFrame& frame) {

@@ -48,7 +48,8 @@ bool isPlaces(const json& file) {
            std::all_of(file["places"].begin(), file["places"].end(), isPlace);
 }
 
-// Returns the file of a picture beside the list; a name with folders leads nowhere else.
+// Returns the path of a picture in the folder of the list; empty for a name with a folder in it, which could
+// lead elsewhere.
 fs::path besides(const fs::path& folder, const std::string& name) {
     if (name.empty() || name.find('/') != std::string::npos || name[0] == '.') return {};
     return folder / name;

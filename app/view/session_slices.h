@@ -1,5 +1,5 @@
-// The slices of a session's study: when it is read, and the slice view, in which pieces of the lumen are
-// chosen.
+// The slices of a session's study: reads the study when it is wanted, and keeps the slice view, in which the
+// user chooses pieces of the lumen.
 #pragma once
 
 #include <functional>
@@ -23,13 +23,13 @@ public:
                   std::function<glm::dvec3()> eye)
         : mScene(scene), mNotice(notice), mEye(std::move(eye)) {}
 
-    // Executes a command; returns false for commands of others.
+    // Executes a command of the slices; returns false for other commands.
     bool act(ViewCommand command, SessionSurface& surface);
 
-    // Returns the study, which the caller reads after takeStudyWish(), which returns true once. Null until it
-    // is there.
+    // Returns the study; null until keepStudy() was called. A caller reads the study when takeStudyWish()
+    // returns true, which it does once for each wish.
     const std::shared_ptr<const SliceStudy>& study() const { return mStudy; }
-    // Asks for the study for panels, without the view.
+    // Asks for the study without opening the slice view, for panels.
     void wishStudy();
     bool takeStudyWish() { return std::exchange(mStudyWished, false); }
     void dropStudyWish() { mStudyWished = mViewWished = false; }
@@ -44,7 +44,8 @@ public:
     void turnPages(int by) { mView->turnPages(by); }  // requires shown()
     // Sets a seed at a pixel x, y of the last picture. Returns a notice, "" for none.
     std::string click(double x, double y);
-    // Goes on in another scene: choices are dropped where it has other pieces.
+    // Called before another scene replaces the present one. Drops the choices of pieces unless both scenes
+    // have the same.
     void replaceScene(const Scene& next);
 
 private:

@@ -44,7 +44,8 @@ void SettingsHistory::backTo(const SettingTexts& now) {
     mPending.reset();
     const auto isNow = [&](const SettingTexts& step) { return step == now; };
     const auto here = mSteps.begin() + static_cast<std::ptrdiff_t>(mAt);
-    // An undo that failed is redone; the steps after it were there before.
+    // The settings in effect are those of a later step where an undo failed. That step becomes the present
+    // one; the steps after it stay.
     if (const auto after = std::find_if(here, mSteps.end(), isNow); after != mSteps.end()) {
         mAt = static_cast<std::size_t>(after - mSteps.begin());
         return;

@@ -33,8 +33,8 @@ public:
     explicit ViewBench(bool whole = false) : mWhole(whole) {}
 
     enum class Wish { None, Fly, Stop, Judge };
-    // Returns what the window has to do now, each wish once. ready: there is a picture and it rests; flying:
-    // the flight goes on. duration: of the flight, seconds.
+    // Returns what the window has to do now; each wish is returned once. ready: there is a picture and it
+    // rests; flying: the flight goes on; duration: seconds of the whole flight.
     Wish step(double now, bool ready, bool flying, double duration);
     bool judging() const { return mStage == Stage::Judge; }
 
@@ -64,15 +64,16 @@ private:
     std::vector<double> mBetween, mAge, mDelay, mShownAge;  // in milliseconds
     int mCoarse = 0;                                        // cast pictures that lacked detail
     std::vector<double> mCast;                              // milliseconds of each cast picture
-    std::vector<double> mScale, mGuard;  // for cast pictures; mGuard: share of pixels outside the visible
+    // For each cast picture: scale times effort; area outside the visible part, as a share of that part.
+    std::vector<double> mScale, mGuard;
     int mSizeChanges = 0;
     std::vector<Kept> mSamples;
     std::optional<ShownPicture> mNewest;
     std::optional<ShownPicture> mAfterOne, mAfterTen;  // pictures shown one and ten seconds after the stop
     int mWarped = 0, mJudged = 0;                      // mJudged: number of moments in motion
     std::optional<double> mMovingPsnr, mMovingTruePsnr, mNowPsnr, mOnePsnr, mTenPsnr;
-    std::optional<double> mOneOfPair, mTenOfPair;  // for media: compared with the exact pair as in flight
-    int mTruthRays = 0;                            // rays per pixel, for pictures at rest
+    std::optional<double> mOneOfPair, mTenOfPair;  // PSNR in dB, media only: against the exact pair
+    int mTruthRays = 0;                            // rays per pixel of the truths of pictures at rest
     double mTruthEffort = 1;                       // for media
 };
 

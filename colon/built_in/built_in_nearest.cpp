@@ -1,4 +1,4 @@
-// Which place of the built-in colon's axis is nearest.
+// Finds the nearest place on the axis of the built-in colon.
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <vector>

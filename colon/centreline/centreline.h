@@ -24,8 +24,9 @@ struct Centreline {
 struct CentrelineSetting {
     double spacing = 0.001;  // metres between points; more where they would be more than 50,000
     bool reversed = false;   // the ends were taken for each other: the whole line the other way round
-    // A piece of more voxels is searched in blocks of two along all axes, also where one is sampled more
-    // coarsely: that takes as long as there are blocks.
+    // Number of voxels above which a piece is searched in blocks of two voxels along all axes, also along
+    // axes that are sampled more coarsely than others. The search takes time in proportion to the number of
+    // blocks.
     std::size_t mostUneven = 50'000'000;
 };
 

@@ -10,9 +10,9 @@
 
 namespace stereonav {
 
-// Returns voxels, each a neighbour of the one before it (engine/volume/voxel_path.h), one or more; which end
-// comes first is not said. mostUneven: CentrelineSetting's. poll: called now and then; may throw. Throws
-// Error when the piece has no voxel.
+// Returns a path of one or more voxels, each a neighbour of the one before it (engine/volume/voxel_path.h);
+// it may begin at either end. mostUneven: CentrelineSetting::mostUneven. poll: called now and then; may
+// throw. Throws Error when the piece has no voxel.
 std::vector<glm::ivec3> roughCentreline(const LumenField& lumen, int segment, const DistanceVolume& distance,
                                         std::size_t mostUneven, const std::function<void()>& poll);
 

@@ -32,7 +32,7 @@ LumenProbe::LumenProbe(const LumenField& lumen, const DistanceVolume& distance, 
 bool LumenProbe::locate(const glm::dvec3& world, Cell& cell) const {
     const VolumeFrame& frame = mLumen.lumen.frame;
     const glm::dvec3 v = frame.voxelFromWorld(world), low = glm::floor(v);
-    // A voxel centre seen through world space and back may miss its place by a rounding.
+    // Rounding may move a voxel's centre off its place when it is converted to the world and back.
     constexpr double kSlack = 1e-6;
     for (int axis = 0; axis < 3; ++axis)
         if (!(v[axis] >= -kSlack && v[axis] <= frame.size[axis] - 1 + kSlack)) return false;
@@ -55,7 +55,8 @@ bool LumenProbe::inside(const glm::dvec3& world) const {
 
 bool LumenProbe::lineInside(const glm::dvec3& a, const glm::dvec3& b) const {
     const double length = glm::length(b - a);
-    // Nothing within the line's reach has a corner outside. Half a spacing: what interpolation may overrate.
+    // If the wall is this far away, all cells on the line lie inside. The half spacing allows for errors of
+    // the interpolated distance.
     if (distance(a) > length + mDiagonal + 0.5 * mSmallest) return inside(a);
     const int pieces = static_cast<int>(std::min(std::ceil(length / (0.25 * mSmallest)), 1e6));
     for (int n = 0; n <= pieces; ++n)

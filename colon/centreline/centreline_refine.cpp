@@ -96,7 +96,7 @@ Points centredAll(const LumenProbe& probe, const Points& points, double spacing)
     return moved;
 }
 
-// How a sequence goes on beyond its ends.
+// Continuation of a sequence beyond its ends.
 enum class Beyond {
     Turned,    // turned about the end: ends of a line and their directions stay where they are
     Mirrored,  // for displacements: the ends are smoothed like the rest

@@ -31,8 +31,8 @@ struct ColonFlight::State {
     void substep(const FlightInput& wish, double h);
     void turn(const FlightInput& wish, double h);
     void turnTo(const FlightView& wanted);
-    // Turns to `next`. Where an eye comes too near to the wall the head gives way; returns false, with
-    // nothing changed, where it has no room to.
+    // Turns to `next`. Where an eye comes too near to the wall the head moves away; returns false, with
+    // nothing changed, where there is no room for that.
     bool turnPiece(const FlightView& next);
     void moveFree(const FlightInput& wish, double h);
     void moveGuided(const FlightInput& wish, double h);
@@ -40,22 +40,22 @@ struct ColonFlight::State {
     void followLine(const glm::dvec3& moved, double length);
     void jumpBetweenRuns(double forward);
     void startRun(std::size_t next, double s);
-    // Returns what the wall leaves of the move `by`. range: metres of room below which the wall slows the
-    // move and, if `pushes`, moves the viewer off.
+    // Returns the part of the move `by` that the wall permits. range: metres of room below which the wall
+    // slows the move and, if `pushes`, moves the viewer away.
     glm::dvec3 besideWall(const glm::dvec3& by, double range, bool pushes, double h);
     glm::dvec3 pushed(const glm::dvec3& wall, double length) const;
     // Returns the range of besideWall() in guided flight.
     double pushRange() const;
     // Returns whether the eyes have room all the way to the line's point at s.
     bool sees(double s) const;
-    // Sets run and s to the nearest place of the line that is seen. Returns false where none is seen, and
-    // sets the nearest unseen one.
+    // Sets run and s to the nearest place of the line that is visible. Returns false where none is, and sets
+    // the nearest one that is not.
     bool findOnLine();
     // Moves to a place with room near the wanted one. Returns false where there is none.
     bool findPlace(const glm::dvec3& wanted);
     bool findPlaceTowardsLine(const glm::dvec3& wanted);
     void rest();
-    double towards() const { return back ? -1.0 : 1.0; }  // along the line: the direction of `forward`
+    double towards() const { return back ? -1.0 : 1.0; }  // sign of `forward` along the line
     void turnRound();
     void stepRound(double h);
 
@@ -72,7 +72,7 @@ struct ColonFlight::State {
     std::size_t run = 0;                   // in guided flight: number of the run that the viewer is on
     double s = 0;                          // in guided flight: the viewer's place, metres along the line
     bool back = false;                     // whether a positive `forward` goes towards the line's start
-    double roundAngle = 0, roundTime = 0;  // turning round: radians in all, and seconds since its start
+    double roundAngle = 0, roundTime = 0;  // turning round: total radians; seconds since its start
 };
 
 }  // namespace stereonav

@@ -146,7 +146,8 @@ std::span<std::uint8_t> Coverage::seenOf(std::size_t firstChunk, std::size_t chu
     return std::span(mSeen).subspan(from, to - from);
 }
 
-// By parts of the wall rather than by poses: who looks at a part leaves out what he has seen already.
+// Pieces of work are parts of the wall, not poses: a process then leaves out what it has already seen of its
+// part.
 void Coverage::lookShared(std::span<const EyeView> eyes, Progress& progress) {
     const std::size_t each = std::clamp<std::size_t>(
         mChunks.size() / (kPiecesEach * static_cast<std::size_t>(mPeers->count())), 1, kMostInPiece);

@@ -1,10 +1,10 @@
-// Coverage: which part of a lumen's wall was on screen along a flight. What was missed is a list of patches,
-// each with a place to look at it from.
+// Coverage: the part of a lumen's wall that was on screen during a flight. Missed parts are listed as
+// patches, each with a pose from which it can be seen.
 //
-// A place of the wall counts as seen from a pose where it lies in the picture, no further than a set
-// distance, is met at no more than a set angle off its normal, and nothing is between. As Pickhardt, Taylor
-// and Gopal, "Surface visualization at 3D endoluminal CT colonography: degree of coverage and implications
-// for polyp detection", Gastroenterology 130 (2006); there distance and angle are not limited.
+// A place on the wall counts as seen from a pose if it lies in the picture, within a set distance and a set
+// angle off its normal, and nothing hides it. Like Pickhardt, Taylor and Gopal, "Surface visualization at 3D
+// endoluminal CT colonography: degree of coverage and implications for polyp detection", Gastroenterology 130
+// (2006), who do not limit distance and angle.
 #pragma once
 
 #include <cstdint>
@@ -25,53 +25,54 @@ class Peers;
 
 struct CoverageSetting {
     double verticalFov = 1.5707963267948966;  // radians, in (0, pi)
-    double aspect = 1;                        // width of the picture over its height, > 0
-    double within = 0.1;                      // metres from the eye at most, > 0
+    double aspect = 1;                        // width divided by height of the picture, > 0
+    double within = 0.1;                      // largest distance from the eye, metres, > 0
     double angle = 1.4835298641951802;        // radians, 85 degrees: off the wall's normal, in (0, pi / 2]
     double smallestPatch = 300e-6;            // square metres, >= 0
 };
 
-// A part of the wall that hangs together and was not seen.
+// A connected part of the wall that was not seen.
 struct UnseenPatch {
     double area = 0;                      // square metres
-    glm::dvec3 place{0.0};                // world, metres: on it, next to its middle
-    std::vector<std::uint32_t> vertices;  // numbers of the mesh's vertices, ascending
-    std::optional<Pose> view;             // shows it; none where there is no room for an eye
+    glm::dvec3 place{0.0};                // world, metres: on the patch, near its middle
+    std::vector<std::uint32_t> vertices;  // indices of the mesh's vertices, ascending
+    // A pose from which it is seen; empty where there is no room for an eye.
+    std::optional<Pose> view;
 };
 
 class Coverage {
 public:
-    // Returns the distance free of wall around a place, metres, at most upTo (ColonScene::freeDistanceAt).
+    // Returns the distance in metres from a place to the wall, at most upTo (ColonScene::freeDistanceAt).
     using FreeDistance = std::function<double(const glm::dvec3& world, double upTo)>;
 
-    // mesh, neighbours and sight must outlive the object. Nothing is seen yet. Throws Error for settings out
-    // of range.
+    // mesh, neighbours and sight must outlive this object. At first nothing is seen. Throws Error for
+    // settings out of range.
     Coverage(const WallMesh& mesh, const WallNeighbours& neighbours, const LineOfSight& sight,
              const CoverageSetting& setting);
 
-    // Adds what is seen from these, by the setting's field of view. The result depends neither on the number
-    // of threads nor on the order. Throws Cancelled.
+    // Adds the wall that is seen from these poses, with the setting's field of view. The result depends
+    // neither on the number of threads nor on the order. Throws Cancelled.
     void look(std::span<const Pose> poses, Progress& progress);
-    // Adds what is in these pictures.
+    // Adds the wall that is seen in these views.
     void look(std::span<const EyeView> eyes, Progress& progress);
-    // From here on the wall is shared with the other processes of this run, each of which calls look() as
-    // this one does; the first has what is seen, the others have nothing of use. peers must outlive the
-    // object.
+    // Shares the work with the other processes of this run, each of which must call look() as this one does;
+    // the first process has the result, the others have nothing of use. peers must outlive this object.
     void shareWith(Peers& peers) { mPeers = &peers; }
-    // Forgets all that was seen. Throws as the constructor.
+    // Forgets everything that was seen. Throws as the constructor.
     void startAgain(const CoverageSetting& setting);
 
-    double percent() const;  // 0 to 100 of the wall's area; 0 of a wall without area
+    double percent() const;  // percent of the wall's area; 0 for a wall without area
     const std::vector<std::uint8_t>& seen() const { return mSeen; }  // by vertex, 0 or 1
 
-    // Returns the patches of at least the set size, largest first, with their views. clearance: metres that
-    // the eye keeps.
+    // Returns the patches of at least the set size, largest first, with their poses. clearance: metres that
+    // the eye keeps from the wall.
     std::vector<UnseenPatch> patches(const FreeDistance& freeDistance, double clearance) const;
 
-    // Views of a patch at most in visit().
+    // Largest number of views of one patch in visit().
     static constexpr int kMostViews = 6;
-    // Looks at each of them, and at what is left of it while that is of the set size and a view shows more of
-    // it, at most kMostViews times each. clearance: metres. Returns the number of views. Throws Cancelled.
+    // Looks at each patch, and again at the rest of it as long as that has the set size and another view
+    // shows more of it, at most kMostViews times. clearance: metres. Returns the number of views. Throws
+    // Cancelled.
     int visit(const std::vector<UnseenPatch>& patches, const FreeDistance& freeDistance, double clearance,
               Progress& progress);
 
@@ -100,10 +101,10 @@ private:
     CoverageSetting mSetting;
     std::vector<Chunk> mChunks;
     std::vector<std::uint8_t> mSeen;
-    Peers* mPeers = nullptr;  // none: this process looks at all of it
+    Peers* mPeers = nullptr;  // null: this process does all the work
 };
 
-// Returns a mark by vertex: 1 where it was not seen, else 0.
+// Returns a mark for each vertex: 1 where it was not seen, else 0.
 std::vector<float> unseenMarks(const std::vector<std::uint8_t>& seen);
 
 }  // namespace stereonav

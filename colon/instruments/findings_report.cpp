@@ -50,7 +50,7 @@ ReportedFinding reportedOf(const Finding& finding, std::size_t number, const std
     return one;
 }
 
-// All that tells two reports apart.
+// Returns all in which two reports can differ, as text.
 std::string wordsOf(const StructuredReport& report) {
     std::string words = fmt::format("{} {} {} {} {} {}", report.study, report.software, report.date,
                                     report.time, report.notice, report.crads);

@@ -55,7 +55,7 @@ bool profileAt(const GreyVolume& study, const WallMesh& wall, std::size_t vertex
     constexpr int kEnd = kSteps / 5;
     double air = 0, tissue = 0;
     for (int n = 0; n < kEnd; ++n) {
-        // The highest of the air and the lowest of the tissue decide; NaN does as well.
+        // The largest value on the air side and the smallest on the tissue side decide; NaN fails too.
         if (!(profile[n] < kAir && profile[2 * kSteps - n] > kTissue)) return false;
         air += profile[n] / kEnd;
         tissue += profile[2 * kSteps - n] / kEnd;
@@ -126,7 +126,7 @@ std::optional<double> blurAcrossWall(const GreyVolume& study, const WallMesh& wa
         for (std::size_t p = 0; p < profiles.size(); ++p) values[p] = profiles[p][n];
         profile[n] = medianOf(values);
     }
-    double steepest = 0;  // a metre
+    double steepest = 0;  // steepest slope, per metre
     for (int n = 2; n <= 2 * kSteps - 2; ++n)
         steepest = std::max(steepest, (profile[n + 2] - profile[n - 2]) * kSteps / (4 * far));
     if (!(steepest > 0)) return std::nullopt;
@@ -146,7 +146,7 @@ std::optional<PolypValues> valuesInside(const GreyVolume& study, const WallMesh&
         lid += place / static_cast<double>(polyp.outline.size());
     }
     const double away = kBlurReaches * blur;
-    // A place inside is no further from its wall than this.
+    // Bound of the distance to the polyp's own wall from any place inside.
     const double margin = std::max({0.5 * glm::length(high - low), away});
     const NearWall near = wallAround(wall, polyp, low - margin, high + margin);
     glm::ivec3 first(study.frame.size), last(0);

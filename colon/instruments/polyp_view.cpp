@@ -12,7 +12,7 @@ Pose eyeBeside(const MeasuredPolyp& polyp, const LineOfSight& sight, double side
     const glm::dvec3 across = glm::normalize(glm::cross(polyp.outward, helper));
     const glm::dvec3 way = glm::normalize(polyp.outward + side * 0.7 * across);
     const double wanted = std::max(0.015, 2.5 * polyp.widest.length);
-    // From before its tip, not from inside of its flesh.
+    // The sight is tested from a place in front of the tip, since the polyp's middle is inside its flesh.
     const glm::dvec3 from = polyp.middle + (0.6 * polyp.widest.length + 0.001) * way;
     const double room = 0.85 * sight.reach(from, way, wanted);
     const glm::dvec3 eye = from + room * way, look = glm::normalize(polyp.middle - eye);

@@ -1,4 +1,4 @@
-// How a polyp is looked at: eyes beside it, and its longest diameter as it lies on its wall.
+// Views of a polyp: an eye beside it, and its longest diameter drawn on the wall.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,12 +10,13 @@
 
 namespace stereonav {
 
-// Returns eyes at the side of the polyp that the lumen is on, turned to one side of its axis (side: -1, 1; 0:
-// on it), with nothing between.
+// Returns a pose on the lumen's side of the polyp, turned to one side of its axis (side: -1, 1; 0: on the
+// axis), with free sight.
 Pose eyeBeside(const MeasuredPolyp& polyp, const LineOfSight& sight, double side);
 
-// Returns places of the lumen just before the wall, world, metres, above the way between the ends of the
-// longest diameter; isovalue: stored number, that of `sight`. Left out where the wall is not met.
+// Returns places in the lumen just before the wall, world, metres, above the straight line between the ends
+// of the longest diameter; isovalue: stored number, that of `sight`. Places where no wall is met are left
+// out.
 std::vector<glm::dvec3> widestOnWall(const MeasuredPolyp& polyp, const LineOfSight& sight, double isovalue);
 
 }  // namespace stereonav

@@ -1,8 +1,8 @@
-// Two studies of one colon, registered along their centrelines: to each place of one line the place of the
-// other that is the same anatomy. By length, radius, and how the line turns, with dynamic time warping (Sakoe
+// Registers two studies of one colon along their centrelines: finds for each place of one line the
+// anatomically equal place of the other, from length, radius and curvature, with dynamic time warping (Sakoe
 // and Chiba, "Dynamic programming algorithm optimization for spoken word recognition", IEEE Trans. ASSP 26
-// (1978), with slopes from a half to two); for colons as Nain et al., "Intra-patient prone to supine colon
-// registration for synchronized virtual colonoscopy", MICCAI 2002, who compare radii alone.
+// (1978), with slopes from a half to two). For colons see Nain et al., "Intra-patient prone to supine colon
+// registration for synchronized virtual colonoscopy", MICCAI 2002, who compare only radii.
 #pragma once
 
 #include <vector>
@@ -16,8 +16,8 @@ constexpr double kMostCostOfOneColon = 1;
 
 struct RegistrationSetting {
     double step = 0.003;    // metres between samples of a line, > 0
-    double smooth = 0.008;  // metres, sigma over which radii and places are smoothed first, > 0
-    double radius = 1;      // weight of a difference of radii by a factor e, each by its line's own mean
+    double smooth = 0.008;  // metres, > 0: sigma with which radii and places are smoothed first
+    double radius = 1;      // weight of a difference of radii by a factor e, each relative to its line's mean
     double direction = 2;   // weight of a difference of unit tangents, in the patient's axes
     double turn = 1;        // weight of a difference of curvatures times 2 cm
     double length = 30;     // weight of a difference of shares of the whole length
@@ -25,18 +25,17 @@ struct RegistrationSetting {
 
 class LineRegistration {
 public:
-    // Registers two lines, both from rectum to caecum, of two points at least. The same for the same lines.
-    // Throws Error.
+    // Registers two lines, both from rectum to caecum, with at least two points. Deterministic. Throws Error.
     LineRegistration(const Centreline& first, const Centreline& second,
                      const RegistrationSetting& setting = {});
 
-    // Returns the place of the second line, metres from its start, that belongs to this one of the first; and
-    // back. What is beyond an end counts as the end. Neither ever goes back where its argument goes on.
+    // Return the place on the second line, metres from its start, that corresponds to a place on the first,
+    // and the reverse. Places beyond an end count as the end. Both are monotonic.
     double toSecond(double along) const { return mapped(mPairs, along, false); }
     double toFirst(double along) const { return mapped(mPairs, along, true); }
-    // Returns the mean cost of a matched pair, 0 or more: lower is more alike; 0 of a line with itself.
+    // Returns the mean cost of a matched pair, 0 or more: the lower the more alike; 0 for a line with itself.
     double cost() const { return mCost; }
-    // Returns whether both lines may lead through one colon.
+    // Returns whether both lines can be of one colon.
     bool matches() const { return mCost <= kMostCostOfOneColon; }
 
 private:
@@ -49,8 +48,8 @@ private:
     double mCost = 0;  // mean cost of a pair
 };
 
-// Returns a place of a line, world, by metres from its start; its ends beyond them. The line has one point or
-// more.
+// Returns the place in the world at metres from a line's start, clamped to its ends. The line has at least
+// one point.
 glm::dvec3 placeAlong(const Centreline& line, double along);
 
 }  // namespace stereonav

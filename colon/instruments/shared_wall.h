@@ -1,4 +1,4 @@
-// The wall of a colon as triangles, made once for all instruments that measure on it at a time.
+// The wall of a colon as triangles, made once for all instruments that measure on it at the same time.
 #pragma once
 
 #include <memory>
@@ -17,14 +17,14 @@ struct JoinedWall {
 // Makes the wall of a colon. Throws as wallMesh().
 std::shared_ptr<const JoinedWall> joinedWall(const ColonScene& colon, Progress& progress);
 
-// Gives the wall to all who measure on it, on any number of threads: it lives as long as somebody holds it.
+// Gives the wall to all its users, on any number of threads: it lives as long as one of them holds it.
 class SharedWall {
 public:
     // colon must outlive the object.
     explicit SharedWall(const ColonScene& colon) : mColon(colon) {}
 
-    // Returns the wall, which is made where nobody has it; who asks meanwhile waits for that one. Throws as
-    // wallMesh().
+    // Returns the wall, and makes it where nobody holds it; other callers wait meanwhile for the same one.
+    // Throws as wallMesh().
     std::shared_ptr<const JoinedWall> get(Progress& progress) const;
 
 private:

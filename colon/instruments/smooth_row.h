@@ -1,12 +1,12 @@
-// A Gaussian over a row of numbers.
+// Smooths a row of numbers with a Gaussian.
 #pragma once
 
 #include <vector>
 
 namespace stereonav {
 
-// Smooths a row. sigma: in steps of the row, >= 0. Beyond the ends of an open row the last values count on; a
-// closed row goes on at its start.
+// Smooths a row. sigma: in steps of the row, >= 0. An open row is continued beyond its ends with the last
+// values; a closed row continues at its start.
 void smoothRow(std::vector<double>& row, double sigma, bool closed);
 
 }  // namespace stereonav

@@ -104,8 +104,8 @@ void UnfoldedWall::placeAround(Progress& progress) {
     progress.report(1, kUnfolding);
 }
 
-// Where the wall of the line's ends closes, much of it has the same number along the line: there columns take
-// less of the line, so that none is higher than those between the ends.
+// At the line's ends the closing wall has almost the same place along the line. There a column covers less of
+// the line, so that it is not higher than the columns between the ends.
 void UnfoldedWall::makeColumns() {
     const auto [least, most] = std::minmax_element(mAlong.begin(), mAlong.end());
     mFirst = *least;
@@ -150,7 +150,8 @@ double UnfoldedWall::alongAt(double column) const {
     return mFirst + (static_cast<double>(n) + std::clamp(t, 0.0, 1.0)) * kColumnStep;
 }
 
-// How tall each column is, and which share of it lies before each angle: by the area of wall around there.
+// Computes the height of each column, and the share of its wall before each angle, from the area of wall
+// around there.
 void UnfoldedWall::makeEqual() {
     checkMemory("unfold", static_cast<double>(mWidth) * (kTurns + 1) * 4 * sizeof(double),
                 "use larger pixels");

@@ -28,16 +28,17 @@
 namespace stereonav {
 
 struct UnfoldSetting {
-    double pixel = 0.0005;  // metres, > 0: of the wall, the side of a pixel
-    double even = 0.005;    // metres, > 0, over which areas are made equal
-    double stiff = 0.003;   // metres, >= 0, over which numbers along and around the line are smoothed
+    double pixel = 0.0005;  // metres, > 0: side of a pixel on the wall
+    double even = 0.005;    // metres, > 0: distance over which areas are equalised
+    // Metres, >= 0: distance over which coordinates along and around the line are smoothed.
+    double stiff = 0.003;
 };
 
 class UnfoldedWall {
 public:
     static constexpr std::uint32_t kNone = 0xFFFFFFFF;  // no vertex
 
-    // mesh and neighbours must outlive the object. Column 0 is the rectum's end. The result does not depend
+    // mesh and neighbours must outlive this object. Column 0 is the rectum's end. The result does not depend
     // on the number of threads. Throws Error (no wall, no line, too large a picture), Cancelled.
     UnfoldedWall(const WallMesh& mesh, const WallNeighbours& neighbours, const Centreline& line,
                  const LineOfSight& sight, const UnfoldSetting& setting, Progress& progress);
@@ -45,47 +46,46 @@ public:
     int width() const { return mWidth; }  // pixels
     int height() const { return mHeight; }
     double pixel() const { return mSetting.pixel; }  // metres
-    // Returns the vertex that is next to what a pixel shows; kNone beside the wall.
+    // Returns the vertex nearest to the place that a pixel shows; kNone where it shows no wall.
     std::uint32_t vertexAt(int x, int y) const { return mVertex[static_cast<std::size_t>(y) * mWidth + x]; }
-    // Returns the place of the wall that a pixel shows: world, metres; nothing beside it, or outside the
-    // picture.
+    // Returns the place on the wall that a pixel shows: world, metres; empty where it shows none, or outside
+    // the picture.
     std::optional<glm::dvec3> placeAt(int x, int y) const;
-    // Returns where a vertex lies in the picture, pixels, also where another one hides it.
+    // Returns the position of a vertex in the picture, pixels, even where another vertex hides it.
     glm::dvec2 pixelOf(std::uint32_t vertex) const;
-    // Returns whether the picture shows wall further off than `within` metres at that place.
+    // Returns whether the picture shows other wall there: farther away than `within` metres from the vertex.
     bool hidden(std::uint32_t vertex, double within) const;
-    // Returns the share of the wall's area that is hidden so, 0 to 1.
+    // Returns the share of the wall's area that is hidden in this sense, 0 to 1.
     double hiddenShare(double within) const;
 
-    // Returns metres along the line at a column, and back; the line goes on straight beyond its ends, where
-    // numbers are negative or larger than its length. Columns are evenly spaced along the line but where more
-    // wall lies than columns are high: at its ends.
+    // Return metres along the line at a column, and the reverse. The line continues straight beyond its ends,
+    // where the metres are negative or larger than its length. Columns are evenly spaced along the line,
+    // except at its ends, where more wall lies than the columns' height can show.
     double alongAt(double column) const;
     double columnAt(double along) const;
 
-    // Vertices that are tinted.
+    // Vertices to tint.
     struct Mark {
         std::span<const std::uint32_t> vertices;  // ascending
         glm::vec3 color{1};                       // linear RGB
     };
-    // Returns the wall under the lamp of a viewer on the centreline, white beside the wall. Below it a mark
-    // every centimetre of the line, a long one every ten, and the outline of a square of one centimetre's
-    // side.
+    // Returns the wall under the lamp of a viewer on the centreline; white where there is no wall. Below it
+    // is a mark at every centimetre of the line, a long one at every tenth, and the outline of a square with
+    // sides of one centimetre.
     Plane<PackedColor> picture(const VolumeLook& look, std::span<const Mark> marks) const;
-    // Returns how much of the picture a piece of wall takes, over squares of a centimetre: grey where it is
-    // its area, red twice as much and more, blue half and less.
+    // Returns the enlargement of the wall in the picture, in squares of a centimetre: grey where areas are
+    // true, red where they are doubled or more, blue where halved or less.
     Plane<PackedColor> distortionMap() const;
 
-    // The error of areas of wall in squares of a centimetre that lie within the picture, relative to the true
-    // ones.
+    // Relative errors of the wall's areas in the squares of a centimetre inside the picture.
     struct AreaError {
-        double mean = 0, most95 = 0;  // shares, 0: none; 95 of 100 squares are off by no more
+        double mean = 0, most95 = 0;  // shares, 0: none; most95: 95 of 100 squares have no larger error
         int squares = 0;
     };
     AreaError areaError() const;
 
-    // How a polyp is shown: the share of its head's area that is not hidden, 0 to 1, the picture's area over
-    // its own, and in how many pieces (of a tenth of its pixels at least).
+    // How a polyp shows: the share of its head's area that is not hidden, 0 to 1; its area in the picture
+    // over its true area; and the number of pieces (with at least a tenth of its pixels).
     struct Shown {
         double share = 0, area = 0;
         int pieces = 0;
@@ -110,13 +110,13 @@ private:
     UnfoldingLine mLine;
     std::vector<float> mAlong;        // by vertex, metres
     std::vector<float> mTurn, mAway;  // radians; metres from the line
-    double mFirst = 0;                // metres along the line where the columns start
-    std::vector<double> mColumns;     // by steps of the line: where they lie, pixels, ascending
-    std::vector<float> mTall;         // by column: pixels of wall
-    std::vector<float> mShare;        // by column and turn: of the wall's area before that turn
+    double mFirst = 0;                // metres along the line at the first column
+    std::vector<double> mColumns;     // by step along the line: its column, ascending
+    std::vector<float> mTall;         // by column: height of the wall in pixels
+    std::vector<float> mShare;        // by column and turn: share of the wall's area up to that turn
     int mWidth = 0, mHeight = 0;
     std::vector<std::uint32_t> mVertex;        // by pixel
-    std::vector<float> mNear;                  // by pixel: of what it shows, metres from the line
+    std::vector<float> mNear;                  // by pixel: distance of the shown wall from the line, metres
     std::vector<glm::vec3> mPlaces, mNormals;  // by pixel
 };
 

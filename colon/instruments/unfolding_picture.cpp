@@ -1,4 +1,4 @@
-// The unfolded wall as pictures: lit, and how true its areas are; how polyps are shown in it.
+// Pictures of the unfolded wall: lit, and as a map of its distortion; and how polyps show in it.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -29,14 +29,14 @@ Plane<PackedColor> UnfoldedWall::picture(const VolumeLook& look, std::span<const
             const std::size_t at = static_cast<std::size_t>(y) * mWidth + x;
             const glm::dvec3 eye = mLine.at(alongAt(x)).place, place(mPlaces[at]);
             glm::dvec3 normal(glm::normalize(mNormals[at]));
-            // What turns away from the line, behind folds and thin flesh, is seen here too: from its own
-            // side.
+            // Wall that faces away from the line, behind folds and thin flesh, is shown here too: it is lit
+            // from its own side.
             if (glm::dot(normal, eye - place) < 0) normal = -normal;
             picture.at(x, y) =
                 packColor(glm::vec3(shadePlain(look, place, normal, eye, eye, glm::dvec3(look.surface))));
         }
     });
-    // Outlines two pixels wide: what is marked and lies next to what is not.
+    // Outlines two pixels wide: marked pixels beside unmarked ones.
     for (const Mark& mark : marks) {
         const auto has = [&](int x, int y) {
             return x >= 0 && y >= 0 && x < mWidth && y < mHeight && vertexAt(x, y) != kNone &&
@@ -67,8 +67,8 @@ Plane<PackedColor> UnfoldedWall::picture(const VolumeLook& look, std::span<const
     return picture;
 }
 
-// Returns, by square of `side` pixels, the area of the wall in it divided by its own; -1 where it is not all
-// within the picture.
+// Returns for each square of `side` pixels the area of the wall shown in it, divided by the square's own
+// area; -1 where the square is not completely inside the picture.
 std::vector<float> UnfoldedWall::densities(int side) const {
     const int columns = mWidth / side, rows = mHeight / side;
     std::vector<float> density(static_cast<std::size_t>(columns) * rows, 0);
@@ -120,7 +120,7 @@ Plane<PackedColor> UnfoldedWall::distortionMap() const {
                                    : -1;
             glm::vec3 color(1);
             if (here >= 0) {
-                // Less wall than its own area: it is drawn larger than it is.
+                // A square that shows less wall than its own area enlarges it.
                 const float larger = glm::clamp(-std::log2(std::max(here, 1e-3f)), -1.0f, 1.0f);
                 const glm::vec3 grey(0.4f), red(0.8f, 0.05f, 0.02f), blue(0.02f, 0.08f, 0.8f);
                 color = glm::mix(grey, larger > 0 ? red : blue, std::abs(larger));
@@ -153,7 +153,7 @@ UnfoldedWall::Shown UnfoldedWall::shown(const MeasuredPolyp& polyp) const {
     if (!(all > 0)) return result;
     result.share = seen / all;
     result.area = static_cast<double>(pixels.size()) * mSetting.pixel * mSetting.pixel / all;
-    // What is cut by the picture's upper edge goes on at its lower one.
+    // A head that is cut by the picture's upper edge continues at its lower edge.
     const auto joined = [&](const std::pair<int, int>& a, const std::pair<int, int>& b) {
         const int dx = std::abs(a.first - b.first), dy = std::abs(a.second - b.second);
         return dx <= 2 && (dy <= 2 || std::abs(dy - mTall[a.first]) <= 4);

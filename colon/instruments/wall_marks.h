@@ -1,5 +1,5 @@
-// Marks on a wall, from 0 to 1, looked up at places of it: what was seen, what was under fluid. One for each
-// cell of voxels that holds a vertex of the wall's mesh, in bricks of 8 x 8 x 8 cells.
+// Marks on a wall, 0 to 1, by place: what was seen, or was under fluid. Each cell of voxels that contains a
+// vertex of the wall's mesh has one; cells are stored in bricks of 8 x 8 x 8.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@ namespace stereonav {
 
 class WallMarks {
 public:
-    // frame: that of the volume whose wall the mesh is. byVertex: one mark for each vertex, cut off to 0 to
-    // 1. Throws Error where there is not enough memory.
+    // frame: of the volume whose wall the mesh is. byVertex: one mark for each vertex, clamped to 0 to 1.
+    // Throws Error where there is not enough memory.
     WallMarks(const WallMesh& mesh, const VolumeFrame& frame, const std::vector<float>& byVertex);
 
-    // Returns the mark between those of the cells around a place (trilinear, of those that hold wall), world,
-    // metres; to 1/254. Less than 0 where there is no wall within a cell. From many threads.
+    // Returns the mark at a place in the world, metres, with a precision of 1/254: trilinear between the
+    // cells around that contain wall. Less than 0 where there is no wall within a cell. From many threads.
     float at(const glm::dvec3& world) const;
 
 private:
@@ -29,11 +29,12 @@ private:
 
     VolumeFrame mFrame;
     glm::ivec3 mCount{0};                 // bricks
-    std::vector<std::uint32_t> mNumbers;  // by brick: of mBricks, from 1; 0: no wall
+    std::vector<std::uint32_t> mNumbers;  // by brick: index into mBricks plus 1; 0: no wall
     std::vector<Brick> mBricks;
 };
 
-// Returns the mean over each vertex and those next to it, `rounds` times, so that marks end softly.
+// Returns the mean over each vertex and its neighbours, repeated `rounds` times, so that marks have soft
+// borders.
 std::vector<float> softened(const WallNeighbours& neighbours, std::vector<float> marks, int rounds);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// Tints a lumen's wall where it is marked, in finished pictures.
+// Tints a lumen's wall in finished pictures, where the wall is marked.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@ namespace stereonav {
 
 class WallPainter final : public EyePainter {
 public:
-    // tint: linear RGB of a fully marked white wall; the wall's light and shade stay. Marks are drawn from
-    // 0.35 on, in full from 0.65.
+    // tint: linear RGB of a white wall with mark 1; light and shade of the wall stay. The tint begins at mark
+    // 0.35 and is full from 0.65 on.
     WallPainter(std::shared_ptr<const WallMarks> marks, const glm::vec3& tint)
         : mMarks(std::move(marks)), mTint(tint) {}
 
@@ -26,10 +26,10 @@ private:
     glm::vec3 mTint;  // linear RGB
 };
 
-// Tints of what was not seen, and of what was under fluid: linear RGB, factors on luminance.
+// Tints of unseen wall and of wall under fluid: linear RGB, factors on luminance.
 inline const glm::vec3 kUnseenTint(0.1f, 0.55f, 2.6f), kFluidTint(0.1f, 1.5f, 0.25f);
 
-// Returns a painter of marks by vertex, 0 to 1, softened at their borders.
+// Returns a painter of marks that are given by vertex, 0 to 1, with softened borders.
 std::shared_ptr<const EyePainter> wallPainter(const WallMesh& wall, const WallNeighbours& neighbours,
                                               const VolumeFrame& frame, std::vector<float> marks,
                                               const glm::vec3& tint);

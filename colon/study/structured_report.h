@@ -33,7 +33,7 @@ struct StructuredReport {
     std::string series, document, device;  // UIDs: the report's own series, its own, the program's
     std::string software;                  // name and version
     std::string date, time;                // when the report was made: "20261125", "134500"
-    std::string notice;                    // what is said above all
+    std::string notice;                    // notice at the top of the report
     int crads = 0;                         // C-RADS class by size and count alone, 1 to 4
     std::vector<ReportedFinding> findings;
 };

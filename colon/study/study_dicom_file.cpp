@@ -28,7 +28,7 @@ constexpr std::size_t kMostItems = 1'000'000;    // items of sequences that a st
 constexpr std::size_t kTellEach = 64 << 20;      // bytes that are unpacked between two looks for a stop
 // Bytes of a data set of the deflated syntax.
 constexpr std::uint64_t kFirstDeflated = 1 << 20, kMostDeflatedHead = 64 << 20, kMostDeflated = 1 << 30;
-constexpr double kMostSpare = 1 << 20;  // bytes of its pixels that no row or frame has
+constexpr double kMostSpare = 1 << 20;  // bytes: largest remainder of the pixels beyond their rows and frames
 constexpr const char *kImplicit = "1.2.840.10008.1.2", *kDeflated = "1.2.840.10008.1.2.1.99",
                      *kBigEndian = "1.2.840.10008.1.2.2", *kDirectory = "1.2.840.10008.1.3.10";
 
@@ -44,7 +44,7 @@ bool isKept(std::uint32_t tag) {
     return std::binary_search(std::begin(kKept), std::end(kKept), tag);
 }
 
-// Sequences by their tags, for syntaxes that do not say it.
+// Returns whether the element is a sequence, by its tag, for syntaxes that do not state the type.
 bool isSequence(std::uint32_t tag) {
     return tag == 0x52009229 || tag == 0x52009230 || tag == 0x00209113 || tag == 0x00209116 ||
            tag == 0x00283000 || tag == 0x00289110 || tag == 0x00289145;
@@ -73,7 +73,7 @@ struct Fault {
     std::string clause;
 };
 
-// A stream without a head of its own, unpacked as far as it is wanted.
+// Unpacks a deflate stream without a header, as far as its bytes are needed.
 class Inflater {
 public:
     Inflater(const unsigned char* data, std::uint64_t size) : mData(data), mLeft(size) {
@@ -83,7 +83,7 @@ public:
     Inflater(const Inflater&) = delete;
     Inflater& operator=(const Inflater&) = delete;
 
-    // Adds to what it gave before until there are `bytes` bytes, or it gives no more.
+    // Unpacks more bytes until there are `bytes` bytes, or the stream ends.
     void fill(std::vector<unsigned char>& to, std::uint64_t bytes) {
         std::uint64_t at = to.size();
         to.resize(bytes);
@@ -295,7 +295,7 @@ private:
     const unsigned char* mData;
     bool mExplicit, mBig;
     std::size_t mItems = 0;
-    std::optional<std::uint64_t> mPadding;  // where zeros begin that reach to the end
+    std::optional<std::uint64_t> mPadding;  // start of the zeros that reach to the end
 };
 
 int DicomFile::word(std::uint32_t tag, int otherwise) const {
@@ -340,7 +340,7 @@ void DicomFile::readHead(const fs::path& file) {
     mBig = mSyntax == kBigEndian;
 }
 
-// Returns the bytes of the pixels by what the elements before them say.
+// Returns the number of bytes of the pixels, computed from the elements before them.
 double DicomFile::pixelBytes() const {
     const std::uint64_t columns = word(0x00280011, 0), rows = word(0x00280010, 0);
     const std::uint64_t samples = word(0x00280002, 1), bits = word(0x00280100, 16);
@@ -355,8 +355,9 @@ std::string DicomFile::tooManyPixels(std::uint64_t said) const {
                        word(0x00280011, 0), word(0x00280010, 0), pixelBytes());
 }
 
-// How far the data set of the deflated syntax is wanted, by so much of it as is unpacked: to the end of its
-// pixels, or to twice as much where these have not begun. None, and mDamage, where it can be no picture.
+// Returns how many bytes of a deflated data set to unpack, decided from the bytes unpacked so far: to the end
+// of its pixels, or twice as many where these have not begun. Empty, with mDamage set, where it can be no
+// picture.
 std::optional<std::uint64_t> DicomFile::wantedOf() {
     mSet = {};
     mPixels = {};
@@ -379,7 +380,7 @@ std::optional<std::uint64_t> DicomFile::wantedOf() {
     return std::nullopt;
 }
 
-// The data set of the deflated syntax. What stands behind the pixels is left packed.
+// Unpacks a data set of the deflated syntax, as far as the end of its pixels.
 void DicomFile::unpack(const fs::path& file) {
     Inflater stream(mData + mStart, mSize - mStart);
     std::optional<std::uint64_t> wanted = kFirstDeflated;
@@ -406,7 +407,7 @@ DicomFile::DicomFile(const fs::path& file) : mFile(file), mData(mFile.data()), m
         if (isDirectory()) return;
         if (mSyntax == kDeflated) unpack(file);
     } else {
-        // Without a head, as before 1993: group 8 first, and no mistake in all of it.
+        // A file without a head, as before 1993: it begins with group 8, and no element in it is faulty.
         if (mSize < 16 || mData[0] != 8 || mData[1] != 0 || mData[3] != 0) return;
         const char* kind = reinterpret_cast<const char*>(mData + 4);
         mExplicit = isShortKind(kind) || isLongKind(kind);

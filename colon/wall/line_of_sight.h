@@ -1,4 +1,4 @@
-// Whether two places of a lumen see each other: straight lines against the wall, one at a time.
+// Visibility between two places of a lumen: tests single straight lines against the wall.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,19 +8,19 @@
 
 namespace stereonav {
 
-// The volume and its cells must outlive the object; safe to use from many threads.
+// The volume and its cells must outlive this object; it may be used by many threads.
 class LineOfSight {
 public:
-    // The wall is where the trilinear value of `field` reaches `isovalue` (stored numbers); `cells` are those
-    // of that surface or of more.
+    // The wall is where the trilinear value of `field` reaches `isovalue` (stored numbers). cells: contain at
+    // least all cells of that surface.
     LineOfSight(const GreyVolume& field, const SurfaceCells& cells, double isovalue);
 
-    // Returns whether no wall is on the way, both ends included, however thin. World, metres. Returns false
-    // where either end is outside the volume.
+    // Returns whether there is no wall, however thin, between two places, including both. World, metres.
+    // False where either place is outside the volume.
     bool clear(const glm::dvec3& from, const glm::dvec3& to) const;
 
-    // Returns how far a line from `from` (in the lumen) gets towards `direction` (unit) before it meets wall,
-    // metres; `upTo` where it meets none before; 0 where it starts in the wall.
+    // Returns the distance in metres from `from` (in the lumen) to the first wall in a unit direction; `upTo`
+    // where there is none before; 0 where it starts in the wall.
     double reach(const glm::dvec3& from, const glm::dvec3& direction, double upTo) const;
 
     double smallestSpacing() const { return mSmallest; }  // metres

@@ -1,5 +1,5 @@
-// Files that are never half-written: the content goes beside its place and is renamed into it. All that the
-// program writes goes through here.
+// Files that are never half-written: the content is written beside its final path and renamed into it. The
+// program writes all its files through here.
 #pragma once
 
 #include <filesystem>
@@ -11,48 +11,49 @@
 
 namespace stereonav {
 
-// Throws Error where there is something else than a file: a folder, or a pipe or device, of which nobody
-// knows whether anything comes out of it. What is not there passes: the reader says so.
+// Throws Error where the path is a folder, or a pipe or device, from which data may never come. A missing
+// file passes: its reader reports that.
 void checkFileToRead(const std::filesystem::path& path);
-// Returns what a place is in a word for messages: "a folder", "a pipe"...
+// Returns the kind of a path in words for messages: "a folder", "a pipe"...
 std::string kindOfFile(const std::filesystem::path& path);
 
-// Returns whether the file's name begins with a dot. In a folder such files are other programs' own, as
-// macOS's ._NAME beside NAME: no reader of folders takes them for data.
+// Returns whether the file's name begins with a dot. Readers of folders do not take such files for data: they
+// belong to other programs, such as macOS's ._NAME beside NAME.
 bool isHiddenFile(const std::filesystem::path& path);
 
-// Returns the whole content, byte for byte. Throws Error naming the path when it can not be read, is no file,
-// or is more than there is memory.
+// Returns the whole content, byte for byte. Throws Error that names the path where it can not be read, is no
+// file, or is larger than the available memory.
 std::string readTextFile(const std::filesystem::path& path);
 
-// Returns whether the path is "-", or a name that the system has for standard output, as /dev/stdout.
+// Returns whether the path is "-", or one of the system's names for standard output, such as /dev/stdout.
 bool isStandardOutput(const std::filesystem::path& path);
 
-// Throws Error naming the path, the folder that is missing or can not be written, or what else is in the way.
-// Tries for real whether a file can be made, leaves nothing.
+// Throws Error where no file can be made at this path; it names the path, and the folder or other obstacle.
+// Tests by making a file, and removes it.
 void checkPlaceForFile(const std::filesystem::path& path);
 
-// Throws Error where the place is a file that this run has read (files_read.h): it would be lost.
+// Throws Error where the path is a file that this run has read (files_read.h) and would destroy.
 void checkIsNoInput(const std::filesystem::path& place);
 
-// Which existing files a new file may replace. Anything is for files of our own that a run reads and goes on
-// with; what lies in cacheFolder() is such.
+// Existing files that a new file may replace: NothingRead: none that this run has read. Anything: for the
+// program's own files, which a run reads and then continues, such as those in cacheFolder().
 enum class Over { NothingRead, Anything };
-// Whether a file is put in its place when it is on the disk, or when the system has it: where there are many,
-// waiting for each takes longer than making it, and all are made again after a power cut.
+// When a file is put in its place: after it has reached the disk, or after the system has it. The second is
+// for many files: waiting for the disk would take longer than making them, and after a power cut they are all
+// made again.
 enum class Flush { ToDisk, ToSystem };
-// Who may read a new file. UserAlone is for what the program keeps (own_folder.h): a link in its place is
-// replaced, and so are the permissions of before. What lies in cacheFolder() is such.
+// Users who may read a new file. UserAlone is for files that the program keeps (own_folder.h), such as those
+// in cacheFolder(): a link in their place is replaced, and former permissions are not kept.
 enum class Readers { AsUsual, UserAlone };
 
-// A file that is made under another name of the same extension, temporary(), until finish() puts it into its
-// place. The temporary is there from the start, empty, under a name that nobody can foresee, and until the
-// end nobody else may read it. What the place is:
-// - a file, or nothing yet in a folder that is there: the temporary lies beside it and is renamed into it,
-//   with the permissions of the one it replaces;
-// - a link: the same for what it points to;
+// A file that is written under another name with the same extension, temporary(), until finish() moves it to
+// its place. The temporary exists from the start, empty, under an unpredictable name, and only this user may
+// read it until the end. How it gets to its place depends on what the place is:
+// - a file, or nothing yet in an existing folder: the temporary lies beside it and is renamed into it,
+//   with the permissions of the file that it replaces;
+// - a link: the same for the link's target;
 // - a pipe, a device or standard output: the bytes are written into it at the end.
-// A missing folder is an error, but for cacheFolder(), which is made; so is a file that this run has read.
+// A missing folder is an error, except cacheFolder(), which is made; so is a file that this run has read.
 class PendingFile {
 public:
     // Throws Error, as checkPlaceForFile() does.
@@ -63,23 +64,23 @@ public:
     PendingFile& operator=(const PendingFile&) = delete;
 
     const std::filesystem::path& temporary() const { return mTemporary; }
-    // Throws Error where the temporary is gone, or it does not get into its place.
+    // Throws Error where the temporary is gone, or can not be moved to its place.
     void finish(Flush flush = Flush::ToDisk);
 
 private:
     void checkNotRead() const;
-    void intoPlace();              // copies into a stream
-    unsigned modeInPlace() const;  // permissions
+    void intoPlace();              // copies into a pipe, a device or standard output
+    unsigned modeInPlace() const;  // permissions of the file in the place
 
     std::filesystem::path mPlace, mTarget, mTemporary;
-    std::filesystem::path mOwnFolder;  // where a stream's temporary lies; "" where it lies beside its place
+    std::filesystem::path mOwnFolder;  // folder of the temporary of a pipe or device; else ""
     Over mOver;
     Readers mReaders;
     std::optional<UnfinishedFile> mUnfinished, mUnfinishedFolder;
 };
 
-// Calls write(temporary) with the temporary of a PendingFile, then finishes it. On any exception the place is
-// as it was. Throws Error when it can not be written, or nothing was.
+// Calls write(temporary) with the temporary of a PendingFile, then finishes it. On any exception the place
+// stays as it was. Throws Error where it can not be written, or `write` wrote nothing.
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path&)>& write,
                          Over over = Over::NothingRead);
@@ -88,8 +89,9 @@ void writeFileAtomically(const std::filesystem::path& path,
 void writeTextFile(const std::filesystem::path& path, const std::string& content, Flush flush = Flush::ToDisk,
                    Over over = Over::NothingRead);
 
-// Where computed things are kept between runs: $XDG_CACHE_HOME/stereonav or ~/.cache/stereonav, for the user
-// alone. Throws Error where the folder there is another user's (own_folder.h).
+// Returns the folder for computed data that are kept between runs: $XDG_CACHE_HOME/stereonav or
+// ~/.cache/stereonav, readable only for the user. Throws Error where the folder belongs to another user
+// (own_folder.h).
 std::filesystem::path cacheFolder();
 
 }  // namespace stereonav

@@ -25,7 +25,7 @@ struct FilesRead {
 
 void noteFileRead(int file) {
     struct stat is {};
-    const int before = errno;  // the caller's callers look at it
+    const int before = errno;  // the library that opened the file may still read errno
     if (fstat(file, &is) == 0 && S_ISREG(is.st_mode)) {
         FilesRead& all = FilesRead::instance();
         const std::lock_guard lock(all.mutex);

@@ -1,10 +1,10 @@
-// Memory that was freed.
+// Returns freed memory to the system.
 #pragma once
 
 namespace stereonav {
 
-// Gives freed memory back to the system. The C library otherwise keeps most of it, for each thread its own,
-// for what is asked for next.
+// Gives freed memory back to the system. The C library otherwise keeps most of it for later requests,
+// separately for each thread.
 void giveBackFreeMemory();
 
 }  // namespace stereonav

@@ -10,8 +10,7 @@ namespace stereonav {
 
 class Hash {
 public:
-    // Hashes these bytes after all that came before. The other overloads add the bytes of text or of the
-    // number.
+    // Hashes these bytes after all earlier ones. The other overloads add the bytes of a text or of a number.
     Hash& add(const void* data, std::size_t bytes);
     Hash& add(std::string_view text) { return add(text.data(), text.size()); }
     Hash& add(double value) { return add(&value, sizeof value); }

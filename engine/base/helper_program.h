@@ -1,13 +1,13 @@
-// A part of the program that runs as a process of its own, lib/stereonav/stereonav_<name>. What a library
-// does over damaged data (it ends, prints, takes memory or time without end, does what a stranger wants)
-// stays in there.
+// A part of the program that runs in a process of its own, lib/stereonav/stereonav_<name>. A library that is
+// given damaged or malicious data may crash, print, take memory or time without end, or run foreign code; in
+// a helper that does not reach the program.
 //
 //   program    HelperProgram helper("gdcm", "to unpack DICOM pictures");  helper.ask(request, limits)
 //   helper     int main() { return serveRequests([](std::string_view request) { ... }); }
 //
-// The helper's side is engine/helper/serve_requests.h. Both are of one build and on one machine, so that
-// requests and answers may be structures as they lie in memory; each field of an answer is checked all the
-// same.
+// The helper's side is engine/helper/serve_requests.h. Both sides are of one build and run on one machine, so
+// that requests and answers may be structures as they lie in memory; each field of an answer is checked all
+// the same.
 #pragma once
 
 #include <chrono>
@@ -21,31 +21,32 @@
 
 namespace stereonav {
 
-// Limits of one request. Sanitized builds take memory as they like.
+// Limits of one request. In sanitized builds the memory limit does not hold: they take memory as they like.
 struct HelperLimits {
     std::uint64_t answer = 0;                                 // bytes; a longer one counts as Ended
     std::uint64_t memory = std::uint64_t{1} << 30;            // bytes, beyond those that it has
     std::chrono::seconds work{60};                            // processor time
     std::chrono::milliseconds wait{std::chrono::minutes(5)};  // by the clock
 };
-// Returns the limits for a picture of `pixels` pixels in a file of `packed` bytes: far more than a sound one
-// needs.
+// Returns the limits for a picture of `pixels` pixels in a file of `packed` bytes: far more than an undamaged
+// one needs.
 HelperLimits limitsForPicture(std::uint64_t pixels, std::uint64_t packed, std::uint64_t answer);
-// Lets no answer be waited for longer than this from now on, whatever the limits say; for tests.
+// Sets the longest time that any answer is waited for from now on, whatever HelperLimits say; for tests.
 void waitForHelpersAtMost(std::chrono::milliseconds longest);
 
 class HelperProgram {
 public:
-    // Starts it. purpose completes "it is needed ...". Throws Error naming the file where it is missing, can
-    // not run, does not say within that time that it is there, or is of another build.
+    // Starts the helper. purpose completes "it is needed ...". Throws Error naming the file where it is
+    // missing, can not run, does not report within that time that it runs, or is of another build.
     HelperProgram(const std::string& name, const std::string& purpose,
                   std::chrono::milliseconds startWithin = std::chrono::minutes(5));
-    ~HelperProgram();  // ends it, whatever it does
+    ~HelperProgram();  // ends the helper, whatever it is doing
     HelperProgram(const HelperProgram&) = delete;
     HelperProgram& operator=(const HelperProgram&) = delete;
 
-    // One request at a time. Beyond a limit it is ended. After Ended nothing more can be asked. A wish to
-    // stop (stop.h) is heard within a tenth of a second and throws Cancelled.
+    // Asks one request at a time. A helper that exceeds a limit is ended; after HelperAnswer::Ended no more
+    // requests can be asked. A wish to stop (stop.h) is noticed within a tenth of a second and throws
+    // Cancelled.
     HelperAnswer ask(std::string_view request, const HelperLimits& limits);
 
     int processId() const { return mProcess; }

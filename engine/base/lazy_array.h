@@ -1,5 +1,5 @@
-// A large array of zeros whose memory is taken page by page as it is written: volumes that are used in a
-// few places cost little. Copied only by asking for it: see share().
+// A large array of zeros whose memory is taken page by page as it is written, so that volumes in which few
+// places are used take little memory. Not copied implicitly: see share().
 #pragma once
 
 #include <sys/mman.h>
@@ -37,8 +37,8 @@ public:
         return *this;
     }
 
-    // Returns another array over the same memory, which is kept as long as one of these arrays is there. From
-    // then on nobody may write to any of them.
+    // Returns another array over the same memory, which is kept as long as one of the arrays exists. From
+    // then on none of them may be written to.
     LazyArray share() const {
         LazyArray same;
         same.mData = mData;
@@ -58,7 +58,8 @@ public:
         return same;
     }
 
-    // Gives memory back in whole pages: these elements are not read any more, they may be zeros from now on.
+    // Gives whole pages of memory back to the system. These elements must not be read any more; they may
+    // become zeros.
     void release(std::size_t first, std::size_t count) {
         const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
         const auto start = reinterpret_cast<std::uintptr_t>(mData.get() + first);
@@ -67,7 +68,8 @@ public:
         if (from < to) madvise(reinterpret_cast<void*>(from), to - from, MADV_DONTNEED);
     }
 
-    // Asks for large pages: fewer address translations where rays jump about, but memory in steps of 2 MB.
+    // Asks for large pages: fewer address translations where rays access memory at random, but memory is
+    // taken in steps of 2 MB.
     void preferLargePages() {
         if (mData) madvise(mData.get(), bytes(), MADV_HUGEPAGE);
     }

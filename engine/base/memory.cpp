@@ -96,7 +96,8 @@ double leftOfWish() {
     return std::min(left, leftOf(most));
 }
 
-// Only into what whoever started the program opened for that: no file of the program's own is open so.
+// Writes only to a file that was opened for this before the program started: the program itself opens no file
+// in this mode.
 void noteAsked(double bytes) {
     const char* text = std::getenv("STEREONAV_MEMORY_ASKED");
     if (!text) return;

@@ -6,24 +6,23 @@
 
 namespace stereonav {
 
-// Bytes that can be had without others being pushed out: what the system says is available, and what the
-// process's control groups leave of their limits; of the bytes that the environment variable STEREONAV_MEMORY
-// gives this process, what it has not taken yet. Infinity where nothing tells.
-// root: where proc and sys are; another one for tests.
+// Returns the bytes that can be taken without pushing others out of memory: the least of what the system has
+// available, what the process's control groups leave, and what is left of the limits by limitMemory() and the
+// environment variable STEREONAV_MEMORY. Infinity where none of these is known.
+// root: folder that holds proc and sys; tests give another one.
 double availableMemory(const std::filesystem::path& root = "/");
 
-// Lets no more than these bytes be taken in all from now on, for what is asked for here; 0: what the system
-// gives.
+// Sets a limit on all bytes that this process takes, which availableMemory() and checkMemory() heed from now
+// on; 0: no limit.
 void limitMemory(double bytes);
 
-// Returns availableMemory(), where `bytes` are about to be taken. For tests: where the environment variable
-// STEREONAV_MEMORY_ASKED is the number of a file that is open to be added to (as by 9>>FILE), it gets a line
-// for each such question: the bytes that the process has taken, and those asked for. It names no file:
-// nothing is made or opened.
+// Returns availableMemory(), called before `bytes` are taken. For tests it appends a line to the file whose
+// number is in the environment variable STEREONAV_MEMORY_ASKED, such as 9 with 9>>FILE: the bytes that the
+// process has taken, and `bytes`. The variable holds no name, so that no file is made or opened.
 double availableMemoryFor(double bytes);
 
-// Throws Error where `bytes` are more than there are: what needs how much, and what there is.
-// what: a file, an option, or ""; advice: what would need less.
+// Throws Error, which says how much is needed and how much there is, where `bytes` are more than available.
+// what: the file or option that needs them, or ""; advice: what would need less.
 void checkMemory(const std::string& what, double bytes, const std::string& advice);
 
 // Returns bytes for messages: "1.5 GB", "12 MB".

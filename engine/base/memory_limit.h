@@ -1,11 +1,11 @@
-// The limit that limitMemory() (memory.h) sets is one for the program and its modules.
+// The limit that limitMemory() (memory.h) sets, shared by the program and its modules.
 #pragma once
 
 #include <atomic>
 
 namespace stereonav {
 
-// The limit in bytes; 0: none.
+// Returns the limit in bytes; 0: none.
 std::atomic<double>& memoryLimit();
 // Lets a module, which has this code a second time (module.h), follow the program's limit.
 void shareMemoryLimit(std::atomic<double>& program);

@@ -14,20 +14,20 @@
 
 namespace stereonav {
 
-// What a module shows the program: the symbol stereonavModule. Both are of one build, so that types of C++
-// can cross: strings, arrays, exceptions.
+// What a module offers the program: the symbol stereonavModule. Module and program are of one build, so that
+// C++ types can be passed between them: strings, arrays, exceptions.
 struct ModuleEntry {
     const char* build;               // moduleBuild()
     std::size_t size;                // bytes of the table
     const void* functions;           // the table
-    void (*shareLoops)(void* from);  // parallel.h: the program's threads do the module's loops
+    void (*shareLoops)(void* from);  // lets the module's loops run on the program's threads (parallel.h)
 };
 
 // The module's side: `const ModuleEntry stereonavModule = moduleEntry(kTable);`.
 extern "C" {
 [[gnu::visibility("default")]] extern const ModuleEntry stereonavModule;
 }
-// Returns what tells this build from others.
+// Returns an identifier of this build, which differs from that of other builds.
 const char* moduleBuild();
 // Lets the module's loops run on the program's threads (parallel.h).
 void shareLoopsOf(void* program);
@@ -37,29 +37,31 @@ ModuleEntry moduleEntry(const Functions& functions) {
     return {moduleBuild(), sizeof functions, &functions, shareLoopsOf};
 }
 
-// The table of the module stereonav_<name>, which stays loaded. purpose completes "it is needed ...". Throws
-// Error naming the file where the module, or a library that it needs, is missing, or it is of another build.
+// Returns the table of the module stereonav_<name>, which stays loaded. purpose completes "it is needed ...".
+// Throws Error naming the file where the module, or a library that it needs, is missing, or where the module
+// is of another build.
 const void* moduleTable(const std::string& name, const std::string& purpose, std::size_t size);
-// Returns the same table by its type.
+// Returns the same table as a reference of its type.
 template <typename Functions>
 const Functions& moduleFunctions(const std::string& name, const std::string& purpose) {
     return *static_cast<const Functions*>(moduleTable(name, purpose, sizeof(Functions)));
 }
 
-// Returns whether the module's file is there; nothing is loaded.
+// Returns whether the module's file exists; loads nothing.
 bool hasModule(const std::string& name);
 
-// The program's own file: as the system says, or, where no /proc is mounted, as it was started. "" where
-// neither tells. root: where proc is; another one for tests.
+// Returns the program's own file as the system names it, or, where /proc is not mounted, the path that it was
+// started with. "" where neither is known. root: folder that holds proc; tests give another one.
 std::filesystem::path programFile(const std::filesystem::path& root = "/");
 
-// Where modules are: ../lib/stereonav from the program's own folder, so that it can be moved as a whole.
+// Returns the folder of the modules: ../lib/stereonav from the program's own folder, so that both can be
+// moved together.
 std::filesystem::path moduleFolder();
-// Sets the folder, for programs that lie elsewhere: before the first call of a module's function, while no
-// other thread runs.
+// Sets the folder of the modules, for programs that lie elsewhere. To be called before the first call of a
+// module's function, while no other thread runs.
 void setModuleFolder(const std::filesystem::path& folder);
 
-// The files of all shared libraries that this process has loaded, itself left out.
+// Returns the files of all shared libraries that this process has loaded, without the program itself.
 std::vector<std::string> loadedLibraries();
 
 }  // namespace stereonav

@@ -6,16 +6,18 @@
 
 namespace stereonav {
 
-// Returns the wanted place where nothing is there, else the first free one with a number before its
-// extension: flight_0002.mp4 beside flight.mp4. A pipe or a device stays what it is: it is written into.
+// Returns the wanted path where nothing exists there, else the first free one with a number before its
+// extension: flight_0002.mp4 beside flight.mp4. The path of a pipe or a device is returned as it is: it is
+// written into.
 std::filesystem::path freePlace(const std::filesystem::path& wanted);
 
-// A free place for what another process writes later: an empty file, or an empty folder, lies there until
-// then, so that nobody else takes the place. What is still empty at the end is taken away.
+// Holds a free path for a file that another process will write: an empty file or folder lies there until
+// then, so that nobody else takes the path. If it is still empty at the end it is removed.
 class HeldPlace {
 public:
     enum class Kind { File, Folder };
-    // Where nothing can be made there (the folder is missing) nothing is held: the writer says what is wrong.
+    // Holds nothing where nothing can be made at the path, as when the folder is missing: the writer reports
+    // the problem.
     HeldPlace(const std::filesystem::path& wanted, Kind kind);
     ~HeldPlace();
     HeldPlace(const HeldPlace&) = delete;

@@ -1,5 +1,5 @@
-// Folders of the program's own. What it keeps there tells of patients, so they are the user's alone: rights
-// of others are taken away, and folders of others are refused.
+// Folders of the program itself. The files in them tell of patients, so only the user may read them:
+// permissions for others are removed, and folders of other users are refused.
 #pragma once
 
 #include <filesystem>
@@ -7,22 +7,22 @@
 
 namespace stereonav {
 
-// Returns the folder "stereonav" in the folder that `variable` names ("XDG_CACHE_HOME"), or in `besideHome`
-// in the user's home. A value that does not begin at the root does not count (XDG base directory
-// specification). "": there is no home.
+// Returns the folder "stereonav" in the folder that the environment variable names ("XDG_CACHE_HOME"), or
+// else in the folder `besideHome` of the user's home. A relative path in the variable is ignored (XDG base
+// directory specification). "" without a home.
 std::filesystem::path ownFolder(const char* variable, const char* besideHome);
 
-// Returns the place of cacheFolder(), whatever lies there: to compare with. Without a home it is in the
-// folder for temporary files, and named by the user's number.
+// Returns the path of cacheFolder() without checking what lies there, for comparisons. Without a home it is
+// in the folder for temporary files, and has the user's number in its name.
 std::filesystem::path cachePlace();
 
-// Takes the rights of others on the folder away. Throws Error where it is another user's, or a link that
-// another user made, or the rights stay. What is no folder passes: who goes on with it hears of that.
-// advice: how to name another folder.
+// Removes the permissions of others from the folder. Throws Error where it belongs to another user, is a link
+// that another user made, or keeps those permissions. A path that is no folder passes: later use reports
+// that. advice: how to name another folder.
 void checkOwnFolder(const std::filesystem::path& folder, const std::string& advice);
 
-// Makes the folder with what is missing above it, then checks it as checkOwnFolder() does. Throws Error where
-// either fails.
+// Makes the folder and missing folders above it, then calls checkOwnFolder(). Throws Error where either
+// fails.
 void makeOwnFolder(const std::filesystem::path& folder, const std::string& advice);
 
 constexpr const char* kMoveCache = "name another place for the cache with XDG_CACHE_HOME";

@@ -1,4 +1,4 @@
-// Memory that is taken page by page, as it is: LazyArray's volumes may be large and yet hold little.
+// Memory by pages: LazyArray's volumes may be large although few of their pages are in use.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace stereonav {
 
-// Returns the bytes of the pages in use, for memory that begins with a page; `bytes` where that can not be
-// told.
+// Returns the bytes of the pages in use, for memory that begins at a page; `bytes` where the system does not
+// tell.
 std::size_t residentBytes(const void* start, std::size_t bytes);
 
 template <typename T>
@@ -16,11 +16,12 @@ std::size_t residentBytes(const LazyArray<T>& array) {
     return residentBytes(array.data(), array.size() * sizeof(T));
 }
 
-// Gives back the whole pages of this memory that hold nothing but zeros: it reads the same as before. Some
-// systems take a page for what was only read. Nobody may write to it meanwhile; reading is fine.
+// Gives pages of this memory that hold nothing but zeros back to the system; they still read as zeros. That
+// includes pages that some systems take for memory that was only read. Nobody may write to the memory
+// meanwhile; reading is allowed.
 void releaseZeroPages(const void* start, std::size_t bytes);
 
-// Does the same for `count` elements from `first` on.
+// Calls releaseZeroPages() for `count` elements from `first` on.
 template <typename T>
 void releaseZeroPages(const LazyArray<T>& array, std::size_t first, std::size_t count) {
     releaseZeroPages(array.data() + first, count * sizeof(T));

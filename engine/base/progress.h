@@ -1,8 +1,8 @@
-// Progress of a long job, and the wish to stop it. The job calls report() now and then, from any
-// thread; the listener (a bar, a window) may ask to cancel, which throws Cancelled out of report(), as a wish
-// to stop the whole run does (stop.h). A function that takes a Progress tells 0 first, never less than it
-// told before, and 1 last; what it hands on is a part of its own. Where the job had to guess it says so by
-// note().
+// Progress of a long job, and the request to stop it. The job calls report() now and then, from any thread.
+// report() throws Cancelled once a listener (a bar, a window) has called cancel(), or once the whole run is
+// to stop (stop.h). A function that takes a Progress reports 0 first, never less than before, and 1 last; it
+// gives the functions that it calls a part of its Progress (the third constructor). A job that had to guess
+// says so by note().
 #pragma once
 
 #include <atomic>
@@ -25,7 +25,7 @@ public:
     Progress() = default;
     explicit Progress(Listener listener, Reader reader = {})
         : mListener(std::move(listener)), mReader(std::move(reader)) {}
-    // The part of another Progress between two of its fractions, 0 to 1. The other outlives it.
+    // Makes a part of another Progress, between two of its fractions, 0 to 1. The other must outlive it.
     Progress(Progress& whole, double from, double to)
         : mListener([&whole, from, to](double fraction, const std::string& what) {
               whole.report(std::lerp(from, to, fraction), what);
@@ -36,14 +36,16 @@ public:
     void cancel() { mCancelled = true; }
     bool cancelled() const { return mCancelled || stopWished() || (mWhole && mWhole->cancelled()); }
 
-    // fraction in [0, 1]. Throws Cancelled once cancel() was called, or the run is to stop.
+    // Reports the fraction that is done, in [0, 1]. Throws Cancelled once cancel() was called, or the run is
+    // to stop.
     void report(double fraction, const std::string& what) {
         if (mCancelled) throw Cancelled();
         throwIfStopped();
         if (mListener) mListener(fraction, what);
     }
 
-    // Notes what a person should know of the result, one line: what was guessed, or left aside.
+    // Notes a fact about the result that the user should know, one line: something that was guessed or left
+    // out.
     void note(const std::string& note) {
         if (mReader) mReader(note);
     }
@@ -55,8 +57,8 @@ private:
     const Progress* mWhole = nullptr;  // the progress that this is a part of
 };
 
-// Steps of one job that are done in any order, on any threads. They are told one after the other: without
-// that, two threads could tell theirs the wrong way round.
+// Steps of one job that are done in any order, on any threads. They are reported under a lock: without it two
+// threads could report their counts in the wrong order.
 class ProgressSteps {
 public:
     // Reports the first step's beginning. Throws as Progress::report() does.

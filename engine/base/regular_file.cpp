@@ -20,7 +20,7 @@ Error unopened(const fs::path& file) {
 
 }  // namespace
 
-// Asked before as well: opening alone does something to some devices.
+// checkFileToRead() is called before opening too: only opening some devices already has an effect.
 RegularFile::RegularFile(const fs::path& file) : mName(file) {
     checkFileToRead(file);
     mFile = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);

@@ -1,6 +1,6 @@
-// A file that is open to be read, and is a regular one for sure: what a name stands for is looked at once it
-// is open, and opening waits for nobody. So a pipe or a device in a file's place is refused in one line, even
-// where it got there a moment ago, and holds up nothing.
+// A file that is open for reading and certainly a regular one: its type is tested after it was opened, and
+// opening never blocks. So a pipe or a device in the place of a file is refused with one line, even if it was
+// put there a moment ago.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace stereonav {
 
 class RegularFile {
 public:
-    // Throws Error where it is not there, can not be opened, or is something else than a file.
+    // Throws Error where the file does not exist, can not be opened, or is not a regular file.
     explicit RegularFile(const std::filesystem::path& file);
     ~RegularFile();
     RegularFile(const RegularFile&) = delete;
@@ -21,8 +21,8 @@ public:
     int descriptor() const { return mFile; }
     std::uint64_t size() const { return mSize; }  // bytes, when it was opened
 
-    // Reads from where the last read() or seek() ended. Returns the bytes that were read, fewer than asked
-    // for at the end alone. Throws DiskError.
+    // Reads from where the last read() or seek() ended. Returns the number of bytes read: fewer than asked
+    // for only at the end of the file. Throws DiskError.
     std::size_t read(void* to, std::size_t bytes);
     void seek(std::uint64_t byte);  // from the file's beginning; throws DiskError
 

@@ -1,4 +1,4 @@
-// Which of the compiler's sanitizers this is built with: they take memory and call the system as they like.
+// The compiler's sanitizers that this is built with: they take memory and make system calls of their own.
 #pragma once
 
 namespace stereonav {

@@ -112,7 +112,7 @@ int stoppingTime_ms(double bytes) {
 
 void catchStopSignals() {
     Stop::own();  // there before a handler asks for it
-    // What is written beyond a limit on the size of files fails then, and is told.
+    // Without this signal, writing beyond a limit on file sizes fails with an error, which is reported.
     signal(SIGXFSZ, SIG_IGN);
     pageSize = static_cast<double>(sysconf(_SC_PAGE_SIZE));
     sigevent event{};

@@ -1,16 +1,16 @@
-// Threads that compute step back behind those that answer the user. Where all cores compute, a thread that
-// wants a core for a few milliseconds otherwise waits for its turn, tens of milliseconds.
+// Threads that compute get a lower priority than those that answer the user. Where all cores compute, a
+// thread that needs a core for a few milliseconds would otherwise wait tens of milliseconds for its turn.
 #pragma once
 
 namespace stereonav {
 
-// This thread and those that it starts later get a smaller share of a core that others want too, and as much
-// as before of one that nobody wants. Never undone: to raise a priority takes rights that a user has not.
-// Does nothing where the system has no priorities of threads.
+// Gives this thread, and threads that it starts later, a smaller share of a core that others want too; a core
+// that nobody else wants is used as before. Can not be undone: raising a priority takes rights that a user
+// does not have. Does nothing where the system has no thread priorities.
 void stepBehindTheWindow();
 
-// Puts a process that was just started behind too, and further: what it computes may take hours, and the
-// flight goes on.
+// Lowers the priority of a process that was just started, even further than stepBehindTheWindow(): it may
+// compute for hours while the user flies.
 void putBehindTheWindow(int process);
 
 }  // namespace stereonav

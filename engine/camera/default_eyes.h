@@ -1,28 +1,29 @@
-// How far apart the eyes stand where neither an option nor a scene's file says it. This is the one place that
-// decides it.
+// The default separation of the eyes, where neither an option nor a scene file sets it. It is defined only
+// here.
 #pragma once
 
 #include "engine/camera/stereo_rig.h"
 
 namespace stereonav {
 
-// The zero-parallax distance in separations, and a separation as a share of it (Wan et al. 2004).
+// Zero-parallax distance divided by the separation (Wan et al. 2004).
 constexpr int kUsualParts = 30;
 constexpr double kUsualShare = 1.0 / kUsualParts;
 
-// Kinds of views, from which the default eyes follow.
+// Kinds of views, which determine the default eyes.
 enum class SeenAs {
-    Ground,   // from its start
+    Ground,   // ground, from the scene's start
     Track,    // ground below a track that is flown
     Lumen,    // from inside
-    Outside,  // a volume or a medium, whole
-    Mesh      // whole
+    Outside,  // a whole volume or medium, from outside
+    Mesh      // a whole mesh, from outside
 };
 
-// Returns the eyes for a screen `zeroParallax` metres away, > 0.
+// Returns the default eyes for a screen `zeroParallax` metres away, > 0.
 constexpr StereoSetting defaultEyes(SeenAs seen, double zeroParallax) {
     switch (seen) {
-        case SeenAs::Ground:  // rounds otherwise than a thirtieth, by the last bit
+        // A division, which rounds differently in the last bit than a factor of one thirtieth.
+        case SeenAs::Ground:
             return {kUsualShare * zeroParallax, zeroParallax};
         case SeenAs::Mesh:  // a mesh's depths span half of its distance
             return {zeroParallax / 45, zeroParallax};

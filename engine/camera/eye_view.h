@@ -16,12 +16,12 @@ struct EyeView {
     glm::dvec3 head{0.0};                                       // world: midway between the eyes
     double xMin = -1, xMax = 1, yMin = -1, yMax = 1;            // the window at view depth 1, without unit
     int width = 0, height = 0;                                  // pixels
-    double nearDepth = 0.1;                                     // metres, > 0: nothing nearer is seen
+    double nearDepth = 0.1;                                     // metres, > 0: nearer surfaces are not seen
     double fall = 0;  // 1 / metres, as EarthBend's; 0 where the Earth is level
 
     double pixelWidth() const { return (xMax - xMin) / width; }    // at view depth 1
     double pixelHeight() const { return (yMax - yMin) / height; }  // at view depth 1
-    // How this view sees a round Earth.
+    // Returns the curvature of the Earth for this view.
     EarthBend bend() const { return {glm::dvec2(head), fall}; }
 
     // x, y: continuous image coordinates, y downwards; (0, 0) is the outer corner of the top left
@@ -30,7 +30,7 @@ struct EyeView {
         return forward + right * (xMin + x * pixelWidth()) + up * (yMax - y * pixelHeight());
     }
 
-    // The world place at that view depth (metres), seen at the image place (x, y).
+    // Returns the world place that is seen at the image place (x, y) at a view depth in metres.
     glm::dvec3 pointAt(double x, double y, double viewDepth) const {
         return eye + viewDepth * rayDirection(x, y);
     }
@@ -39,7 +39,7 @@ struct EyeView {
     // behind the eye and their x, y mean nothing.
     glm::dvec3 project(const glm::dvec3& world) const;
 
-    // Returns the same view with `factor` x `factor` pixels for each: for supersampled truths.
+    // Returns the same view with `factor` x `factor` pixels in place of each, for supersampled truths.
     EyeView supersampled(int factor) const;
 };
 

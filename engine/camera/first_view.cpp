@@ -22,7 +22,7 @@ constexpr int kNormalSteps = 6;                    // classes of normals along e
 constexpr int kNormalClasses = kNormalSteps * kNormalSteps;
 constexpr int kOutline = 240;  // directions in which the outermost sample is kept
 
-// ViewAxes of a viewer who looks so.
+// Returns the axes of a viewer with these angles.
 struct ViewAxes {
     glm::dvec3 right, up, forward;
 };

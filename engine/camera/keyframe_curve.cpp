@@ -16,7 +16,8 @@ constexpr double kStill = 1e-9;        // radians: less is no turn
 constexpr double kMostSpin = 2;        // times the slower side's
 constexpr double kMonotone = 3;        // times the slower side's (Fritsch and Carlson)
 
-// Where a piece is measured: closer near its ends, where a sharp turn makes the spline slow.
+// Parameter of the j-th place at which a piece's length is measured: denser near its ends, where a sharp turn
+// makes the spline slow.
 double measuredAt(std::size_t j) {
     const double u = static_cast<double>(j) / kMeasures;
     return u * u * (3 - 2 * u);

@@ -109,8 +109,8 @@ RecordedPath pathThrough(const Keyframes& keyframes, bool easeEnds) {
     return RecordedPath(std::move(samples), "keyframes");
 }
 
-// Returns the first and last pose, and more between them where the flight is too far off, until it is
-// nowhere.
+// Returns the first and the last pose, and as many poses between them as keep the curve close enough to the
+// flight everywhere. metres, radians: largest deviations.
 Keyframes keyframesOf(const RecordedPath& path, double metres, double radians) {
     checkPositive("distance", metres);
     checkPositive("angle", radians);

@@ -1,4 +1,4 @@
-// A flight around something, looking at its middle.
+// A flight on a circle around an object, looking at its middle.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -19,7 +19,8 @@ struct Orbit {
 // turn: radians, clockwise seen from above; at 0 the viewer looks northwards.
 Pose poseOn(const Orbit& orbit, double turn);
 
-// Returns a flight once around, from this turn on. name: as messages call it, "the flight around the mesh".
+// Returns a flight once around, beginning at the turn `from`. name: for messages, such as "the flight around
+// the mesh".
 RecordedPath flightAround(const Orbit& orbit, const std::string& name, double from = 0);
 
 }  // namespace stereonav

@@ -261,7 +261,7 @@ RecordedPath evenlyPaced(const RecordedPath& path, std::optional<double> metresP
     double time = 0;
     for (std::size_t k = 0; k < steps.size(); ++k) {
         time += secondsAt(steps[k], speed);
-        // What takes no time is the same place.
+        // A step without duration replaces the pose of the one before.
         if (time > paced.back().time * (1 + 1e-12))
             paced.push_back({time, all[k + 1].pose});
         else if (paced.size() > 1)

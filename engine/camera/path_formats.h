@@ -7,12 +7,12 @@
 
 namespace stereonav {
 
-// Reads OpenSceneGraph's text, as osgviewer records it (key z) and plays it (-p): a line a sample, `t x y z
-// qx qy qz qw`, in full precision. Reads comments (#, //), the AnimationPath { ... } block of .osg files
-// around the lines, and a scale of three numbers after the rotation (ignored), too. Throws Error with file
+// Reads OpenSceneGraph's text, as osgviewer records (key z) and plays it (-p): one sample per line, `t x y z
+// qx qy qz qw`, in full precision. Also accepts comments (#, //), the AnimationPath { ... } block of .osg
+// files around the lines, and a scale of three numbers after the rotation (ignored). Throws Error with file
 // and line.
 RecordedPath readOsgPath(const std::filesystem::path& file);
-// Writes such text. Throws Error.
+// Writes a path in that format. Throws Error.
 void writeOsgPath(const std::filesystem::path& file, const RecordedPath& path);
 
 // Reads from glTF the first camera node of the default scene that an animation moves, itself or through the
@@ -21,7 +21,7 @@ void writeOsgPath(const std::filesystem::path& file, const RecordedPath& path);
 // with straight lines between them, to 1e-5 of the path's extent and 1e-4 rad; a STEP becomes a change within
 // a millisecond before its keyframe. Throws Error with file and place.
 RecordedPath readGltfPath(const std::filesystem::path& file);
-// Writes glTF. Throws Error where a 32-bit float can not tell two times apart, and for times before 0.
+// Writes glTF. Throws Error where two times are equal as 32-bit floats, and for times before 0.
 void writeGltfPath(const std::filesystem::path& file, const RecordedPath& path);
 
 }  // namespace stereonav

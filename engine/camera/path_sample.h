@@ -1,4 +1,5 @@
-// What every reader of paths checks at each sample, so that it can name the line or the keyframe.
+// Checks of one sample of a path, for every reader of paths, so that messages can name the line or the
+// keyframe.
 #pragma once
 
 #include <string>
@@ -7,10 +8,11 @@
 
 namespace stereonav {
 
-// Returns "" when `sample` may follow `before` (null: it is the first); else what was expected and found.
+// Returns "" if `sample` may follow `before` (null: it is the first); else a message of what was expected and
+// found.
 std::string sampleProblem(const PathSample* before, const PathSample& sample);
 
-// The advice that goes with a problem of sampleProblem().
+// Advice for problems that sampleProblem() reports.
 inline constexpr const char* kSampleAdvice =
     "give each pose finite numbers, a later time and a rotation that is not zero";
 

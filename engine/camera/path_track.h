@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// How values go from one keyframe to the next, as glTF has it.
+// Interpolation between keyframes, as in glTF.
 enum class Interpolation { Linear, Step, CubicSpline };
 
 // The values of one channel over time.
@@ -16,9 +16,10 @@ struct PathTrack {
     Interpolation interpolation = Interpolation::Linear;
     bool isRotation = false;
     std::vector<double> times;       // seconds, strictly increasing
-    std::vector<glm::dvec4> values;  // one a time, xyzw; CubicSpline: in-tangent, value, out-tangent
+    std::vector<glm::dvec4> values;  // one for each time, xyzw; CubicSpline: in-tangent, value, out-tangent
 
-    // The value at a time (seconds), clamped to the ends. left: at a keyframe, the limit from earlier times.
+    // Returns the value at a time (seconds), clamped to the ends. left: at a keyframe, the limit from earlier
+    // times.
     glm::dvec4 at(double time, bool left) const;
 };
 

@@ -1,6 +1,6 @@
-// Where a viewer stands and how the head is turned. World: metres, right-handed, x east, y north,
-// z up, relative to the scene's own origin. Camera: x right, y up, looking along -z (as glTF and
-// OpenGL cameras do), so the identity orientation looks straight down with north up.
+// The position and orientation of a viewer's head. World: metres, right-handed, x east, y north, z up,
+// relative to the scene's own origin. Camera: x right, y up, looking along -z (like cameras of glTF and
+// OpenGL), so that the identity orientation looks straight down with north up.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -23,7 +23,7 @@ struct Pose {
 // horizon; roll: clockwise as the viewer sees it (the right side goes down). All radians, any finite value.
 Pose poseFromAngles(const glm::dvec3& position, double heading, double pitch, double roll);
 
-// A pose's orientation by angles, as poseFromAngles() takes them.
+// A pose's orientation as angles, defined as in poseFromAngles().
 struct PoseAngles {
     double heading, pitch, roll;  // radians; heading in [0, 2 pi), pitch in [-pi/2, pi/2]
 };

@@ -1,5 +1,5 @@
-// A recorded flight: poses at times. Playback runs on the path's own clock, so it is even and the
-// same every time, however fast the frames are made.
+// A recorded flight: poses at times. Playback follows the path's own clock, so that it is even and the same
+// every time, at any frame rate.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ struct PathSample {
     Pose pose;
 };
 
-// Poses over time, in between by interpolation.
+// Poses over time, interpolated between samples.
 class RecordedPath {
 public:
     RecordedPath() = default;
@@ -28,15 +28,15 @@ public:
     // Seconds from the first sample to the last one.
     double duration() const { return mSamples.back().time - mSamples.front().time; }
 
-    // Position linear, orientation spherical-linear between the two samples around `time` (seconds); clamped
-    // to the ends.
+    // Returns the pose at a time in seconds, clamped to the ends: position linear, orientation
+    // spherical-linear between the two samples around it.
     Pose at(double time) const;
 
-    // The poses of `count` frames evenly spread over the whole path, first and last included
-    // (count 1: the first).
+    // Returns the poses of `count` frames evenly spread over the whole path, including first and last (count
+    // 1: the first).
     std::vector<Pose> frames(int count) const;
-    // The poses of frames at a fixed rate, from the start time while within the duration. Throws Error unless
-    // the rate is above 0, and for more frames than can be.
+    // Returns the poses of frames at a fixed rate, from the start time to the end. Throws Error unless the
+    // rate is above 0, and for more frames than an int can count.
     std::vector<Pose> framesAtRate(double framesPerSecond) const;
 
 private:

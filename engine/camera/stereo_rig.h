@@ -19,7 +19,7 @@ struct Lens {
     bool operator==(const Lens&) const = default;
 };
 
-// How far apart the eyes stand, and what lies in the plane of the screen.
+// The separation of the eyes, and the distance of the screen's plane.
 struct StereoSetting {
     double separation = 0.065;   // metres between the eyes, >= 0
     double zeroParallax = 1.95;  // metres along the view axis to the plane seen without parallax, > 0
@@ -35,7 +35,7 @@ struct StereoViews {
     double shiftAtInfinity = 0;  // pixels, >= 0
     double parallaxScale = 0;    // pixels * metres, >= 0
 
-    // The column where the right eye sees that point, pixels. viewDepth: metres.
+    // Returns the column, in pixels, where the right eye sees that point. viewDepth: metres.
     double rightColumn(double leftColumn, double viewDepth) const {
         return leftColumn + (shiftAtInfinity - parallaxScale / viewDepth);
     }
@@ -45,7 +45,7 @@ struct StereoViews {
 // are not finite or out of range.
 StereoViews makeStereoViews(const Pose& head, const Lens& lens, const StereoSetting& setting);
 
-// The single eye of the head itself, with a symmetric window. Throws Error as makeStereoViews() does.
+// Returns the single eye of the head itself, with a symmetric window. Throws Error as makeStereoViews() does.
 EyeView makeEyeView(const Pose& head, const Lens& lens);
 
 }  // namespace stereonav

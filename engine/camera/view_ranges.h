@@ -1,4 +1,4 @@
-// Ranges of what is said of eyes, lenses and directions, on the command line and in scene files alike.
+// Permitted ranges of settings of eyes, lenses and directions, for the command line and scene files.
 #pragma once
 
 #include "engine/text/number_range.h"

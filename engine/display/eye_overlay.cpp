@@ -26,7 +26,7 @@ void drawLabel(ImDrawList& list, const glm::vec2& place, const OverlayMark& mark
     const float dot = 0.2f * font, margin = 0.25f * font;
     list.AddCircleFilled(at(place), dot + 1, kEdge);
     list.AddCircleFilled(at(place), dot, inkOf(mark));
-    // Whole pixels of either eye: letters are sharp.
+    // Rounds to whole pixels in each eye, so that letters are sharp.
     const glm::vec2 corner = glm::round(place + mark.textAt);
     const ImVec2 size = ImGui::CalcTextSize(mark.text.c_str());
     list.AddRectFilled({corner.x - margin, corner.y}, {corner.x + size.x + margin, corner.y + size.y}, kPlate,
@@ -47,7 +47,7 @@ void drawMark(ImDrawList& list, const glm::vec2& place, const OverlayMark& mark,
 
 // Returns a box around all that was drawn since the list had `firstCorner` corners.
 EyeLayer::Box boxOf(const ImDrawList& list, int firstCorner) {
-    constexpr float kFar = 1e6f;  // no picture is as wide
+    constexpr float kFar = 1e6f;  // wider than any picture
     glm::vec2 low(kFar), high(-kFar);
     for (int n = firstCorner; n < list.VtxBuffer.Size; ++n) {
         const glm::vec2 corner(list.VtxBuffer[n].pos.x, list.VtxBuffer[n].pos.y);

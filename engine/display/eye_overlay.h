@@ -1,6 +1,6 @@
-// What is drawn over the picture at a depth of its own: the pointer, and names of places. Each eye has a
-// layer of its picture's size, which StereoPresenter puts over that eye before it composes, so that every
-// layout shows it to the eye that it is for.
+// Marks over the picture at a depth of their own: the pointer, and names of places. Each eye has a layer of
+// its picture's size, which StereoPresenter draws over that eye before it composes, so that every layout
+// shows it to the right eye.
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@ class Interface;
 // A mark in both eyes. Places are pixels of each eye's picture, (0, 0) its top left corner.
 struct OverlayMark {
     glm::vec2 left{0}, right{0};
-    std::string text;      // a point with this beside it; "": the pointer
-    glm::vec2 textAt{0};   // the text's top left corner, from the place
+    std::string text;      // text beside a point; "": the pointer
+    glm::vec2 textAt{0};   // top left corner of the text, relative to the place
     bool dot = false;      // a small point, without a text
     glm::u8vec3 ink{255};  // sRGB, for points and texts
     bool operator==(const OverlayMark&) const = default;
@@ -31,8 +31,8 @@ struct OverlayMark {
 // Layers that marks are drawn into. In the window's context.
 class EyeOverlay {
 public:
-    // Draws the marks by the interface's letters, where they are not what is there already. size: pixels of
-    // each eye's picture. Returns whether it looks otherwise than before.
+    // Draws the marks with the interface's letters, unless they are there already. size: pixels of each eye's
+    // picture. Returns whether the layers changed.
     bool draw(const Interface& interface, const glm::ivec2& size, const std::vector<OverlayMark>& marks);
     // Layers of the left and of the right eye; none while nothing is there.
     std::optional<std::array<EyeLayer, 2>> layers() const;

@@ -1,5 +1,5 @@
-// What is drawn into which back buffer before a swap: one picture of both eyes, the eye whose turn it is, or
-// each eye into its own buffer.
+// Which picture is drawn into which back buffer before a swap: one picture of both eyes, the eye whose turn
+// it is, or each eye into its own buffer.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ enum class BackBuffer { Both, Left, Right };
 
 // One drawing of the composed picture.
 struct EyePass {
-    ComposeSetting setting;  // with a mode that is composed
+    ComposeSetting setting;  // its mode is one that is composed
     BackBuffer buffer = BackBuffer::Both;
 
     bool operator==(const EyePass&) const = default;
@@ -22,7 +22,7 @@ struct EyePass {
 // window has no quad buffer (Window::quadBuffered), that mode is the left eye alone.
 std::vector<EyePass> eyePasses(const ComposeSetting& setting, int turn, bool quadBuffered);
 
-// Chooses the buffer that is drawn into from here on; needs a current context, whose buffers are a window's.
+// Selects the buffer for drawing from here on; requires a current context of a window.
 void drawInto(BackBuffer buffer);
 
 }  // namespace stereonav

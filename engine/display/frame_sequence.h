@@ -1,7 +1,7 @@
-// Which eye's turn it is on a display that shows one eye at each refresh. Shutter glasses go on alternating
-// when a picture comes too late for its refresh; who simply alternated swaps would then show each eye the
-// other one's pictures from there on. So refreshes are counted by the clock: a phase-locked loop follows the
-// times of the swaps, and the eye is that of the refresh which comes next. No OpenGL.
+// Which eye to show next on a display that shows one eye per refresh. Shutter glasses go on alternating when
+// a picture comes too late for its refresh; a program that simply alternated its swaps would from then on
+// show each eye the other one's pictures. So refreshes are counted by the clock: a phase-locked loop follows
+// the times of the swaps, and the eye is that of the next refresh. Uses no OpenGL.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,16 @@ constexpr double kSteadyRefresh = 100;  // Hz: below that, each eye's half of th
 
 class FrameSequence {
 public:
-    // Takes Hz, as the monitor tells it, to a whole number mostly; 0 or nonsense: unknown, 60 is assumed.
+    // refreshRate: Hz, as the monitor reports it, mostly a whole number; 0 or an implausible one: unknown, 60
+    // is assumed.
     explicit FrameSequence(double refreshRate);
 
-    // The eye to be drawn for the next refresh: 0 the one that comes first, 1 the other one.
+    // Returns the eye to draw for the next refresh: 0 the one that comes first, 1 the other one.
     int eye() const { return static_cast<int>((mRefresh + 1) & 1); }
     // Notes that a swap was done at this time, seconds of a steady clock.
     void swapped(double seconds);
-    // Returns seconds from `seconds` until a picture for the next refresh may be drawn. 0 while swaps wait
-    // for the refresh themselves; where they do not, the clock stands in for it.
+    // Returns the seconds from `seconds` until a picture for the next refresh may be drawn. 0 while swaps
+    // wait for the refresh; where they do not, the clock replaces that.
     double wait(double seconds) const;
 
     long long refreshes() const { return mRefresh; }     // refreshes since the first swap
@@ -38,11 +39,11 @@ private:
     void count(bool early, long long late);
 
     double mNominal, mPeriod;  // seconds
-    double mTold, mRate;       // Hz; the second is 0 where the first is nonsense
-    double mPhase = 0;         // seconds: when the refresh mRefresh was
+    double mTold, mRate;       // Hz; mRate: 0 where mTold is implausible
+    double mPhase = 0;         // seconds: time of refresh number mRefresh
     bool mStarted = false, mSynchronised = true;
     long long mRefresh = -1, mDropped = 0;
-    int mSwaps = 0, mEarly = 0, mLate = 0;  // counts of the present second or so
+    int mSwaps = 0, mEarly = 0, mLate = 0;  // counts within about a second
     bool mTooLate = false;
     bool mToldRate = false, mToldFree = false, mToldLate = false;
 };

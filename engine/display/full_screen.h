@@ -1,4 +1,4 @@
-// One window over a whole monitor and back to where it was.
+// Shows a window over a whole monitor, and restores its place afterwards.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@ namespace stereonav {
 
 class FullScreen {
 public:
-    // Puts the window without a border over all of the monitor, in the video mode that it has. From one
-    // monitor to another, too. Throws Error where there is no such monitor.
+    // Puts the window without a border over all of the monitor, in the monitor's present video mode; also
+    // from one monitor to another. Throws Error where there is no such monitor.
     void enter(GLFWwindow* window, std::size_t monitor);
-    // Puts the window to its place and size before; nothing where it is a window already.
+    // Restores the window's former place and size; does nothing where it is not over a whole monitor.
     void leave(GLFWwindow* window);
-    // Returns whether the window is over a whole monitor, as the desktop says: unplugging the monitor ends
-    // that, too.
+    // Returns whether the window is over a whole monitor according to the desktop: unplugging the monitor
+    // ends that as well.
     static bool on(GLFWwindow* window);
 
 private:

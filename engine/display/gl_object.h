@@ -25,7 +25,7 @@ private:
     GLuint mName;
 };
 
-// How names of one kind are made and deleted; both need a current context.
+// Functions that make and delete names of one kind; both need a current context.
 struct GlTextureKind {
     static GLuint make() {
         GLuint name = 0;

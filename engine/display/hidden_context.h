@@ -1,5 +1,5 @@
-// An OpenGL 4.5 context in a window that is never shown: for drawing on threads beside that of the Window,
-// which must be there for its whole life.
+// An OpenGL 4.5 context in a window that is never shown, for drawing on other threads than the Window's. The
+// Window must exist as long as this object.
 #pragma once
 
 #include <mutex>
@@ -10,14 +10,15 @@ namespace stereonav {
 
 class HiddenContext {
 public:
-    // Makes the context, on the main thread, as its end. Throws Error where there is no OpenGL 4.5.
+    // Makes the context; construction and destruction must be on the main thread. Throws Error where there is
+    // no OpenGL 4.5.
     HiddenContext();
     ~HiddenContext();
     HiddenContext(const HiddenContext&) = delete;
     HiddenContext& operator=(const HiddenContext&) = delete;
 
-    // Makes the context current on this thread while it lives, from whatever thread: one waits for another.
-    // What was current before is so again at the end. Null: what is current stays.
+    // Makes the context current on this thread while this object lives; another thread waits for its end.
+    // Then the former context becomes current again. Null: the current context stays.
     class Use {
     public:
         explicit Use(HiddenContext* context);  // throws Error where the driver refuses

@@ -473,7 +473,8 @@ bool Interface::takesText(unsigned codePoint) {
 }
 
 bool Interface::holdsKeyboard() const {
-    // What was written last frame may have ended since: its Enter is no reason to keep the next key.
+    // The text field of the last layout may have been closed since by Enter: then the next key is not kept
+    // from flight.
     mState->use();
     return ImGui::GetIO().WantTextInput && mState->context->ActiveId != 0;
 }

@@ -1,6 +1,6 @@
-// What lies over the picture: panels, menus and lines of text, through Dear ImGui, fed with the window's
-// events. It is laid out once, in units of its own, and drawn into each eye's part of the window at zero
-// parallax, so that it can be read in stereo; under the pointer each part is the same interface.
+// The interface over the picture: panels, menus and lines of text, with Dear ImGui, which receives the
+// window's events. It is laid out once, in units of its own, and drawn into each eye's part of the window at
+// zero parallax, so that it can be read in stereo; the pointer works the same in each part.
 #pragma once
 
 #include <functional>
@@ -22,43 +22,46 @@ struct InterfaceArea {
     bool operator==(const InterfaceArea&) const = default;
 };
 
-// Where it is drawn, and how large it takes itself to be.
+// Where the interface is drawn, and the size for which it is laid out.
 struct InterfacePlaces {
     std::vector<InterfaceArea> areas{{}};  // at least one
-    // Shares of the window's size, along each axis: what an eye that is squeezed to half stands for is 1.
+    // Size as shares of the window's size along each axis; an eye squeezed to half counts with its unsqueezed
+    // size, 1.
     glm::vec2 size{1};
     bool operator==(const InterfacePlaces&) const = default;
 };
 
-// Needs the window's context to be current in every call. Several may be there, each of its own window.
+// Needs the window's context to be current in every call. Several may exist, one for each window.
 class Interface final : public InputSink {
 public:
-    explicit Interface(Window& window);  // the window's sink from now on; the window outlives it
+    explicit Interface(Window& window);  // becomes the window's input sink; the window must outlive it
     ~Interface() override;
     Interface(const Interface&) = delete;
     Interface& operator=(const Interface&) = delete;
 
-    // Sets the look of the next layout. A font is made anew where the scale changes: some 0.1 s.
+    // Sets the look for the next layout. A new scale needs a new font: about 0.1 s.
     void setLook(const InterfaceLook& look);
     const InterfaceLook& look() const;
 
-    // Lays out what `draw` says by calls of Dear ImGui, once or several times: a box knows its size one turn
-    // late, and events that came together are felt one after another. dt: seconds since the last. False: all
-    // looks as before.
+    // Lays out the elements that `draw` makes by calls of Dear ImGui. It is called once or several times,
+    // since a box knows its size only in the next turn, and simultaneous events are handled one after
+    // another. dt: seconds since the last call. Returns false where nothing looks different.
     bool layOut(const InterfacePlaces& places, double dt, const std::function<void()>& draw);
-    // Draws over what is in the framebuffer. opening: where the picture lies in each part; none: everywhere.
+    // Draws over the framebuffer's content. opening: the picture's place in each part, which is left out;
+    // empty: draws everywhere.
     void render(const std::optional<InterfaceOpening>& opening = std::nullopt);
-    // Returns whether a layout now could show something else for what the user did, or for another window or
-    // look. What is shown of the program's own doing, the caller knows.
+    // Returns whether a layout now could look different because of user input, or of another window or look.
+    // Changes that the program itself makes are known to the caller.
     bool waits(const InterfacePlaces& places) const;
 
-    glm::vec2 size() const;                             // units of the layout
-    void use() const;                                   // Dear ImGui's calls that follow are of this one
+    glm::vec2 size() const;  // units of the layout
+    // Makes this the target of the following calls of Dear ImGui.
+    void use() const;
     glm::vec2 textSize(const std::string& text) const;  // units
-    // Returns whether the pointer is over the picture, and where, in shares of the interface's size; false
+    // Returns whether the pointer is over the picture, and its place in shares of the interface's size; false
     // while it is over the interface, or outside.
     bool pointerOverPicture(glm::dvec2& place) const;
-    // Leaves the pointer over the picture to whoever draws that (eye_overlay.h), where `drawn`.
+    // drawn: the pointer over the picture is drawn by other code (eye_overlay.h).
     void setPointerOfPicture(bool drawn);
     // Returns whether the user is editing some text.
     bool active() const;
@@ -76,7 +79,8 @@ private:
     std::unique_ptr<State> mState;
 };
 
-// Notes that a texture which is drawn by calls of Dear ImGui has other contents: interfaces are drawn again.
+// Notes that the content of a texture used in Dear ImGui calls has changed, so that interfaces are drawn
+// again.
 void noteChangedTexture();
 
 }  // namespace stereonav

@@ -1,11 +1,11 @@
-// The letters of the interface (engine/letters/letter_font.h), as Dear ImGui takes them.
+// The letters of the interface (engine/letters/letter_font.h), for Dear ImGui.
 #pragma once
 
 struct ImFontAtlas;
 
 namespace stereonav {
 
-// Puts the font into the atlas as its only one, pixels high.
+// Makes this the atlas's only font. pixels: height.
 void useInterfaceFont(ImFontAtlas& atlas, float pixels);
 
 }  // namespace stereonav

@@ -13,7 +13,8 @@ void InterfaceStill::keep(std::uint64_t digest, const InterfaceOpening& opening,
                           const glm::ivec2& whole) {
     if (!mStore) mStore.emplace();
     if (mStored != part.size) {
-        // Unsized, with the order of bytes that windows have: Mesa's drivers then copy bytes.
+        // An unsized format with the byte order of windows: Mesa's drivers then copy bytes without
+        // conversion.
         glBindTexture(GL_TEXTURE_2D, mStore->texture.name());
         glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, part.size.x, part.size.y, 0, GL_BGRA,
                      GL_UNSIGNED_INT_8_8_8_8_REV, nullptr);
@@ -25,7 +26,7 @@ void InterfaceStill::keep(std::uint64_t digest, const InterfaceOpening& opening,
         const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         mStored = complete ? part.size : glm::ivec2(0);
-        if (!complete) return forget();  // then it is drawn each time
+        if (!complete) return forget();  // without a copy the interface is drawn each time
     }
     mDigest = digest;
     mOpening = opening;
@@ -38,8 +39,8 @@ void InterfaceStill::put(const InterfacePart& part) const {
     copy(true, part);
 }
 
-// Rows of a window are stored from the top, those of a texture from the bottom: turned over, the one's bytes
-// are the other's.
+// Copies between window and texture. Windows count rows from the top here, OpenGL from the bottom: blits are
+// turned over, which keeps the bytes in order.
 void InterfaceStill::copy(bool back, const InterfacePart& part) const {
     const GLuint store = mStore->framebuffer.name();
     glDisable(GL_SCISSOR_TEST);

@@ -1,6 +1,6 @@
-// What of the interface stays beside the pictures while they change: columns of panels are drawn once, kept,
-// and copied into each eye's part for every picture after that. Where the processor draws (llvmpipe) a copy
-// costs some 3 % of drawing the panels again; a graphics card is spared the triangles.
+// The part of the interface that stays the same while pictures change: columns of panels are drawn once,
+// stored, and copied into each eye's part for every later picture. Where the processor draws (llvmpipe) a
+// copy costs about 3 % of drawing the panels again; a graphics card is spared the triangles.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace stereonav {
 
-// Where the picture lies in each eye's part, pixels from the part's top left corner: the interface beside it
+// The picture's place in each eye's part, in pixels from the part's top left corner. Outside it the interface
 // is opaque.
 struct InterfaceOpening {
     glm::ivec2 corner{0}, size{0};
@@ -23,15 +23,15 @@ struct InterfacePart {
     glm::ivec2 corner{0}, size{0};
 };
 
-// Keeps the interface beside the pictures. In one context, whose framebuffer is that of the window.
+// Stores the interface beside the pictures. For one context, whose framebuffer is the window's.
 class InterfaceStill {
 public:
-    // Returns whether the part beside the opening is kept, as it was drawn with this digest.
+    // Returns whether the interface beside the opening is stored as drawn with this digest.
     bool holds(std::uint64_t digest, const InterfaceOpening& opening, const InterfacePart& part) const;
-    // Keeps it from a part that is drawn. whole: pixels of the framebuffer.
+    // Stores it from a part that has been drawn. whole: pixels of the framebuffer.
     void keep(std::uint64_t digest, const InterfaceOpening& opening, const InterfacePart& part,
               const glm::ivec2& whole);
-    void put(const InterfacePart& part) const;  // part: of the same size, in the framebuffer
+    void put(const InterfacePart& part) const;  // part: place in the framebuffer, of the stored size
     void forget() { mDigest.reset(); }
 
 private:
@@ -42,7 +42,7 @@ private:
         GlFramebuffer framebuffer;
     };
     std::optional<Store> mStore;
-    glm::ivec2 mStored{0}, mWhole{0}, mSize{0};  // pixels: of the store, the framebuffer, the part
+    glm::ivec2 mStored{0}, mWhole{0}, mSize{0};  // pixels: of the stored texture, the framebuffer, the part
     InterfaceOpening mOpening;
     std::optional<std::uint64_t> mDigest;
 };

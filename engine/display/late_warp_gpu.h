@@ -1,5 +1,4 @@
-// The late warp (engine/late) by a fragment shader: from pictures that lie on the graphics processor to
-// pictures that stay there.
+// The late warp (engine/late) in a fragment shader; its input and output pictures stay on the graphics card.
 #pragma once
 
 #include <array>
@@ -19,14 +18,16 @@ public:
     // Returns false where the driver can not draw into eyes of ten bits; nothing else works then.
     bool works() const { return mWorks; }
 
-    // Takes an eye that was cast and prepared, to be warped from now on; uploads it. eye: 0 left, 1 right.
+    // Takes an eye's picture, cast and prepared, and uploads it; it is warped until the next one is taken.
+    // eye: 0 left, 1 right.
     void take(std::size_t eye, const LateEye& late, const Plane<PackedColor>& color);
-    // Draws the eye as `to` sees it. The texture holds it until the next call for this eye: RGB10_A2, row 0
-    // on top, alpha where nothing was seen before. take() came first, and `late` is the same.
+    // Draws the eye as seen from `to`; take() must have been called with the same `late`. The returned
+    // texture holds the picture until the next call for this eye: RGB10_A2, row 0 on top, alpha set where
+    // nothing was seen before.
     GLuint warp(std::size_t eye, const LateEye& late, const EyeView& to);
 
-    // Reads the eye warped last, and where it is uncovered (255) or null. For tests and what is looked at
-    // later.
+    // Reads the picture that was warped last. uncovered, if not null: 255 where nothing was seen before. For
+    // tests, and for measures taken after the flight.
     void read(std::size_t eye, Plane<PackedColor>& image, Plane<std::uint8_t>* uncovered = nullptr) const;
 
 private:
@@ -34,7 +35,7 @@ private:
         GlTexture color, inverse, plans, image;
         GlFramebuffer framebuffer;
         int width = 0, height = 0;            // size of the picture that was cast
-        int across = 0, down = 0;             // number of the plans each way
+        int across = 0, down = 0;             // number of plans in each direction
         int shownWidth = 0, shownHeight = 0;  // size of the new picture
     };
     void sizeImage(Eye& eye, int width, int height);
@@ -43,7 +44,7 @@ private:
     GlVertexArray mVertices;
     std::array<Eye, 2> mEyes;
     std::vector<LatePlan> mPlans;
-    std::vector<float> mTexels;  // the plans, as they are uploaded: each its LatePlan's three numbers
+    std::vector<float> mTexels;  // the plans as uploaded: three numbers of each LatePlan
     bool mWorks = true;
 };
 

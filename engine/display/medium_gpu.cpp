@@ -308,7 +308,7 @@ bool MediumGpu::State::drawLight(int slab) {
     const bool blurs = used->lights.size() > 1;
     const double tap = blurs ? farthestTap(g.light, g.axis, spread, thickness, t - g.lightStart) : 0.0;
     const int reach = static_cast<int>(std::min(std::ceil(tap), 1e6)) + 1;
-    // Where slabs lean, what the medium meets changes its neighbours too.
+    // Where slabs lean, the medium in a texel affects the neighbouring texels too.
     const PixelRect changed = blurs && g.leaning > 0 ? united(met, touched) : touched;
     const PixelRect part = united(met, blurs ? grown(changed, reach, g.light) : changed);
     touched = blurs ? part : met;

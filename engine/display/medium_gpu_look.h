@@ -1,4 +1,4 @@
-// A look's textures: its phase function, and baked light for surfaces.
+// Textures of a look: its phase function, and baked light for surfaces.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,8 +11,9 @@
 
 namespace stereonav {
 
-// A phase function's texture by the half angle's sine up to the right angle, beyond it by sqrt(2) - its
-// cosine: even steps of about the same angle, no trigonometry in the shader.
+// Texture of a phase function. Its coordinate is the sine of half the angle up to the right angle, and beyond
+// it sqrt(2) minus the cosine of half the angle: steps of about equal angle, without trigonometry in the
+// shader.
 class PhaseTexture {
 public:
     void set(const PhaseFunction& phase);  // uploads where it differs from what was set last
@@ -24,16 +25,16 @@ private:
     std::vector<glm::vec3> mEntries;  // the entries that were set, as in PhaseFunction
 };
 
-// Baked light as light times weight in rgb, the weight in a: what a trilinear filter adds up is the weighted
-// mean, times the sum of the weights. Texels are those of the time when a volume is first set.
+// Baked light as light times weight in rgb, and the weight in a, so that trilinear filtering gives the
+// weighted mean times the sum of the weights. Texels are those at the time when a volume is first set.
 class BakedTexture {
 public:
-    // Uploads the light. Throws Error where it does not fit. Null: none.
+    // Uploads the light. Throws Error where it does not fit. Null: no light.
     void set(const std::shared_ptr<const IlluminationVolume>& light);
     bool any() const { return mLight != nullptr; }
     void bind(GLuint unit) const;
-    // `name`: the uniform that gets texture coordinates of places relative to the anchor; the program is in
-    // use.
+    // name: the uniform that receives the mapping from places relative to the anchor to texture coordinates;
+    // the program must be in use.
     void setPlace(const ShaderProgram& program, const char* name, const glm::dvec3& anchor) const;
 
 private:

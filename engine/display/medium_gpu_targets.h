@@ -1,6 +1,6 @@
-// Where a sweep on the GPU draws: a region for each eye and two for the light, in turn read and written. All
-// regions lie in one target, told apart by viewports, so that nothing is switched between passes (Kniss et
-// al. 2003, section 4; row K8 of docs/ledger.md), or each in a target of its own.
+// Targets of a sweep on the GPU: a region for each eye and two for the light, which are read and written in
+// turn. All regions lie in one target and are selected by viewports, so that targets need not be switched
+// between passes (Kniss et al. 2003, section 4; row K8 of docs/ledger.md); or each has a target of its own.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -20,21 +20,21 @@ struct TargetSizes {
 
 class MediumTargets {
 public:
-    // The light's regions have a ring of texels around them that stays as light sets out.
+    // Width of the ring of texels around the light's regions, which keep the initial light.
     static constexpr int kRing = 1;
 
     // Throws Error where a target would be larger than the driver allows.
     explicit MediumTargets(const TargetSizes& sizes);
 
-    // Clears: eyes see all of what lies behind and no light, the light's buffers are 1; leaves no scissor.
+    // Clears: eyes see all of the background and no light, the light's buffers are 1; leaves no scissor.
     void clear();
-    // Sets scattered light as it sets out, in both buffers, the ring too: texels row by row.
+    // Sets the initial scattered light, in both buffers with the ring: texels row by row.
     void startLight(const std::vector<float>& scattered);
 
-    // Lets following draws go there; sets framebuffer and viewport.
+    // Selects the target for the following draws; sets framebuffer and viewport.
     void drawToEye(int eye) { drawTo(mEyes[static_cast<std::size_t>(eye)]); }
     void drawToLight(int turn) { drawTo(mLights[turn & 1]); }
-    // Corner of a region in its texture; that of the light's, inside the ring.
+    // Returns the corner of a region in its texture; for the light's, inside the ring.
     glm::ivec2 eyeAt(int eye) const { return mEyes[static_cast<std::size_t>(eye)].at; }
     glm::ivec2 lightAt(int turn) const { return mLights[turn & 1].at; }
     GLuint eyeTexture(int eye) const { return surfaceOf(mEyes[static_cast<std::size_t>(eye)]).color.name(); }

@@ -12,7 +12,7 @@
 
 namespace stereonav {
 
-// Units of textures; the shaders name them by their binding.
+// Texture units; the shaders name them by their binding.
 struct GlUnit {
     static constexpr GLuint kField = 0, kTable = 1, kNoise = 2, kPhase = 3, kBefore = 4, kBaked = 5,
                             kBeyond = 6,
@@ -27,13 +27,13 @@ public:
     // medium must outlive the textures. Throws Error where a texture would be larger than the driver allows.
     explicit MediumTextures(const Medium& medium);
 
-    // Lines that tell the shaders what there is. They do not depend on the look.
+    // Returns lines for the shaders that say which parts the medium has. They do not depend on the look.
     const std::string& defines() const { return mDefines; }
     bool hasGlow() const { return mHasGlow; }
     bool hasSurface() const { return mHasSurface; }
 
-    // Sets uniforms of the medium, places being relative to the anchor, at `time` seconds; the program is in
-    // use.
+    // Sets uniforms of the medium for places relative to the anchor, at `time` seconds; the program must be
+    // in use.
     void setUniforms(const ShaderProgram& program, const glm::dvec3& anchor, double time) const;
     void bind() const;
 
@@ -56,7 +56,7 @@ private:
     glm::ivec2 mTableSize{0};  // columns, rows
     GLenum mTableKind =
         GL_TEXTURE_1D_ARRAY;  // tables of one row each, read with half the taps; or GL_TEXTURE_2D_ARRAY
-    // Mip levels of a layer side by side, and where each lies: corner and size.
+    // Mip levels of a layer side by side in one texture, and the place of each: corner and size.
     struct Levels {
         GlTexture texture;
         std::vector<glm::ivec4> levels;

@@ -1,6 +1,6 @@
-// Eyes that a layout shows as they are, pixel for pixel: bytes as the screen has them, made by the processor
-// and copied into the window. Where the processor draws (llvmpipe) that takes a quarter of the time of the
-// shader that composes.
+// Eyes that a layout shows unchanged, pixel for pixel: the CPU makes the screen's bytes, which are copied
+// into the window. Where the processor draws (llvmpipe) that takes a quarter of the time of the composing
+// shader.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@ namespace stereonav {
 // Copies eyes into the window. In one context.
 class PlainEyes {
 public:
-    // Takes an eye, 0 or 1; sRGB bytes are made of its colours, as files have them.
+    // Takes an eye, 0 or 1; its colours become sRGB bytes, as in files.
     void upload(std::size_t eye, const Plane<PackedColor>& colors);
-    // Copies into the framebuffer that is drawn into: x, y of the picture's lower left corner. Returns false
-    // where the driver can not copy from such a texture; then nothing was drawn.
+    // Copies into the current framebuffer; x, y: the picture's lower left corner. Returns false, having drawn
+    // nothing, where the driver can not copy from such a texture.
     bool copy(std::size_t eye, int x, int y) const;
 
 private:

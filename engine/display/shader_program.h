@@ -18,8 +18,8 @@ std::span<const ShaderSource> shaderSources();
 
 class ShaderProgram {
 public:
-    // Compiles and links. Names of files in shaders/; `defines` are lines put after the first line (#version)
-    // of both. Throws Error with the shader's name and the driver's message.
+    // Compiles and links two files of shaders/, given by name. defines: lines to put after the first line
+    // (#version) of both. Throws Error with the shader's name and the driver's message.
     ShaderProgram(std::string_view vertexName, std::string_view fragmentName,
                   const std::string& defines = "");
 

@@ -1,5 +1,6 @@
-// A mouse with six axes, as the daemon spacenavd tells of it: 32 bytes an event through a Unix socket
-// (protocol 0 of spacenavd, which needs no library). Without the daemon there is none; it may come and go.
+// A mouse with six axes, from the daemon spacenavd: 32 bytes per event through a Unix socket (protocol 0 of
+// spacenavd, which needs no library). Without the daemon there is no mouse; it may start and stop at any
+// time.
 #pragma once
 
 #include <array>
@@ -11,8 +12,8 @@
 
 namespace stereonav {
 
-// State of the axes: shares of a full push or twist, -1 to 1, in the frame of who looks at the screen: right,
-// up, forward; and turns about these, by the left-hand rule, as the daemon has them.
+// State of the axes: shares of a full push or twist, -1 to 1, seen by the user before the screen: right, up,
+// forward; and turns about these axes by the left-hand rule, as the daemon gives them.
 struct SpaceMouseState {
     std::array<double, 3> push{}, twist{};
     bool moved() const;
@@ -22,7 +23,8 @@ struct SpaceMouseState {
 class SpaceMouse {
 public:
     static constexpr std::chrono::milliseconds kLookAgain{2000};
-    // Takes a socket: "" never connects. The default is where the daemon's library looks, too.
+    // socket: path of the daemon's socket; "" never connects. The default is where the daemon's own library
+    // looks as well.
     explicit SpaceMouse(std::string socket = usualSocket(), std::chrono::milliseconds lookAgain = kLookAgain);
     ~SpaceMouse();
     SpaceMouse(const SpaceMouse&) = delete;
@@ -31,7 +33,7 @@ public:
     // Returns $SPNAV_SOCKET, or /var/run/spnav.sock.
     static std::string usualSocket();
 
-    // Reads what has come, and looks for the daemon now and then while there is none; never waits.
+    // Reads events that have come; while there is no daemon, looks for it now and then. Never waits.
     void look();
     bool connected() const { return mSocket >= 0; }
     const SpaceMouseState& state() const { return mState; }
@@ -46,8 +48,8 @@ private:
     std::chrono::milliseconds mLookAgain;
     int mSocket = -1;
     std::chrono::steady_clock::time_point mNext{};  // when to look for the daemon again
-    std::array<std::byte, 32> mPart{};              // the beginning of an event,
-    std::size_t mPartBytes = 0;                     // so many bytes of it
+    std::array<std::byte, 32> mPart{};              // the beginning of an incomplete event
+    std::size_t mPartBytes = 0;                     // number of its bytes
     SpaceMouseState mState;
     std::vector<int> mPresses;
 };

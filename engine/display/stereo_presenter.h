@@ -23,8 +23,8 @@ struct Viewport {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-// A texture over an eye: sRGB values multiplied by their alpha, row 0 at the bottom, and where there is
-// something.
+// A texture over an eye: sRGB values multiplied by their alpha, row 0 at the bottom, and the box that is not
+// empty.
 struct EyeLayer {
     struct Box {  // pixels from the top left corner, the last ones beside it
         glm::ivec2 first{0}, last{0};
@@ -33,7 +33,7 @@ struct EyeLayer {
     std::vector<Box> boxes;
 };
 
-// Pixels at a part's borders that are left free.
+// Pixels at a part's borders that stay free.
 struct PartInset {
     int left = 0, top = 0, right = 0, bottom = 0;
 };
@@ -42,19 +42,18 @@ struct PartInset {
 class StereoPresenter {
 public:
     using SharedEye = std::shared_ptr<const Plane<PackedColor>>;
-    // Shows these eyes. right may be null or empty: the left eye then stands for both. Kept until the next
-    // ones come: they are uploaded when they are drawn, as what is drawn needs them. Throws Error where the
+    // Shows these eyes. right: null or empty shows the left eye for both. Pictures are kept until the next
+    // call, and are uploaded when they are drawn, in the form that drawing needs. Throws Error where the
     // sizes differ or exceed the driver's textures.
     void show(SharedEye left, SharedEye right);
-    // Shows eyes that lie on the graphics processor already (engine/display/late_warp_gpu.h): textures of
-    // this size, row 0 on top, which stay as they are until they were drawn. right 0: the left eye stands for
-    // both.
+    // Shows eyes that are on the graphics card already (engine/display/late_warp_gpu.h): textures of this
+    // size, row 0 on top, which must not change until they were drawn. right 0: the left eye for both.
     void showTextures(GLuint left, GLuint right, int width, int height);
     // Shows copies of these eyes. Throws Error as show() does.
     void upload(const Plane<PackedColor>& left, const Plane<PackedColor>& right);
     bool hasPicture() const { return mWidth > 0; }
-    // Sets what lies over each eye from now on (engine/display/eye_overlay.h), of its picture's size; none:
-    // nothing.
+    // Sets the layers over each eye from now on (engine/display/eye_overlay.h), of the picture's size; empty:
+    // no layers.
     void setLayers(std::optional<std::array<EyeLayer, 2>> layers) { mLayers = std::move(layers); }
 
     // Fills the viewport with the composed picture (nearest pixels where the sizes differ).
@@ -70,8 +69,8 @@ private:
 
     void checkSizes(const Plane<PackedColor>& left, const Plane<PackedColor>* right) const;
     void uploadEye(std::size_t eye) const;
-    // Copies an eye to a viewport of its size, with its layer over it. Returns false where the driver can
-    // not.
+    // Copies an eye to a viewport of its size, with its layer over it. Returns false where the driver can not
+    // do that.
     bool copyEye(std::size_t eye, const Viewport& viewport) const;
     const ShaderProgram& programFor(Pass pass, bool layered) const;
     static Pass passOf(const OutputModeInfo& info);
@@ -82,13 +81,13 @@ private:
     // Programs with layers and without; made when first drawn.
     mutable std::map<std::pair<Pass, bool>, ShaderProgram> mPrograms;
     GlVertexArray mVertices;
-    // An eye, left or right: what it shows, and what of that is uploaded.
+    // An eye, left or right: its picture, and what of it is uploaded.
     struct Eye {
         SharedEye picture;
         GlTexture texture;
         int width = 0, height = 0;  // size of the texture
         bool uploaded = false, plain = false;
-        GLuint given = 0;  // in the place of the texture
+        GLuint given = 0;  // texture given by showTextures(), used instead
         GLuint name() const { return given != 0 ? given : texture.name(); }
     };
     mutable std::array<Eye, 2> mEyes;

@@ -216,13 +216,14 @@ void Window::onPointer(double x, double y) {
 
 void Window::onButton(int button, bool pressed) {
     if (mCaptured || button < 0 || button > GLFW_MOUSE_BUTTON_LAST) return;
-    // Where the pointer was then; what the system is asked for is where it is now, some frames later.
+    // The pointer's place at the time of the event; asking the system would give the present one, some frames
+    // later.
     glm::dvec2 now = mPointer;
     if (!mPointerKnown) glfwGetCursorPos(mHandle, &now.x, &now.y);
     const unsigned bit = 1u << button;
     if (mSink) {
         mSink->pointerAt(shareOf(now));
-        // What was pressed there is let go there.
+        // A button that was pressed over an element is also released there.
         const bool taken = mSink->takesButton(button, pressed);
         const bool was = (mTaken & bit) != 0;
         mTaken = pressed && taken ? mTaken | bit : mTaken & ~bit;

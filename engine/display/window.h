@@ -1,5 +1,5 @@
-// A window with an OpenGL 3.3 context and what the user does to it: keys, mouse, wheel, gamepad. All calls
-// from the main thread (GLFW's rule), except wake().
+// A window with an OpenGL 3.3 context and its user input: keys, mouse, wheel, gamepad. All functions must be
+// called on the main thread (GLFW's rule), except wake().
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -12,14 +12,14 @@ struct GLFWwindow;
 
 namespace stereonav {
 
-// Returns whether a window with the OpenGL this program needs can be opened here. Opens a hidden one to see,
-// unless no display is named at all. Not while a Window exists.
+// Returns whether a window with the required OpenGL can be opened. Opens a hidden one to find out, unless no
+// display is named at all. Not to be called while a Window exists.
 bool hasDisplay();
 
 // A key that went down.
 struct KeyPress {
-    int key = 0;      // GLFW_KEY_...: the place on a US keyboard
-    char letter = 0;  // what the user's layout has there without shift, 0 when it is not ASCII
+    int key = 0;      // GLFW_KEY_...: position on a US keyboard
+    char letter = 0;  // letter of the user's layout at that position without shift, 0 when it is not ASCII
     bool shift = false;
     bool repeat = false;  // held down
     bool control = false;
@@ -31,11 +31,11 @@ struct Gamepad {
     glm::dvec2 leftStick{0.0}, rightStick{0.0};  // shares of full tilt
     double leftTrigger = 0, rightTrigger = 0;    // shares of full pull
     bool a = false, b = false, x = false, y = false, leftBumper = false, rightBumper = false;
-    bool up = false, down = false, left = false, right = false;  // the cross
+    bool up = false, down = false, left = false, right = false;  // directional pad
 };
 
-// What lies over the picture and is asked first: what it takes does not reach the picture. Places are shares
-// of the window's size, (0, 0) top left.
+// An element over the picture that gets input first: input that it takes does not reach the picture. Places
+// are shares of the window's size, (0, 0) top left.
 class InputSink {
 public:
     virtual ~InputSink() = default;
@@ -50,19 +50,18 @@ public:
 
 class Window {
 public:
-    // Opens a window, width, height in screen units, each cut to the monitor's free area. Throws Error where
-    // there is no display or no OpenGL 3.3. quadBuffer: asks the driver for a back buffer for each eye; where
-    // it refuses, the window has one for both.
+    // Opens a window; width, height: screen units, limited to the monitor's free area. Throws Error where
+    // there is no display or no OpenGL 3.3. quadBuffer: asks the driver for one back buffer per eye; if it
+    // refuses, the window has one for both.
     Window(const std::string& title, int width, int height, bool visible = true, bool quadBuffer = false);
-    // Opens a window beside the first one, which outlives it: textures made in the context of either are
-    // those of both. Where there is a monitor that the first one does not lie on, it opens there. Throws
-    // Error.
+    // Opens a window beside the first one, which must outlive it. Their contexts share textures. It opens on
+    // a monitor other than the first one's, where there is one. Throws Error.
     Window(const std::string& title, int width, int height, const Window& first);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // Makes the window's context the current one, as it is when it has been opened.
+    // Makes the window's context current, as it is after opening.
     void use() const;
 
     bool shouldClose() const;

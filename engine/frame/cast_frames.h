@@ -10,12 +10,12 @@ namespace stereonav {
 // Makes frames by rays and a warp, keeping its buffers between them.
 class CastFrames final : public FrameMaker, public RightFromLeft {
 public:
-    // renderer must outlive this. Default method: defaultMethodFor(renderer); compared: those of
-    // methodsFor(renderer), but for `uncompared`.
+    // renderer must outlive this object. Its default method is defaultMethodFor(renderer); compared() returns
+    // methodsFor(renderer) without `uncompared`.
     explicit CastFrames(const EyeRenderer& renderer, std::optional<RightEyeMethod> uncompared = {})
         : mRenderer(renderer), mUncompared(uncompared) {}
 
-    // The methods of whatever is cast.
+    // Returns the methods of all scenes whose rays are cast.
     static std::span<const std::string_view> allMethods();
     std::span<const std::string_view> methods() const override { return allMethods(); }
     std::string_view defaultMethod() const override;

@@ -1,6 +1,6 @@
-// One frame of a scene: both eyes, by whatever way the scene has of making them. Commands and the window make
-// their frames through this and need not know what is behind it: rays and a warped right eye (cast_frames.h),
-// or a sweep through a medium for both (engine/medium/sweep/swept_frames.h).
+// Makes frames of a scene, both eyes, in the scene's own way. Commands and the window use this and need not
+// know what is behind it: rays and a warped right eye (cast_frames.h), or a sweep through a medium for both
+// (engine/medium/sweep/swept_frames.h).
 #pragma once
 
 #include <cstddef>
@@ -19,14 +19,14 @@
 
 namespace stereonav {
 
-// How the eyes are to be made.
+// How both eyes are made.
 struct FrameWay {
     std::string_view method;  // one of FrameMaker::methods(); "": the default
-    WarpSetting warp{};       // how methods that warp do it: all but which one it is
+    WarpSetting warp{};       // settings for methods that warp; the method in it is not used
     EdgeSetting edges{};      // rays at edges, where rays are cast
 };
 
-// Returns the way of a setting, its method too.
+// Returns the way with this setting, and with its method.
 inline FrameWay wayOf(const WarpSetting& setting) {
     return {nameOf(setting.method), setting};
 }
@@ -45,31 +45,31 @@ struct EyePair {
     FrameTimings timings;
 };
 
-// Memory that is held between frames beside the pictures.
+// Memory that is held between frames, without the pictures.
 struct HeldBytes {
     const char* what;
     std::size_t bytes;
 };
 
-// Where the last right eye was not taken from the left one.
+// Pixels where the last right eye was not taken from the left one.
 struct RightHoles {
-    const Plane<std::uint8_t>& mask;  // 255 there, 0 elsewhere; until the next right eye is made
+    const Plane<std::uint8_t>& mask;  // 255 in holes, 0 elsewhere; valid until the next right eye is made
     bool open = false;                // holes are black, instead of cast
 };
 
-// Methods that take one left eye as it is and differ in the right one alone: that one by itself, so that many
-// ways of making it can be tried on a left eye that is made once.
+// Methods that use a given left eye unchanged and differ only in the right eye. Here that is made by itself,
+// so that many ways can be tried on a left eye that is made once.
 class RightFromLeft {
 public:
     virtual ~RightFromLeft() = default;
-    // left: the left eye of these views as FrameMaker::make gives it, without rays for its edges: they would
-    // be warped with what lies beside them. Nor does the right eye get any. Sizes the image. Throws Error as
-    // make().
+    // Makes a right eye. left: the left eye of these views from FrameMaker::make, without rays for its edges,
+    // since those would be warped with what lies beside them; the right eye gets none either. Sizes the
+    // image. Throws Error as make().
     virtual RightEyeTimings makeRight(const StereoViews& views, const EyeImage& left, const FrameWay& way,
                                       EyeImage& right) = 0;
-    // Smooths an eye's edges in the given way, once the right eye was made: EdgeRays::smooth.
+    // Smooths an eye's edges in the given way, to be called after the right eye was made: EdgeRays::smooth.
     virtual EdgeTimings smoothEdges(const EyeView& view, const FrameWay& way, EyeImage& image) = 0;
-    // The holes of the last right eye, by makeRight() or FrameMaker::make().
+    // Returns the holes of the last right eye from makeRight() or FrameMaker::make().
     virtual RightHoles holes() const = 0;
 };
 
@@ -78,38 +78,39 @@ class FrameMaker {
 public:
     virtual ~FrameMaker() = default;
 
-    // Names of the ways to two eyes, in a fixed order, all valid for ever.
+    // Returns the names of the methods for two eyes, in a fixed order; the texts stay valid for ever.
     virtual std::span<const std::string_view> methods() const = 0;
-    // The method that "" stands for.
+    // Returns the method for the name "".
     virtual std::string_view defaultMethod() const = 0;
-    // The method that makes each eye by itself: what the others are measured against.
+    // Returns the method that makes each eye alone, against which the others are measured.
     virtual std::string_view exactMethod() const = 0;
     // The methods that a comparison runs when none are named, in the order of methods().
     virtual std::vector<std::string_view> compared() const { return {methods().begin(), methods().end()}; }
-    // Names the pictures that these methods make, as in "right eye": the rest is the same for all.
+    // Returns a name for the part of a frame in which methods differ, such as "right eye"; the rest is the
+    // same for all.
     virtual std::string_view whatMethodsMake() const = 0;
 
-    // Makes both eyes; sizes the images. time: seconds, for what moves by itself. Throws Error for a method
-    // that is not among methods().
+    // Makes both eyes; sizes the images. time: seconds, for animation. Throws Error for a method that is not
+    // among methods().
     virtual void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) = 0;
     // Makes one eye, into frame.left.
     virtual void makeOne(const EyeView& view, double time, EyePair& frame) = 0;
-    // Returns what makes the right eye alone; null where methods make both eyes together, or one each its own
-    // way.
+    // Returns an interface that makes the right eye alone; null where methods make both eyes together, or
+    // each its own left eye.
     virtual RightFromLeft* rightFromLeft() { return nullptr; }
 
-    // Returns by measuring which method is worth its time on frames like these (all of one size, at least
-    // one); nothing where there is nothing to weigh.
+    // Returns the fastest plan, by measurements on frames like these (all of one size, at least one); empty
+    // where there is no choice.
     virtual std::optional<FramePlan> measure(std::span<const StereoViews>) { return std::nullopt; }
-    // Returns the way that meets a wish for quality at the least cost, measured on frames like these
-    // (quality_plan.h). method: to be kept, or "" for any. Returns nothing where methods have no such dial.
+    // Returns the cheapest way that fulfils a wish for quality, by measurements on frames like these
+    // (quality_plan.h). method: the method to keep, or "" for any. Empty where methods have no such setting.
     // Throws Error.
     virtual std::optional<QualityPlan> meet(const QualityWish&, std::string_view /*method*/,
                                             std::span<const StereoViews>) {
         return std::nullopt;
     }
 
-    // Returns what is held now, a row for each kind.
+    // Returns the memory that is held now, a row for each kind.
     virtual std::vector<HeldBytes> held() const { return {}; }
 };
 

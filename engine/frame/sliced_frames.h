@@ -1,18 +1,18 @@
-// What a FrameMaker may be beside: one that makes frames slice by slice, as media are. Where the slices lie
-// is arbitrary: frames that differ in it alone are as right as each other, and their mean is better than any.
+// An extension of a FrameMaker that makes frames slice by slice, as for media. The position of the slices is
+// arbitrary: frames that differ only in it are equally right, and their mean is better than each.
 #pragma once
 
 namespace stereonav {
 
-// Places and number of the slices of the next frames.
+// Position and number of the slices in the next frames.
 class SlicedFrames {
 public:
     virtual ~SlicedFrames() = default;
-    // Share of a slab by which the slices of the next frames lie elsewhere: 0 is how they are made alone;
-    // from there on to below 1.
+    // Sets the shift of the slices in the next frames, as a share of a slab: 0, as for a single frame, up to
+    // below 1.
     virtual void setTurn(double turn) = 0;
-    // Sets the factor on the number of slices of the next frames, whose root is the one on the light's texels
-    // a side: 1 is what the scene asks for.
+    // Sets a factor on the number of slices in the next frames; its root is the factor on the light's texels
+    // per side. 1: the scene's own setting.
     virtual void setEffort(double share) = 0;
 };
 

@@ -1,5 +1,5 @@
-// Numbers of glTF's accessors: plain ones, sparse ones, and zeros where a file has no data for them
-// (glTF 2.0, 3.6.2). Each place is held against its buffer before anything is taken for it.
+// Reads numbers of glTF accessors: plain ones, sparse ones, and zeros where a file has no data for them (glTF
+// 2.0, 3.6.2). Offsets and sizes are tested against the buffer before memory is taken.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace stereonav {
 namespace {
 
-constexpr std::size_t kMostWithoutData = 1u << 22;  // elements that a file may count without bytes for them
+constexpr std::size_t kMostWithoutData = 1u << 22;  // largest number of elements without data in the file
 
 double numberAt(const unsigned char* at, int componentType, bool normalized) {
     const auto read = [&]<typename T>(T value, double scale) {
@@ -62,13 +62,13 @@ std::size_t componentBytes(int type) {
     return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type)));
 }
 
-// Where elements lie in a buffer view.
+// The place of elements in a buffer view.
 struct ElementRun {
     int bufferView = -1;
     std::size_t byteOffset = 0, count = 0, size = 0, stride = 0;  // size, stride: bytes
 };
 
-// Returns the elements' bytes from the first one on, once all of them are known to lie inside.
+// Returns the bytes of a buffer view from the first element on. Throws Error unless all elements lie inside.
 std::span<const unsigned char> elementBytes(const GltfFile& file, const ElementRun& run,
                                             const std::string& place) {
     const auto bytes = bufferViewBytes(file, run.bufferView, place);
@@ -84,7 +84,7 @@ std::span<const unsigned char> elementBytes(const GltfFile& file, const ElementR
     return bytes.subspan(run.byteOffset);
 }
 
-// Data without a stride of its own.
+// Returns the run of elements that follow each other without gaps.
 ElementRun packedRun(int bufferView, int byteOffset, std::size_t count, std::size_t size) {
     return {bufferView, static_cast<std::size_t>(byteOffset), count, size, size};
 }
@@ -92,7 +92,7 @@ ElementRun packedRun(int bufferView, int byteOffset, std::size_t count, std::siz
 std::vector<double> plainValues(const GltfFile& file, int index, std::size_t components) {
     const tinygltf::Accessor& accessor = file.model.accessors[index];
     const std::string place = fmt::format("accessor {}", index);
-    const auto ask = [&] {  // once it is known that the file has, or needs, no data for more
+    const auto ask = [&] {  // called once the file is known to have the data, or to need none
         checkMemory(file.name, static_cast<double>(accessor.count * components * sizeof(double)),
                     "split the model");
     };
@@ -123,7 +123,7 @@ std::vector<double> plainValues(const GltfFile& file, int index, std::size_t com
     return values;
 }
 
-// Puts the elements that a sparse accessor gives by their numbers over the others.
+// Writes the elements of a sparse accessor over those values that its indices name.
 void takeSparse(const GltfFile& file, int index, std::size_t components, std::vector<double>& values) {
     const tinygltf::Accessor& accessor = file.model.accessors[index];
     const auto& sparse = accessor.sparse;

@@ -48,12 +48,13 @@ public:
     // memory stays where it is. No one may read meanwhile.
     void refill(const std::function<void(int y, PackedColor* row)>& fillRow);
 
-    // Returns the linear RGB, 0 to 1, at a grid coordinate; beyond the edge its texels count on. level: 0 the
-    // finest, clamped to those there are. Bilinear in texels as they are stored, and from level to level over
-    // the middle half between them: the plain statement of what kernels and shaders read.
+    // Returns the linear RGB, 0 to 1, at a grid coordinate; beyond the edge the edge's texels are repeated.
+    // level: 0 is the finest; clamped to the existing levels. Bilinear in texels as they are stored; from one
+    // level to the next it blends over the middle half of the interval. The plain definition of what kernels
+    // and shaders compute.
     glm::vec3 at(const glm::dvec2& grid, double level) const;
-    // The texture as kernels read it by places, which lie at the grid coordinates (place - origin) / spacing.
-    // It must outlive what is given.
+    // Returns the texture for kernels, which address it by places that lie at the grid coordinates (place -
+    // origin) / spacing. The texture must outlive the result.
     TextureData forKernels(const glm::dvec2& origin, const glm::dvec2& spacing) const;
 
     int levelCount() const { return static_cast<int>(mOffsets.size()); }

@@ -9,8 +9,8 @@
 namespace stereonav {
 namespace {
 
-// Where a pixel's centre lies among `from` others: the two beside it, the weight of the second in 256ths, and
-// the nearest.
+// Position of a pixel's centre among `from` source pixels: the two pixels beside it, the weight of the second
+// in 256ths, and the nearest one.
 struct Place {
     int first = 0, second = 0, nearest = 0;
     std::uint32_t weight = 0;

@@ -33,8 +33,8 @@ struct EyeImage {
     // resampled like one.
     Plane<PackedColor> baseColor;
     Plane<std::uint32_t> normal;
-    // Root mean square distance, metres, behind viewDepth of what a pixel's light comes from, weighted by its
-    // shares of the light; 0 where no light comes. Only with Depths.
+    // Root mean square distance in metres, behind viewDepth, of the places that a pixel's light comes from,
+    // weighted by their shares of the light; 0 without light. Only with ViewDependence::Depths.
     Plane<float> depthSpread;
 
     int width() const { return color.width(); }

@@ -1,7 +1,6 @@
-// Picture files: the only way that pictures of others come into the program (but rasters of terrain, which
-// GDAL reads). They are unpacked by a program of its own (decoded_picture.h); others than PNG are packed by
-// OpenCV, the module stereonav_pictures (engine/image/opencv), which is loaded by the first function that
-// asks for it.
+// Picture files. All foreign pictures come into the program through here, except rasters of terrain, which
+// GDAL reads. They are unpacked by a separate program (decoded_picture.h). PNG is written here; other formats
+// by OpenCV in the module stereonav_pictures (engine/image/opencv), which is loaded when it is first needed.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +15,8 @@
 
 namespace stereonav {
 
-// Reads PNG, JPEG, TIFF, BMP, WebP or Radiance, told by their first bytes, whatever their name is: 8 or 16
-// bits, gray or colour, taken as sRGB; floats are linear. Row 0 is the top. Throws Error.
+// Reads PNG, JPEG, TIFF, BMP, WebP or Radiance, recognized by the file's first bytes and not by its name: 8
+// or 16 bits, gray or colour, taken as sRGB; floats are linear. Row 0 is the top. Throws Error.
 Plane<PackedColor> readColorImage(const std::filesystem::path& file);
 
 // Reads a picture from its bytes in memory; file and place are named in errors. Throws Error.
@@ -31,14 +30,14 @@ struct LinearImage {
     int width = 0, height = 0;
     std::vector<glm::vec3> pixels;  // width * height of them
 };
-// Reads what readColorImage() does. Throws Error.
+// Reads the formats of readColorImage() as linear RGB. Throws Error.
 LinearImage readLinearImage(const std::filesystem::path& file);
 
 // Writes by extension (.png, .jpg, ...), 8-bit sRGB; "-" is PNG to standard output. Written as all files are
 // (engine/base/file.h). Throws Error.
 void writeColorImage(const std::filesystem::path& file, const Plane<PackedColor>& image,
                      Flush flush = Flush::ToDisk);
-// Returns whether there is a way to write pictures with this extension, as in ".png".
+// Returns whether pictures can be written in the format of this extension, such as ".png".
 bool canWritePicture(const std::string& extension);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// Pictures inside of pages.
+// Pictures embedded in HTML pages.
 #pragma once
 
 #include <span>

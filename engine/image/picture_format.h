@@ -1,5 +1,5 @@
-// The one door for picture files: which formats are read here, told by their first bytes alone. What is none
-// of them is refused before a library sees it, and no other decoder than the format's own is ever asked.
+// Recognizes picture formats by a file's first bytes. Files in other formats are refused before any library
+// sees them, and a picture is only ever given to the decoder of its own format.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace stereonav {
 
 enum class PictureFormat : std::int32_t { Png, Jpeg, Tiff, Bmp, WebP, Radiance };
 
-// Returns nothing where it is none of these. content: the file's bytes.
+// Returns the format; empty for all others. content: the file's bytes.
 std::optional<PictureFormat> pictureFormatOf(std::string_view content);
 
 // Advice for messages.

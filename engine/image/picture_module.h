@@ -1,4 +1,5 @@
-// What picture files ask of the module stereonav_pictures (OpenCV); engine/image/opencv has the functions.
+// Functions of the module stereonav_pictures (OpenCV) for picture files; they are defined in
+// engine/image/opencv.
 #pragma once
 
 #include "engine/image/image_file.h"

@@ -1,7 +1,7 @@
-// One picture from two eyes, for any display: either eye alone, side by side, top-bottom,
-// interleaved, anaglyph. Pure pixel work on the CPU, used for files and video; the window's fragment
-// shader follows the same tables (engine/display/stereo_presenter). Modes that show the eyes one after the
-// other are of the window alone (engine/display/eye_passes.h).
+// One picture from two eyes, for any display: either eye alone, side by side, top-bottom, interleaved,
+// anaglyph. Runs on the CPU, for files and video; the window's fragment shader follows the same tables
+// (engine/display/stereo_presenter). Modes that show the eyes one after the other exist only in windows
+// (engine/display/eye_passes.h).
 #pragma once
 
 #include <array>
@@ -51,7 +51,7 @@ enum class OutputMode {
     RedGreenGray,
     Alternating,  // left eye at one refresh of the display, right eye at the next
     AlternatingRightFirst,
-    QuadBuffer,  // both eyes to the graphics driver, which brings each to its eye
+    QuadBuffer,  // both eyes go to the graphics driver, which shows each to its eye
 };
 
 // Where the two eyes lie.
@@ -64,7 +64,7 @@ enum class OutputLayout {
     Columns,
     Checkerboard,
     Anaglyph,
-    FrameSequential,  // this one and the next are of windows alone
+    FrameSequential,  // this one and the next exist only in windows
     QuadBuffer
 };
 
@@ -75,7 +75,7 @@ struct OutputModeInfo {
     std::string_view longName;   // "red-cyan-dubois"
     OutputLayout layout;
     bool half;        // each eye squeezed along the layout's axis
-    bool rightFirst;  // the right eye comes first (or, where one eye is shown, is the one)
+    bool rightFirst;  // the right eye comes first; where one eye is shown, it is the right one
 };
 
 struct ComposeSetting {
@@ -95,11 +95,12 @@ using AnaglyphMatrix = std::array<std::array<float, 6>, 3>;
 // All modes, in their order.
 std::span<const OutputModeInfo> outputModes();
 const OutputModeInfo& infoOf(OutputMode mode);
-// Returns whether one picture can hold both eyes in this mode; else it is of windows alone.
+// Returns whether one picture can hold both eyes in this mode; false for modes that exist only in windows.
 bool fitsInPicture(OutputMode mode);
 // Returns the mode of FFmpeg's short names (tbl and abl alike) or of the long ones; nullopt for any other.
 std::optional<OutputMode> outputModeFromName(std::string_view name);
-// Returns all short names, "ml, mr, sbsl, ...": for messages. windows: those of windows alone, too.
+// Returns all short names, "ml, mr, sbsl, ...", for messages. windows: also those of modes that exist only in
+// windows.
 std::string outputModeNames(bool windows);
 
 // Returns the weights of an anaglyph mode. Colour: each channel from the eye whose glass passes it. Gray:
@@ -128,8 +129,8 @@ struct EyeArea {
 std::array<EyeArea, 2> eyeAreas(OutputMode mode, int width, int height);
 
 // Composes the picture of two eyes. Squeezed modes average pairs of pixels in linear light; interleaved modes
-// take each pixel from the eye whose turn it is, at its own place. Throws Error when the two sizes differ or
-// are empty, and for modes that do not fit in a picture.
+// take each pixel from one eye, at the same place in it. Throws Error where the two sizes differ or are
+// empty, and for modes that do not fit into a picture.
 Plane<PackedColor> composeStereo(const Plane<PackedColor>& left, const Plane<PackedColor>& right,
                                  const ComposeSetting& setting);
 

@@ -8,7 +8,7 @@ namespace stereonav {
 
 struct TextureData {
     const std::uint32_t* texels = nullptr;                 // null: none
-    std::int32_t offset[16] = {};                          // texels to a level's first one
+    std::int32_t offset[16] = {};                          // index of each level's first texel
     int levels = 0, width = 0, height = 0;                 // width and height of level 0
     float scaleX = 1, scaleY = 1, shiftX = 0, shiftY = 0;  // texel = place * scale + shift
     float texelsPerMetre = 1;                              // texels of level 0

@@ -46,7 +46,7 @@ glm::dvec2 seenBeyond(const LateEye& eye, const glm::ivec2& guard, const EyeView
         const glm::dvec2 shift =
             glm::dvec2(move.shift[0], move.shift[1]) - static_cast<double>(move.shift[2]) * infinite;
         glm::dvec2 place = infinite;
-        // What lies there says how far it moves.
+        // The depths at the place determine how far it moves.
         for (int round = 0; round < 2; ++round) {
             const LateTile& tile = eye.tileAt(place.x, place.y);
             place = infinite + 0.5 * static_cast<double>(tile.nearest + tile.farthest) * shift;

@@ -1,5 +1,5 @@
-// A guard around pictures that will be seen from elsewhere: they are cast somewhat wider than they are shown,
-// so that what comes into view is there. No clock.
+// A guard band around pictures for the late warp: they are cast somewhat wider than they are shown, so that
+// parts are there that come into view meanwhile. Uses no clock.
 #pragma once
 
 #include <array>
@@ -11,27 +11,29 @@
 
 namespace stereonav {
 
-// Returns a lens with the same pixels, and `guard` more of them at each side: what lies in the middle of
-// either eye stays there.
+// Returns the lens with the same pixels and `guard` more of them at each side; the middle of either eye's
+// picture stays in the middle.
 Lens guarded(const Lens& lens, const glm::ivec2& guard);
 
-// Returns how far `to` sees beyond what was to be shown of a picture, as shares of its width and height: by
-// the depths at its borders, at most 1. guard: pixels at each side that the picture was cast with.
+// Returns how far the view `to` sees beyond the visible part of a picture, as shares of its width and height:
+// from the depths at its borders, at most 1. guard: pixels at each side that the picture was cast with.
 glm::dvec2 seenBeyond(const LateEye& eye, const glm::ivec2& guard, const EyeView& to);
 
-// The width of the guard, from what the last pictures saw beyond theirs. It grows at once and shrinks slowly,
-// and it goes by steps: frames of one size use memory again.
+// The width of the guard band, chosen by how far the last pictures saw beyond theirs. It grows at once and
+// shrinks slowly, and it changes by steps, so that frames of the same size can reuse memory.
 class GuardBand {
 public:
     static constexpr double kStep = 0.03, kMost = 0.12;  // shares of the width or the height, at each side
-    static constexpr double kRemembered_s = 1;           // how long what was seen counts
-    static constexpr double kHold_s = 2;                 // less has been enough for so long before it shrinks
+    static constexpr double kRemembered_s = 1;           // seconds for which an observation counts
+    // Seconds for which less must have been enough before it shrinks.
+    static constexpr double kHold_s = 2;
 
-    // Notes a picture that was shown: seenBeyond() of it, at `now_s` of a clock that never goes back.
+    // Notes a picture that was shown. beyond: seenBeyond() of it; now_s: seconds of a clock that never goes
+    // back.
     void saw(const glm::dvec2& beyond, double now_s);
-    // Starts over without a guard: nothing moves any more.
+    // Starts over without a guard band, when nothing moves any more.
     void forget();
-    // The guard at each side, as shares of the width and the height.
+    // Returns the guard band at each side, as shares of the width and the height.
     glm::dvec2 shares() const { return glm::dvec2(mSteps) * kStep; }
 
 private:
@@ -40,7 +42,7 @@ private:
         glm::dvec2 beyond{0.0};  // shares of the width and the height
     };
     std::deque<Seen> mSeen;
-    // steps at each side; those that would have been enough since mLowerSince
+    // Steps at each side; steps that would have been enough since mLowerSince.
     glm::ivec2 mSteps{0}, mLower{0};
     glm::dvec2 mLowerSince{0.0};  // seconds
 };

@@ -205,7 +205,7 @@ LatePlan LateEye::planOf(const LateMove& move, int x0, int y0, int x1, int y1, f
 }
 
 void LateEye::planRow(const LateMove& move, const EyeView& to, int tileRow, LatePlan* plans) const {
-    // What is nearer than the near plane is not seen any more.
+    // Points nearer than the new view's near plane are not visible any more.
     const double near = to.nearDepth + static_cast<double>(move.shift[2]);
     const float nearestSeen = near > 0 ? static_cast<float>(1 / near) : 1e30f;
     const int across = tilesFor(to.width, kLateTileWidth), top = tileRow * kLateTileHeight;

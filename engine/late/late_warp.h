@@ -1,8 +1,9 @@
-// A picture that was cast a moment ago, as it is seen from where the eye is now: rotation exact, translation
-// by depth. What was not seen then is stretched from the farther side and marked. For the window, which shows
-// a new picture at each refresh whatever a frame costs; files and pictures at rest are cast.
+// Warps a picture that was cast a moment ago to the eye's present place: rotation exactly, translation by
+// depth. Parts that were not seen then are filled by stretching the farther side, and are marked. For the
+// window, which shows a new picture at each refresh however long a frame takes; files and pictures at rest
+// are cast instead.
 //
-// Backwards, pixel by pixel of the new picture: late_kernel.cpp. Plain form: late_oracle.h.
+// Works backwards, from each pixel of the new picture: late_kernel.cpp. Plain version: late_oracle.h.
 #pragma once
 
 #include <cstdint>
@@ -15,33 +16,33 @@
 
 namespace stereonav {
 
-// Returns where a pixel of `to` lies in the picture of `from`.
+// Returns the mapping from pixels of `to` to the picture of `from`.
 LateMove lateMove(const EyeView& from, const EyeView& to);
 
 // An eye's picture prepared for the late warp, once for each picture that was cast.
 class LateEye {
 public:
-    // Works out what warp() needs of a picture. depth: metres along the viewing axis; infinite is the sky;
-    // what is 0 or no number is not known. Pixels beside much nearer ones are taken for as near: smooth edges
-    // have colours of both. soft: for what is seen through, whose colours have more than one depth: depths
-    // without edges, and what is infinitely far beside them goes with them, so that nothing tears.
+    // Prepares a picture for warp(). depth: metres along the viewing axis; infinite is the sky; 0 and NaN are
+    // unknown. Pixels beside much nearer ones are taken for as near as these, since antialiased edges have
+    // colours of both. soft: for translucent scenes, whose colours come from more than one depth: depths are
+    // smoothed without edges, and infinite depths beside them follow them, so that nothing tears.
     void prepare(const Plane<float>& depth, const EyeView& view, SimdTarget simd = SimdTarget::Auto,
                  bool soft = false);
     // Makes ready() false; the memory stays.
     void forget() { mReady = false; }
     bool ready() const { return mReady; }          // something is prepared
     const EyeView& view() const { return mView; }  // where it was cast from
-    // Returns what depths lie around a place of the picture, or of its border where that is beside it.
-    // ready() holds.
+    // Returns the range of depths around a place of the picture, or at its border for places outside.
+    // Requires ready().
     const LateTile& tileAt(double x, double y) const;
 
-    // Makes the picture `color`, of the prepared size, as `to` sees it, in as many pixels as `to` has.
-    // uncovered: 255 where nothing was seen before, or null. On this thread alone; with parallel, on all.
+    // Warps `color`, of the prepared size, to the view `to`, in as many pixels as `to` has. uncovered: 255
+    // where nothing was seen before, or null. Runs on this thread only; with `parallel` on all.
     void warp(const Plane<PackedColor>& color, const EyeView& to, Plane<PackedColor>& image,
               Plane<std::uint8_t>* uncovered = nullptr, bool parallel = false) const;
 
-    // Inverse depths, 1 / metres, and how each tile of the new picture is to be looked up, row by row, for
-    // who warps elsewhere. ready() holds.
+    // Return the inverse depths, 1 / metres, and for each tile of the new picture, row by row, how its pixels
+    // are found; for code that warps elsewhere. Require ready().
     const Plane<float>& inverse() const { return mInverse; }
     LateMove planAll(const EyeView& to, std::vector<LatePlan>& plans) const;
 

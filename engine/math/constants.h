@@ -1,4 +1,4 @@
-// Numbers that many places need.
+// Numbers that are used in many places.
 #pragma once
 
 #include <limits>

@@ -9,20 +9,20 @@ namespace stereonav {
 
 constexpr float kLargestHalf = 65504.0f;  // the largest finite one, without unit
 
-// Rounds to nearest, ties to even. Beyond 65504 (infinities too): 65504. NaN: 65504 as well, never NaN.
+// Rounds to nearest, ties to even. Values beyond 65504, infinities and NaN become 65504, never NaN.
 inline std::uint16_t halfFromFloat(float v) {
     const std::uint32_t sign = std::bit_cast<std::uint32_t>(v) >> 16 & 0x8000u;
     const float positive = std::bit_cast<float>(std::bit_cast<std::uint32_t>(v) & 0x7fffffffu);
     const float size = positive < kLargestHalf ? positive : kLargestHalf;
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(size);
     const std::uint32_t normal = (bits + 0xfffu + (bits >> 13 & 1u) - (112u << 23)) >> 13;
-    // Below 2^-14 halves are multiples of 2^-24, as floats from 0.5 on are: the addition rounds.
+    // Below 2^-14 halves are multiples of 2^-24, like floats from 0.5 on: the addition rounds to them.
     const std::uint32_t tiny = std::bit_cast<std::uint32_t>(size + 0.5f) - 0x3f000000u;
     return static_cast<std::uint16_t>(sign | (size < 0x1p-14f ? tiny : normal));
 }
 
-// Returns the half as a float. Infinities and NaN, which are never written here, become finite: 65536 and
-// more.
+// Returns the half as a float. Infinities and NaN, which are never written here, would become finite: 65536
+// and more.
 inline float floatFromHalf(std::uint16_t half) {
     const std::uint32_t size = half & 0x7fffu;
     const float tiny = static_cast<float>(static_cast<std::int32_t>(size)) * 0x1p-24f;

@@ -1,4 +1,4 @@
-// The square root where a constant is made: std::sqrt is none.
+// A square root for constant expressions, in which std::sqrt is not allowed.
 #pragma once
 
 namespace stereonav {

@@ -76,7 +76,7 @@ private:
     double mTold = 0;
 };
 
-// Asked by Embree now and then; false ends its work.
+// Called by Embree now and then while it builds; returning false ends its work.
 bool goesOn(void* asked, double fraction) {
     try {
         static_cast<BuildProgress*>(asked)->tell(fraction);

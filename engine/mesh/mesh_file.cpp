@@ -26,7 +26,7 @@ constexpr std::size_t kTellEach = 1u << 16;  // vertices
 constexpr std::size_t kTellEachPart = 64;
 constexpr double kTexelBytes = sizeof(PackedColor) * 4.0 / 3;  // with its coarser levels
 
-// Which of a vertex's texture coordinates count, and how they are placed (KHR_texture_transform).
+// Which set of a vertex's texture coordinates is used, and its transform (KHR_texture_transform).
 struct TexturePlaces {
     int set = 0;
     glm::dvec2 offset{0.0}, scale{1.0};

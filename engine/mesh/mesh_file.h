@@ -1,5 +1,5 @@
-// Shape and colour as read from glTF: the triangles of the default scene, node transforms applied. Not
-// read: skins, morphing, opacity, and every texture but the base colour's.
+// Reads shape and colour from glTF: the triangles of the default scene with node transforms applied. Not
+// read: skins, morphing, opacity, and textures other than the base colour's.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace stereonav {
 
-// Primitives that a scene shows, each as often as nodes do.
+// Largest number of primitives in a scene; each counts as often as nodes use it.
 constexpr std::size_t kMostMeshParts = 1'000'000;
 
 // Throws Error naming the file and the mesh or accessor, Cancelled; at least one triangle is returned.

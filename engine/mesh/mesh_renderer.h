@@ -1,4 +1,4 @@
-// A mesh as a scene that answers rays: lit by a sun, before a plain background.
+// A mesh as a scene for rays: lit by a sun, in front of a plain background.
 #pragma once
 
 #include "engine/mesh/mesh_caster.h"
@@ -6,7 +6,8 @@
 
 namespace stereonav {
 
-// Linear, of a ray that meets nothing: grey, darker upwards. direction: of any length but 0.
+// Returns the linear colour for a ray that meets nothing: grey, darker upwards. direction: of any length but
+// 0.
 glm::vec3 meshBackground(const glm::dvec3& direction);
 
 class MeshRenderer final : public EyeRenderer {

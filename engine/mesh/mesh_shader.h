@@ -1,4 +1,4 @@
-// Shading of a mesh where a ray meets it: light from a sun with its ambient share, on both sides.
+// Shading of a mesh at a hit: light from a sun with its ambient share, on both sides.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -18,14 +18,14 @@ struct MeshHit {
 
 struct MeshLight {
     glm::dvec3 toSun{0, 0, 1};  // its length is the light's strength: 1, and 0 once the sun has set
-    float ambient = 1;          // 0..1, the share of light that comes from everywhere
-    // 0..1, how far the sun reaches around: 0 is Lambert's cosine; 1 falls off to nothing only at the far
-    // side, so that shapes show there too (half Lambert, Mitchell et al. 2006, without its square).
+    float ambient = 1;          // 0..1, share of the light that comes from all directions
+    // 0..1, how far sunlight reaches around: 0 is Lambert's cosine; with 1 it fades to 0 only at the far
+    // side, so that shapes can be seen there too (half Lambert, Mitchell et al. 2006, without its square).
     double wrap = 0;
 };
 
-// direction: of the ray, of any length. pixelSize: side of a pixel at unit ray parameter, metres; it chooses
-// the mip level of textures. Linear; above 1 where colours multiply to more.
+// Returns the linear colour of a hit; above 1 where colours multiply to more. direction: of the ray, any
+// length. pixelSize: side of a pixel at unit ray parameter, metres, for the mip level of textures.
 glm::vec3 colorOf(const TriangleMesh& mesh, const MeshHit& hit, const glm::dvec3& direction, double pixelSize,
                   const MeshLight& light);
 

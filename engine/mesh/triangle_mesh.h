@@ -10,7 +10,7 @@
 
 namespace stereonav {
 
-// How a texture goes on beyond its borders.
+// Continuation of a texture beyond its borders.
 enum class TextureWrap { Repeat, MirroredRepeat, ClampToEdge };
 
 struct MeshMaterial {

@@ -1,4 +1,4 @@
-// What metrics ask of the module stereonav_jxl (libjxl); engine/metrics/jxl has the function.
+// Function of the module stereonav_jxl (libjxl) for metrics; it is defined in engine/metrics/jxl.
 #pragma once
 
 #include "engine/metrics/butteraugli.h"

@@ -1,5 +1,5 @@
-// Charts, and the marks that they are drawn with: points with the spread of their repeats, named where there
-// is room, the points that none beats joined by a line.
+// Charts, and the marks that they are drawn with: points with the spread of their repeats, labelled where
+// there is room, and a line through the points of the Pareto front.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -31,19 +31,20 @@ struct Chart {
     std::string title, xLabel, yLabel;
     ChartScale::Kind xKind = ChartScale::Kind::Automatic, yKind = ChartScale::Kind::Automatic;
     std::vector<ChartSeries> series = {};
-    bool front = true;           // less is better in both: mark those that none beats
-    bool titled = false;         // the title is drawn; else it is for readers of screens alone
+    bool front = true;           // marks the Pareto front; smaller is better on both axes
+    bool titled = false;         // the title is drawn; otherwise it is only for screen readers
     double width = kChartWidth;  // pixels
 };
 
 // A line, a dot or words.
 struct ChartMark {
     std::string style;  // ink, grid, frame, spread, front, curve, join s0 to s5, default, dot s0 to s5 (best)
-    std::vector<glm::dvec2> places;  // corners of a line; one: the middle of a dot, or where words stand
-    std::string words = {};          // for a dot: what it stands for
-    const char* anchor = "middle";   // which part of the words stands at the place: start, middle or end
-    bool upright = false;            // words read upwards
-    double radius = 0;               // pixels; above 0: a dot
+    // Corners of a line; a single place: middle of a dot, or position of words.
+    std::vector<glm::dvec2> places;
+    std::string words = {};         // for a dot: its meaning
+    const char* anchor = "middle";  // part of the words that stands at the place: start, middle or end
+    bool upright = false;           // words read upwards
+    double radius = 0;              // pixels; above 0: a dot
 };
 
 struct ChartDrawing {
@@ -55,10 +56,10 @@ struct ChartDrawing {
 // logarithmic axis zeros lie on a line of their own, "0", below the rest.
 ChartDrawing drawingOf(const Chart& chart);
 
-// Returns the charts in a row, and below them the caption and what their fronts mean.
+// Returns the charts in a row, with the caption and an explanation of their fronts below.
 ChartDrawing sideBySide(const std::vector<Chart>& charts, const std::string& caption);
 
-// A rectangle that labels stand in: for tests, and for drawingOf.
+// A rectangle for a label, for tests and drawingOf().
 struct LabelBox {
     double x = 0, y = 0, width = 0, height = 0;  // pixels, y downwards
     bool overlaps(const LabelBox& other) const {
@@ -70,8 +71,8 @@ struct LabelWish {
     std::string text;
     double x = 0, y = 0;  // place of the point, pixels
 };
-// Returns for each wish, in their order, a box near its point that is inside the frame and clear of all
-// points and boxes before, and of what is avoided if that can be; width 0 where there is no such place.
+// Returns for each wish, in their order, a box near its point that is inside the frame and overlaps no point
+// and no earlier box, and if possible nothing that is to be avoided; width 0 where there is no such box.
 std::vector<LabelBox> placeLabels(const std::vector<LabelWish>& wishes, const LabelBox& frame,
                                   const std::vector<LabelBox>& avoided = {});
 

@@ -1,4 +1,4 @@
-// The axis of a chart: from values to a place along it, and its ticks.
+// The axis of a chart: converts values to positions along it, and has ticks.
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@ namespace stereonav {
 class ChartScale {
 public:
     enum class Kind {
-        Linear,       // from zero, or from below it
-        Logarithmic,  // zeros have no place on it
+        Linear,       // from zero, or from below it where values are negative
+        Logarithmic,  // zeros have no position on it
         Automatic,    // logarithmic where all values are above 0 and the largest is 6 times the least
         Around        // from the least value to the largest, with room of 0.5 at least on either side
     };
 
-    // Room for all values that have a place; those that are not finite are left out. None, one or equal
-    // values get a scale around them.
+    // Makes a scale for all values that have a position; values that are not finite are ignored. Without
+    // values, or with equal ones, it covers a range around them.
     ChartScale(const std::vector<double>& values, Kind kind);
 
     bool logarithmic() const { return mLogarithmic; }
-    // Returns a value's place: 0 at the low end, 1 at the high end; values beyond the ends are put there, NaN
-    // at the low end.
+    // Returns a value's position: 0 at the low end, 1 at the high end; clamped to the ends, NaN to the low
+    // end.
     double place(double value) const;
 
     struct Tick {

@@ -17,7 +17,7 @@ struct MeanSquare {
     double sum = 0;  // squared sRGB levels (0 to 255) over the three channels
     long long pixels = 0;
 
-    // levels: the difference of two pixels, -255 to 255 a channel.
+    // levels: the difference of two pixels, -255 to 255 in each channel.
     void add(const glm::vec3& levels) {
         sum += glm::dot(levels, levels);
         ++pixels;
@@ -26,7 +26,7 @@ struct MeanSquare {
         sum += other.sum;
         pixels += other.pixels;
     }
-    // Returns kIdenticalPsnr_db at most; NaN without pixels.
+    // Returns the PSNR, at most kIdenticalPsnr_db; NaN without pixels.
     double psnr_db() const {
         if (pixels == 0) return std::numeric_limits<double>::quiet_NaN();
         const double mean = sum / (3.0 * static_cast<double>(pixels));

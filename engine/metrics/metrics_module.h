@@ -1,4 +1,4 @@
-// What metrics ask of the module stereonav_metrics (OpenCV); engine/metrics/opencv has the functions.
+// Functions of the module stereonav_metrics (OpenCV) for metrics; they are defined in engine/metrics/opencv.
 #pragma once
 
 #include "engine/metrics/chart_picture.h"

@@ -1,5 +1,5 @@
-// Error against time: which ways are worth taking, and whether the one that a program takes is among them.
-// Times are judged by the least of their repeats: what else a machine does only ever adds.
+// Error against time: which ways are on the Pareto front, and whether the program's default is one of them.
+// The time of a way is the least of its repeats, since other programs can only add to it.
 #pragma once
 
 #include <cstddef>
@@ -18,17 +18,19 @@ struct Way {
     bool isDefault = false;
 };
 
-// Returns the indices of the points that none beats (smaller or equal in both, smaller in one), by rising x.
+// Returns the indices of the Pareto front: points that no other point beats (smaller or equal in both,
+// smaller in one), by rising x.
 std::vector<std::size_t> paretoFront(const std::vector<glm::dvec2>& points);
 
-// Returns the indices of the ways that none beats, by rising time. Ways that were not measured are never
-// among them.
+// Returns the indices of the ways on the Pareto front, by rising time. Ways that were not measured are left
+// out.
 std::vector<std::size_t> frontOf(const std::vector<Way>& ways);
 
-// How a way stands to the front.
+// Whether a way is on the Pareto front, and which ways beat it.
 struct ParetoVerdict {
     bool onFront = false;
-    // Not on the front, but nothing beats it by more than the spread of its time and kSameError of its error.
+    // The way is not on the front, but within noise of it: no way that beats it differs by more than the
+    // spread of its time and kSameError of its error.
     bool withinNoise = false;
     // The ways that beat this one: the fastest, and the share of time it saves; the one with the least error,
     // and the share of error it saves. "" where none does.
@@ -37,7 +39,7 @@ struct ParetoVerdict {
 };
 constexpr double kSameError = 0.01;  // errors nearer to each other than this share count as the same
 
-// ways[which] is one of them.
+// Returns the verdict on ways[which]. Among `ways` are all ways to compare it with, and itself.
 ParetoVerdict verdictOf(const std::vector<Way>& ways, std::size_t which);
 
 // One sentence about the front, and one about each default.

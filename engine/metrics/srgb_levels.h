@@ -1,5 +1,5 @@
-// 8-bit sRGB levels of packed channels without the rounding to whole ones, which would be a large part of
-// what differences of differences measure.
+// 8-bit sRGB levels of packed channels as real numbers. They are not rounded to whole levels: metrics compare
+// differences of levels with each other, and rounding would be a large part of the result.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Hole share and error as Wan et al. 2004 count them (section 5): of pixels that show the scene alone.
-// Neither sky, which their picture has none of to warp, nor what a method leaves open is an error of the
+// Share of holes and error as Wan et al. 2004 count them (section 5), only over pixels that show the scene.
+// Sky, which their pictures do not have, and pixels that a method leaves open do not count as errors of the
 // warp.
 #pragma once
 
@@ -12,22 +12,22 @@ namespace stereonav {
 struct SurfaceDifference {
     long long surfacePixels = 0;  // pixels that show the scene in the full cast
     long long holePixels = 0;     // compared pixels that were cast again, or left open
-    // "The ratio between the number of hole pixels and the warped ones", of pixels that show the scene.
-    // NaN where none of them is warped.
+    // "The ratio between the number of hole pixels and the warped ones", over pixels that show the scene. NaN
+    // where none of them is warped.
     double holesOfWarped_percent = 0;
-    // The PSNR over those that were not left open, the three channels together; kIdenticalPsnr_db at most.
-    // NaN where there is none.
+    // PSNR over the compared pixels that were not left open, over the three channels together; at most
+    // kIdenticalPsnr_db. NaN without such pixels.
     double psnr_db = 0;
 };
 
-// Compares a right eye with its truth. full: the right eye cast in full; right: what a method made; holeMask:
-// 255 where it cast again, or left open (leavesHoles), 0 where it warped. All of one size. Throws Error
-// otherwise.
+// Compares a right eye with its truth. full: the right eye cast in full; right: a method's picture; holeMask:
+// 255 where the method cast again or left a hole (leavesHoles), 0 where it warped. All of one size. Throws
+// Error otherwise.
 SurfaceDifference surfaceDifference(const EyeImage& full, const EyeImage& right,
                                     const Plane<std::uint8_t>& holeMask, bool leavesHoles);
 
-// Counts of holes by where they lie in a row (Table 1 of the paper): right of all that was warped, left of
-// it, or between. Only pixels that show the scene; the sum is holePixels of surfaceDifference.
+// Numbers of holes by their position in a row (Table 1 of the paper): right of all warped pixels, left of
+// them, or between. Counts only pixels that show the scene; the sum is holePixels of surfaceDifference().
 struct GapPixels {
     long long rightEnd = 0, middle = 0, leftEnd = 0;
 };

@@ -9,8 +9,8 @@
 namespace stereonav {
 
 // Returns an <svg> element. Its colours come from the page's style sheet, whose classes are the styles of the
-// marks, so that one drawing serves light, dark and paper. alone: returns a whole file instead, with a size
-// and colours on white of its own.
+// marks, so that one drawing serves light and dark pages and paper. alone: returns a whole file with its own
+// size and colours on white instead.
 std::string svgOf(const Chart& chart, bool alone = false);
 
 // Returns printable text (engine/text/printable.h), with <, >, & and quotes made harmless in XML and HTML.

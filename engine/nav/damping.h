@@ -5,8 +5,8 @@
 
 namespace stereonav {
 
-// Brings `rate` (a number or a vector, a second) to `wanted`, 63 % of the way in `time` seconds; returns what
-// it adds up to over dt seconds.
+// Brings `rate` (a number or vector, per second) towards `wanted`, 63 % of the way in `time` seconds; returns
+// its integral over dt seconds.
 template <typename T>
 T damped(T& rate, const T& wanted, double time, double dt) {
     const double left = std::exp(-dt / time);

@@ -1,4 +1,4 @@
-// A pilot's wish brought within its range, as every flight takes it.
+// Limits of a pilot's input, the same for every flight.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ inline double clampedInput(double value, double low, double high) {
     return std::isnan(value) ? 0.0 : std::clamp(value, low, high);
 }
 
-// Returns the wish with every value in its range. fastestTurn: radians a second, both ways.
+// Returns the input with every value in its range. fastestTurn: radians per second, both ways.
 inline FlightInput cleaned(const FlightInput& in, double fastestTurn, double mostMultiplier) {
     return {clampedInput(in.forward, -1, 1),
             clampedInput(in.right, -1, 1),

@@ -1,5 +1,5 @@
-// The places that a flight to a goal leads over: straight where that is clear, over the ground and around
-// what is in the way else.
+// The route of a flight to a goal: straight where that is clear, otherwise over the ground and around
+// obstacles.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,11 +13,11 @@ namespace stereonav {
 class FlightWay {
 public:
     FlightWay() = default;
-    // The way through these places, at least one, all finite, metres.
+    // Makes the route through these places: at least one, all finite, metres.
     explicit FlightWay(std::vector<glm::dvec3> places);
 
     double length() const { return mAlong.empty() ? 0 : mAlong.back(); }  // metres
-    // share: of the length, clamped to 0..1.
+    // Returns the place at a share of the length, clamped to 0..1.
     glm::dvec3 at(double share) const;
 
 private:
@@ -25,10 +25,10 @@ private:
     std::vector<double> mAlong;       // metres from the first
 };
 
-// Returns the way from one place to another as `flight` may fly it. Over ground: the straight way, raised to
-// where the viewer is let, smoothly: the highest ground nearby is flown over, less near the ends, which stay
-// as they are (both must be clear). Between walls: straight, or the tightest of some bends that are clear;
-// the straight one where none is, so that the flight ends at the wall.
+// Returns a route from one place to another for `flight`. Over ground it is the straight line, raised
+// smoothly above the highest ground nearby, less so near the ends, which stay as they are (both must be
+// clear). Between walls it is straight, or the tightest of some bends that are clear; if none is clear it is
+// straight, so that the flight ends at the wall.
 FlightWay wayBetween(const Flight& flight, const glm::dvec3& from, const glm::dvec3& to);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// Where the eyes will be in a moment, from how they move: for pictures that take a moment to make.
+// Predicts the eyes' pose a moment ahead, for pictures that take a moment to make.
 #pragma once
 
 #include "engine/camera/pose.h"
@@ -7,12 +7,12 @@ namespace stereonav {
 
 class MotionAhead {
 public:
-    static constexpr double kFarthest = 0.15;  // seconds: what a hand does next nobody knows
+    static constexpr double kFarthest = 0.15;  // seconds: nobody knows what the user does later
 
     // Notes that the eyes went from one pose to another in dt seconds.
     void step(const Pose& before, const Pose& after, double dt);
-    // Returns the pose `seconds` later, at most kFarthest. free: metres to what is around; half of them are
-    // used at most.
+    // Returns the pose `seconds` later, at most kFarthest. free: metres to the nearest surface; the eyes move
+    // at most half of them.
     Pose from(const Pose& now, double seconds, double free) const;
 
 private:

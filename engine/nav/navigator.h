@@ -1,5 +1,5 @@
-// Flies a viewer from wishes (keys, mouse) without knowing what is flown over: free flight, or at a
-// set height over the ground. Never below a clearance over the ground. Same flight at any frame rate.
+// Flies a viewer by input (keys, mouse), without knowing the scene: free flight, or at a constant height over
+// the ground. Never below a clearance over the ground. The flight is the same at any frame rate.
 #pragma once
 
 #include <functional>
@@ -23,18 +23,18 @@ struct FlightSetting {
     double clearance = 2.0;      // metres kept above the ground, > 0
     double followHeight = 50.0;  // metres above the ground at the start of FollowGround, >= clearance
     double speed = 100.0;        // metres a second at full input, > 0
-    // Metres between the places where the ground is looked at along the way, > 0: half of the ground's
-    // sample spacing. Also bounds the speed, to kMostLooks of these a second.
+    // Metres between places along the way where the ground's height is asked for, > 0: half of the ground's
+    // sample spacing. Also limits the speed, since at most kMostLooks places per second are asked for.
     double groundStep = 10.0;
 };
 
-// Position and angles with damped velocities; between steps nothing else is remembered. One thread.
+// Position and angles with damped velocities; a step depends on nothing else. For one thread.
 class Navigator final : public Flight {
 public:
     // Throws Error when a setting or the home pose is not finite or out of range.
     Navigator(GroundHeight ground, const Pose& home, const FlightSetting& setting);
 
-    // Moves on by dt seconds (0 to kLongestStep; longer is cut to it, negative and NaN is nothing).
+    // Moves on by dt seconds (0 to kLongestStep; longer steps are shortened, negative and NaN count as 0).
     static constexpr double kLongestStep = 1.0;
     static constexpr int kMostLooks = 20000;
     void step(const FlightInput& input, double dt) override;
@@ -45,13 +45,13 @@ public:
     // Places the viewer (lifted to the clearance where needed) at rest.
     void setPose(const Pose& pose) override;
     void goHome() override { setPose(mHome); }
-    // Keeps, over ground, the height that the pose has from then on.
+    // Over ground, keeps the height of this pose from then on.
     void moveTo(const Pose& pose) override;
 
-    // FollowGround takes up the present height above the ground, but not below followHeight.
+    // In FollowGround the present height above the ground is kept, or followHeight if that is higher.
     void setMode(FlightMode mode);
 
-    // Modes by number, as every flight's: 0 free, 1 over ground. Other numbers change nothing.
+    // Modes by number: 0 free, 1 over ground. Other numbers change nothing.
     int modeCount() const override { return 2; }
     int mode() const override { return static_cast<int>(mMode); }
     void setMode(int mode) override;

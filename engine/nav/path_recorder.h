@@ -1,4 +1,4 @@
-// Records a flight: collects poses on its own clock and hands them out as a path.
+// Records a flight: collects poses on its own clock and returns them as a path.
 #pragma once
 
 #include <vector>
@@ -9,19 +9,19 @@ namespace stereonav {
 
 class PathRecorder {
 public:
-    // interval: seconds between samples, > 0; steps in between are not kept, except the last one.
+    // interval: seconds between samples, > 0; poses between samples are dropped, except the last one.
     explicit PathRecorder(double interval = 1.0 / 60) : mInterval(interval) {}
 
     // Starts anew with this pose at time 0.
     void start(const Pose& pose);
-    // Notes that the viewer is here dt seconds later. Nothing happens unless recording() and dt > 0.
+    // Notes the viewer's pose dt seconds later. Does nothing unless recording() and dt > 0.
     void step(double dt, const Pose& pose);
     // Ends the recording. Throws Error when nothing was recorded after the start.
     RecordedPath finish();
 
     bool recording() const { return mRecording; }
     double duration() const { return mTime; }  // seconds since the start
-    // The samples that finish() would make a path of now.
+    // Returns the samples that finish() would now make a path of.
     const std::vector<PathSample>& samples() const { return mSamples; }
 
 private:

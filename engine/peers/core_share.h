@@ -1,4 +1,4 @@
-// How many cores each of several processes gets: those that may run on the same ones share them evenly.
+// Divides cores among several processes: those that may run on the same cores share them evenly.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// Where a process runs: its machine, and the cores there that it may use, a bit each.
+// The machine of a process, and the cores that it may use there, one bit each.
 struct ProcessPlace {
     std::string machine;
     std::array<std::uint64_t, 16> cores{};

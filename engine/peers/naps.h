@@ -1,4 +1,4 @@
-// Pauses of who waits for messages: short at first, then longer, so that waiting costs next to nothing.
+// Pauses while waiting for messages: short at first, then longer, so that waiting costs next to nothing.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@ namespace stereonav {
 
 class Naps {
 public:
-    // Sleeps for 20 microseconds, after each call twice as long, up to 2 ms.
-    // busy: bytes are moving, and move only while they are looked after.
+    // Sleeps for 20 microseconds, and twice as long after each call, up to 2 ms. busy: a message is being
+    // moved, which happens only in calls of the message library: yields instead of sleeping.
     void nap(bool busy) {
         if (busy) return std::this_thread::yield();
         std::this_thread::sleep_for(std::chrono::microseconds(mNap_us));

@@ -1,5 +1,5 @@
-// Values and arrays put one after the other into bytes, as messages between processes of one build on
-// machines of one kind are: as they lie in memory.
+// Writes values and arrays one after the other into bytes, for messages between processes of one build on
+// machines of one kind: as they lie in memory.
 #pragma once
 
 #include <cstddef>
@@ -22,14 +22,14 @@ public:
     ByteWriter& put(const T& value) {
         return putAll(std::span<const T>(&value, 1));
     }
-    // Puts the values alone: whoever reads them knows how many there are.
+    // Writes the values without their number, which the reader must know.
     template <typename T>
     ByteWriter& putAll(std::span<const T> values) {
         static_assert(std::is_trivially_copyable_v<T>);
         append(std::as_bytes(values));
         return *this;
     }
-    // Puts the values with their number before them.
+    // Writes the values after their number.
     template <typename T>
     ByteWriter& putArray(std::span<const T> values) {
         return put(values.size()).putAll(values);
@@ -43,13 +43,13 @@ private:
     PeerBytes mBytes;
 };
 
-// Takes out what ByteWriter put in, in the same order. Throws Error where there are fewer bytes than asked
-// for. The bytes must outlive the reader.
+// Reads what ByteWriter wrote, in the same order. Throws Error where there are fewer bytes than needed. The
+// bytes must outlive this object.
 class ByteReader {
 public:
     explicit ByteReader(std::span<const std::byte> bytes) : mLeft(bytes) {}
 
-    // The four throw Error where fewer bytes are left than they take.
+    // These four functions throw Error where fewer bytes are left than they need.
     template <typename T>
     T get() {
         T value{};

@@ -1,5 +1,5 @@
-// Carries bytes between the processes of a run: MPI's module (engine/peers/mpi), or in tests a queue. Nothing
-// here waits, so that who waits can sleep, and hear of a stop.
+// Carries bytes between the processes of a run: MPI's module (engine/peers/mpi), or in tests a queue. No
+// function waits, so that callers can sleep between calls and notice a stop.
 #pragma once
 
 #include <memory>
@@ -18,22 +18,22 @@ struct PeerMessage {
     PeerBytes bytes;
 };
 
-// Any thread may call it.
+// May be called by any thread.
 class PeerLink {
 public:
     virtual ~PeerLink() = default;
     virtual int rank() const = 0;
     virtual int count() const = 0;
-    // Begins to send. Messages from one to another arrive in their order.
+    // Begins to send. Messages from one process to another arrive in the order of sending.
     virtual void send(int to, PeerKind kind, PeerBytes bytes) = 0;
-    // Returns what came, if anything has.
+    // Returns the next message that has arrived, if any.
     virtual std::optional<PeerMessage> next() = 0;
-    // Returns whether something is on its way to or from here, so that next() is worth calling without a
-    // pause.
+    // Returns whether a message is on its way to or from here, so that next() should be called again without
+    // a pause.
     virtual bool busy() = 0;
-    // Ends the link, as the last call of every process.
+    // Ends the link; the last call of every process.
     virtual void leave() = 0;
-    // Ends the run, this process among it.
+    // Ends all processes of the run, including this one.
     [[noreturn]] virtual void abort() = 0;
 };
 

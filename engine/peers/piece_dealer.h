@@ -1,5 +1,5 @@
-// Work in pieces, dealt out by the first process to whoever is free, itself among them: the fast get more.
-// What the pieces come to does not depend on who made them.
+// Work in pieces, which the first process deals out to every process that is free, including itself: faster
+// ones get more. The results do not depend on who made a piece.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,23 @@ namespace stereonav {
 
 struct PieceWork {
     std::size_t count = 0;
-    // Returns what a process has to know for the piece; may be empty. On another thread than `make` and
-    // `take`, at a time when this piece is with nobody.
+    // Returns the data that a process needs for the piece; may be empty. Called on another thread than `make`
+    // and `take`, before the piece is given to anybody.
     std::function<PeerBytes(std::size_t piece)> order;
-    // Makes a piece in this process, as others do in serve().
+    // Makes a piece in this process, like serve() in others.
     Peers::Make make;
-    // Takes what a piece came to: where `inOrder` by ascending pieces, else as they come.
+    // Takes the result of a piece: in ascending order where `inOrder`, else as results come.
     std::function<void(std::size_t piece, std::span<const std::byte> result)> take;
     bool inOrder = false;
-    // How far, in order, pieces may be begun beyond the first that is not taken yet, which bounds what waits.
+    // Number of pieces that may be begun after the first one that is not taken yet, if in order; it limits
+    // the results that wait.
     std::size_t ahead = std::numeric_limits<std::size_t>::max();
-    // Whether no more pieces are to be begun; may be empty. Those that others have are waited for shortly.
+    // Returns whether no more pieces should be begun; may be empty. Pieces that others are making are waited
+    // for shortly.
     std::function<bool()> ended;
 };
 
-// Deals work from the first process. While it lives the others may be in serve().
+// Deals work from the first process. While it lives the others may call serve().
 class PieceDealer {
 public:
     explicit PieceDealer(Peers& peers);
@@ -34,13 +36,12 @@ public:
     PieceDealer(const PieceDealer&) = delete;
     PieceDealer& operator=(const PieceDealer&) = delete;
 
-    // Deals all pieces, `make` and `take` on this thread. Throws what they do, PeerFailure where another
-    // process failed, and Cancelled.
-    // failed, and Cancelled.
+    // Deals all pieces; calls `make` and `take` on this thread. Throws their exceptions, PeerFailure where
+    // another process failed, and Cancelled.
     void deal(const PieceWork& work);
 
 private:
-    PieceDesk* mDesk;  // null: alone
+    PieceDesk* mDesk;  // null: this process is alone
 };
 
 }  // namespace stereonav

@@ -8,19 +8,19 @@
 namespace stereonav {
 namespace {
 
-// Time from a wish for an end until what others still have is done without. mpirun kills a second after it
-// has asked to stop, and what came in is to be written before.
+// Seconds from a wish to end until results that other processes still owe are given up. mpirun kills a second
+// after it has asked to stop, and the results that came must be written before.
 constexpr double kLastResults_s = 0.3;
-// Time from another process's failure until the run ends without this one's own thread, which may sit in a
-// library.
+// Seconds from another process's failure until the run is aborted, if the main thread has not taken note of
+// it: that thread may hang in a library.
 constexpr double kListening_s = 5;
-constexpr auto kLook = std::chrono::milliseconds(20);  // for a wish to stop, while nothing comes
+constexpr auto kLook = std::chrono::milliseconds(20);  // between two looks for a wish to stop
 
 double now_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// The lock is off while something else is done.
+// Releases a lock while it lives.
 class Unlocked {
 public:
     explicit Unlocked(std::unique_lock<std::mutex>& lock) : mLock(lock) { mLock.unlock(); }
@@ -83,7 +83,7 @@ void PieceDesk::handle(PeerMessage message) {
     } else if (message.kind == PeerKind::Result) {
         const int deal = reader.get<int>();
         const auto piece = reader.get<std::size_t>();
-        if (!mWork || deal != mDeal) return;  // nobody waits for it any more
+        if (!mWork || deal != mDeal) return;  // the deal is over
         --mAway;
         constexpr auto kHead = static_cast<std::ptrdiff_t>(sizeof deal + sizeof piece);
         message.bytes.erase(message.bytes.begin(), message.bytes.begin() + kHead);
@@ -135,7 +135,7 @@ void PieceDesk::close() {
     mOpen = false;
     try {
         answer();
-    } catch (const std::exception&) {  // what can not be sent ends the run elsewhere
+    } catch (const std::exception&) {  // the process that could not be told fails on its own
         mFailed = true;
     }
 }
@@ -176,7 +176,7 @@ void PieceDesk::deal(const PieceWork& work) {
     struct Over {
         PieceDesk& desk;
         ~Over() { desk.mWork = nullptr, desk.mReady.clear(); }
-    } const over{*this};  // with the lock
+    } const over{*this};  // destroyed while the lock is held
     mWork = &work;
     ++mDeal;
     mNext = mTaken = mAway = 0;

@@ -1,6 +1,6 @@
-// The crossing between engine and scene: a scene answers rays, and does not know that there are two
-// eyes. Calls are coarse (a tile, a batch), const, and may run on several threads at once as long as
-// their pixels differ. What they write does not depend on the thread count.
+// The interface between engine and scene: a scene answers rays, and does not know that there are two eyes.
+// Calls are coarse (a tile, a batch), const, and may run on several threads at once as long as their pixels
+// differ. Results do not depend on the thread count.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,13 @@ struct PixelIndex {
     std::uint16_t x, y;
 };
 
-// A scene as rays see it. View depths are metres.
+// A scene for rays. View depths are metres.
 class EyeRenderer {
 public:
     virtual ~EyeRenderer() = default;
 
-    // Pictures from these two eyes come next: what is chosen by where they are (the level of detail) is
-    // chosen now, and stays for both. Not while a picture is cast.
+    // Prepares for pictures from these two eyes: choices that depend on their place (the level of detail) are
+    // made now, and stay for both. Not to be called while a picture is cast.
     virtual void lookFrom(const EyeView& /*left*/, const EyeView& /*right*/) const {}
     // Does the same for pictures from one eye.
     void lookFrom(const EyeView& eye) const { lookFrom(eye, eye); }
@@ -47,18 +47,19 @@ public:
     virtual void renderPixels(const EyeView& view, PixelRect bounds, std::span<const PixelIndex> pixels,
                               EyeImage& image) const = 0;
 
-    // Casts more rays through pixels, and writes no others: `view` is `known` with its window moved by less
-    // than a pixel, and `depths` what is known of that one, cast or warped, from which the scene may conclude
-    // where a ray can start. The rest as renderPixels, but that viewDepth of `image` is 0 inside `bounds`.
+    // Casts more rays through pixels, and writes no others. `view` is `known` with its window moved by less
+    // than a pixel, and `depths` are the known depths of `known`, cast or warped, from which the scene may
+    // conclude where a ray can start. Otherwise like renderPixels, except that viewDepth of `image` is 0
+    // inside `bounds`.
     virtual void renderMoreRays(const EyeView& view, const EyeView& known, const Plane<float>& depths,
                                 PixelRect bounds, std::span<const PixelIndex> pixels, EyeImage& image) const {
         (void)known, (void)depths;
         renderPixels(view, bounds, pixels, image);
     }
 
-    // Returns whether renderPixels wants to find, in the viewDepth of each pixel it casts, a depth before
-    // which the ray meets nothing (0: unknown), as far as the other eye saw (W9 of docs/ledger.md).
-    // Neighbours' depths mean nothing then.
+    // Returns whether renderPixels needs, in the viewDepth of each pixel that it casts, a depth before which
+    // the ray meets nothing (0: unknown), as known from the other eye (W9 of docs/ledger.md). The depths of
+    // other pixels have no meaning then.
     virtual bool startsAtKnownDepth() const { return false; }
 
     // Returns false only if no ray through the rectangle hits anything before its view depth maxDepth(x) =
@@ -67,17 +68,17 @@ public:
     // true may mean nothing is there.
     virtual bool mayHitBeyondEdge(const EyeView& view, PixelRect rect, double column,
                                   double parallaxScale) const = 0;
-    // Answers what mayHitBeyondEdge() does, for rectangles that lie in each other. freeDepth: a view depth up
-    // to which no ray through the rectangle is known to hit anything (0: unknown), raised by what this call
-    // finds; what it is then holds in every part of the rectangle.
+    // Answers as mayHitBeyondEdge() does, for rectangles within each other. freeDepth: a view depth up to
+    // which no ray through the rectangle hits anything (0: unknown); this call may raise it, and then it is
+    // valid for every part of the rectangle.
     virtual bool mayHitBeyondEdgeFrom(const EyeView& view, PixelRect rect, double column,
                                       double parallaxScale, double& freeDepth) const {
         (void)freeDepth;
         return mayHitBeyondEdge(view, rect, column, parallaxScale);
     }
 
-    // Whether, and from what, colours have to be evaluated again for the other eye. Images that carry
-    // those planes get them written by the calls above.
+    // Returns whether, and from what, colours have to be evaluated again for the other eye. Images with those
+    // planes get them written by the calls above.
     virtual ViewDependence viewDependence() const { return ViewDependence::None; }
     // Returns whether colours are evaluated again by shadeAgain.
     bool viewDependent() const {
@@ -92,25 +93,25 @@ public:
         (void)view, (void)y, (void)x0, (void)x1, (void)image;
     }
 
-    // Returns whether the air before what is seen differs visibly between two eyes that are `separation`
-    // apart, metres.
+    // Returns whether the air in front of surfaces differs visibly between two eyes that are `separation`
+    // metres apart.
     virtual bool airDiffers(double separation) const {
         (void)separation;
         return false;
     }
     // Changes `color` in row y of a picture of `view`, whose colours were seen by `from`, to what `view` sees
-    // through its own air, from viewDepth; where that is 0 nothing has to hold. Called where airDiffers() and
-    // colours are not evaluated again by shadeAgain.
+    // through its own air, from viewDepth; pixels where that is 0 may get any colour. Called where
+    // airDiffers() and colours are not evaluated again by shadeAgain.
     virtual void changeAir(const EyeView& from, const EyeView& view, int y, EyeImage& image) const {
         (void)from, (void)view, (void)y, (void)image;
     }
 
     // Returns whether a pixel's colour is gathered from several depths, so that it can not be warped as a
-    // whole. viewDepth is then where the ray first meets anything.
+    // whole. viewDepth is then the depth at which the ray first meets something.
     virtual bool translucent() const { return false; }
     // Casts a tile as renderTile does, but image.viewDepth holds, for each pixel, a depth before which
-    // nothing is expected (0: unknown, kMissDepth: nothing at all): the ray starts there with one jump (W12;
-    // Wan et al. 2004, section 4). What renderTile gives is right too, only slower.
+    // nothing is expected (0: unknown, kMissDepth: nothing at all), where the ray may start (W12; Wan et al.
+    // 2004, section 4). A result like renderTile's is correct too, only slower.
     virtual void renderTileFromDepth(const EyeView& view, int tile, EyeImage& image) const {
         renderTile(view, tile, image);
     }

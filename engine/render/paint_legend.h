@@ -1,4 +1,5 @@
-// The legend of the colours that a scene's surfaces are painted in, and names of things that are painted.
+// The legend of the colours that a scene's surfaces are painted in, and the names of painted places and
+// lines.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -24,11 +25,11 @@ struct PaintedPlace {
     glm::dvec3 world{0.0};  // metres
 };
 
-// A line that is drawn on the surface, or an area's border, whose first place is not repeated.
+// A line that is drawn on the surface, or an area's border, which does not repeat its first place.
 struct PaintedLine {
     std::string name;  // "" where it has none
     bool closed = false;
-    std::vector<glm::dvec2> world;  // x, y in metres; places beside the surface are among them
+    std::vector<glm::dvec2> world;  // x, y in metres; may include places outside the surface
 };
 
 // The legends, notes, places and lines of a scene: a capability (engine/scene/capabilities.h).

@@ -1,5 +1,5 @@
-// Facts about a scene: figures with their names and units, as a tree. Text for people, the rows of a report
-// and JSON (engine/scene/facts_json.h) are prints of the same facts.
+// Facts about a scene: figures with their names and units, as a tree. Text for people, rows of a report and
+// JSON (engine/scene/facts_json.h) are all made from them.
 #pragma once
 
 #include <cstdint>
@@ -23,17 +23,17 @@ using FactValue = std::variant<std::monostate, bool, std::int64_t, double, std::
 struct Fact {
     std::string key;  // key of the value in JSON; "": not in JSON
     FactValue value;
-    std::string unit;  // unit of the value, "mm"; "": it has none, or the text says it
-    // The label in text; "": the fact continues the one before. None: not in the text.
+    std::string unit;  // unit of the value, "mm"; "": none, or part of the text
+    // Label in text; "": the fact continues the one before. Empty: not in the text.
     std::optional<std::string> label;
     std::string text;  // "": the value and its unit, as they are
 };
 
-// For JSON alone.
+// Makes a fact for JSON only.
 Fact factForJson(std::string key, FactValue value, std::string unit = "");
-// For people alone: words on more than one value, or on a value that has a key elsewhere.
+// Makes a fact for people only: words on several values, or on a value that has a key elsewhere.
 Fact factForText(std::string label, std::string text);
-// For both; text as in Fact.
+// Makes a fact for both; text as in Fact.
 Fact factForAll(std::string key, FactValue value, std::string label, std::string text = "",
                 std::string unit = "");
 
@@ -57,7 +57,7 @@ private:
     Facts mFacts;
 };
 
-// Lines "  label       text\n". A group (Facts) with a label has it as a heading, on a line of its own; the
+// Returns lines "  label       text\n". The label of a group (Facts) is a heading on a line of its own; the
 // facts of groups and of lists of groups follow, whether the group has a label or not.
 std::string linesOf(const Facts& facts);
 // Returns label and text of each of these lines, without headings.

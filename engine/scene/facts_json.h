@@ -1,4 +1,4 @@
-// Facts as JSON: an object of their keys, in their order. What has no key is left out.
+// Facts as JSON: an object of their keys, in their order. Facts without a key are left out.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

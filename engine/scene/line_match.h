@@ -1,5 +1,5 @@
-// Two scenes with a way through each, such as two studies of one patient: which place of one way is which of
-// the other.
+// Matches the lines through two scenes, such as two studies of one patient: which place on one line
+// corresponds to which on the other.
 #pragma once
 
 #include <memory>
@@ -9,17 +9,16 @@
 
 namespace stereonav {
 
-// Metres from the ways' starts; what lies beyond an end counts as the end. From any thread; of no scene's
-// memory.
+// A match. Places are metres from the lines' starts, clamped to their ends. From any thread; does not refer
+// to the scenes.
 class LineMatch {
 public:
     virtual ~LineMatch() = default;
     virtual double toOther(double along) const = 0;
     virtual double fromOther(double along) const = 0;
-    // How unlike matched places are: 0 of a way with itself.
+    // Returns how different matched places are: 0 for a line with itself.
     virtual double cost() const = 0;
-    // Returns whether both may be the same way; where they are not, their places have nothing to do with each
-    // other.
+    // Returns whether both can be the same anatomy; if not, matched places mean nothing.
     virtual bool matches() const = 0;
 };
 
@@ -27,13 +26,14 @@ public:
 class MatchingLine {
 public:
     virtual ~MatchingLine() = default;
-    // Matches the line with that of another scene. Throws Error that names it where it has none.
+    // Matches the line with that of another scene. Throws Error that names the other scene where it has no
+    // line.
     virtual std::shared_ptr<const LineMatch> matchWith(const Scene& other) const = 0;
-    // Returns a pose on the line, looking along it, as upright as can be; back: towards its start.
+    // Returns a pose on the line, looking along it, as upright as possible; back: towards its start.
     virtual Pose poseOnLine(double along, bool back) const = 0;
 };
 
-// Returns whether who looks so from a place `along` the way looks towards its start.
+// Returns whether a viewer at `along` with this pose looks towards the line's start.
 bool looksBack(const MatchingLine& line, double along, const Pose& eye);
 
 }  // namespace stereonav

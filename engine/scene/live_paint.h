@@ -1,5 +1,6 @@
-// What a scene's surfaces are painted with (surface_paint.h), exchanged while frames are made and nothing is
-// read again: what is quick at once, the rest beside the flight, the last picture kept until it is there.
+// Paint of a scene's surfaces (surface_paint.h) that is exchanged while frames are made, without reading
+// files again. Quick paint changes at once; other paint is computed during flight, and the last picture stays
+// until it is ready.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -18,35 +19,34 @@ struct PaintWork {
     std::string what;
 };
 
-// A capability (capabilities.h). Paint is said by the keys and texts of options. Called by one thread, but
+// A capability (capabilities.h). Paint is described by the keys and texts of options. For one thread, except
 // takeUp().
 class LivePaint {
 public:
     virtual ~LivePaint() = default;
-    // Returns whether the scene can be painted so without being loaded again. "": nothing is painted by that
-    // key.
+    // Returns whether the scene can show this paint without being loaded again. "": no paint for that key.
     virtual bool takes(const std::string& key, const std::string& text) const = 0;
-    // Returns the paint that was asked for last. What could not be had, or was cancelled, goes back to what
-    // is shown.
+    // Returns the paint that was asked for last. After a failure or a cancellation that is the paint being
+    // shown.
     virtual std::string now(const std::string& key) const = 0;
-    // Returns at once. Throws Error for texts that the option does not take.
+    // Asks for a paint; returns at once. Throws Error for texts that the option does not accept.
     virtual void ask(const std::string& key, const std::string& text) = 0;
-    // Asks for a paint of what is seen from a place, world x, y, at `height` above the ground: `paint` has
-    // its text when it is there.
+    // Asks for a paint of what is seen from a place, world x, y, at `height` above the ground; the option
+    // `paint` has its text when it is ready.
     virtual void askSeenFrom(const glm::dvec2& place, double height) = 0;
 
-    // Another one whenever what is painted changes: the frame is to be made again.
+    // Returns a version that differs whenever the paint changes: the frame must then be made again.
     virtual long long version() const = 0;
     virtual std::shared_ptr<const PaintLegend> legend() const = 0;  // never null
     virtual std::optional<PaintWork> work() const = 0;
     virtual void cancel() = 0;
-    virtual std::string takeProblem() = 0;  // since the last call; "": none
+    virtual std::string takeProblem() = 0;  // failure since the last call; "": none
 
-    // Called before a frame, by the thread that makes it: paints what is there by now.
+    // Called before each frame by the thread that makes it: shows the paint that is ready by now.
     virtual void takeUp() = 0;
 };
 
-// 0 where nothing of it can be exchanged.
+// Returns LivePaint::version(), 0 where the scene offers none.
 inline long long paintVersion(const Scene& scene) {
     const auto* const paint = scene.offered<LivePaint>();
     return paint ? paint->version() : 0;

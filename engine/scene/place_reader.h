@@ -11,9 +11,9 @@ namespace stereonav {
 class PlaceReader {
 public:
     virtual ~PlaceReader() = default;
-    // Returns facts of a world place at or near the surface, with a label each, and texts that are short
-    // enough for one line together. Returns nothing where nothing is there. From any thread; quick enough for
-    // each motion of a pointer.
+    // Returns facts of a place in the world at or near the surface, each with a label and a text so short
+    // that all fit into one line. Empty where there is nothing. May be called from any thread; fast enough to
+    // be called at each motion of the pointer.
     virtual Facts readPlace(const glm::dvec3& world) const = 0;
 };
 

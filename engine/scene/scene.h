@@ -1,6 +1,6 @@
-// What a person flies through, whatever it is made of: where one may be, what the eyes are like, a flight of
-// its own, and what makes its frames. What only some scenes can do (a sun that moves, slices to look at) is a
-// small interface of its own that a scene may offer (capabilities.h). Commands and the window ask for the
+// A scene for flight, whatever it is made of: where the viewer may be, its eyes, its own flight, and the
+// maker of its frames. Features that only some scenes have (a sun that moves, slices to look at) are small
+// interfaces of their own, which a scene may offer (capabilities.h). Commands and the window ask for the
 // capability, never for the kind of scene.
 #pragma once
 
@@ -26,30 +26,29 @@ public:
     Scene& operator=(const Scene&) = delete;
     virtual ~Scene() = default;
 
-    std::string name;  // the name that it was asked for by
-    Lens lens;         // width and height are the caller's to set
+    std::string name;  // the name or file that it was loaded by
+    Lens lens;         // width and height are set by the caller
     StereoSetting stereo;
-    bool eyesGiven = false;  // by an option or a scene's file: the window leaves them as they are
+    bool eyesGiven = false;  // set by an option or a scene file: the window does not change them
     Pose startPose;
-    std::string warning;                 // what who sees a picture of it has to know; "": nothing
+    std::string warning;                 // warning for everybody who sees a picture of it; "": none
     RecordedPath path;                   // the scene's own flight; empty where there is none
-    SimdTarget simd = SimdTarget::Auto;  // the instruction set that its frames are made with
+    SimdTarget simd = SimdTarget::Auto;  // instruction set for its frames
 
     StereoViews viewsAt(const Pose& head) const { return makeStereoViews(head, lens, stereo); }
 
-    // Makes this scene's frames; lives as long as it. To be used by one thread at a time, which is also the
-    // one that changes what capabilities change.
+    // Returns the maker of this scene's frames, which lives as long as the scene. For one thread at a time,
+    // which also makes all changes through capabilities.
     virtual FrameMaker& frames() const = 0;
     virtual std::unique_ptr<Flight> makeFlight() const = 0;
-    // Whether a recorded flight may be played here. Throws Error naming `file`.
+    // Throws Error, naming `file`, where a recorded flight can not be played here.
     virtual void check(const RecordedPath& /*path*/, const std::string& /*file*/) const {}
-    // Returns what there is to say of it, a group ("terrain", "medium") for each thing that it is made of.
-    // May make a frame.
+    // Returns facts about the scene, a group ("terrain", "medium") for each of its parts. May make a frame.
     virtual Facts describe() const { return {}; }
-    // Why its light stands still, for who asks for another; "" where TurningLight is offered.
+    // Returns why its light can not be turned, for messages; "" where TurningLight is offered.
     virtual std::string whyLightStays() const { return ""; }
 
-    // What this scene offers of type C, null if it does not; lives as long as the scene.
+    // Returns the capability C, null where the scene does not offer it; it lives as long as the scene.
     template <typename C>
     C* offered() const {
         for (const auto& [type, what] : mOffered)
@@ -58,7 +57,7 @@ public:
     }
 
 protected:
-    // capability outlives the scene, or is part of it. At most one of a type.
+    // capability: outlives the scene, or is part of it. At most one of each type.
     template <typename C>
     void offer(C& capability) {
         mOffered.emplace_back(std::type_index(typeid(C)),

@@ -1,4 +1,4 @@
-// A capability (capabilities.h): the values of a volume, and what they are shown as, for who edits that.
+// A capability (capabilities.h): the values of a volume and their display, for editors of that.
 #pragma once
 
 #include <functional>
@@ -13,26 +13,26 @@
 
 namespace stereonav {
 
-// Values of a study that was read once, however it is seen.
+// Values of a study, which are read once and shared by all scenes made of it.
 struct StudyValues {
-    std::string unit;  // "HU", or "" where it is not known
+    std::string unit;  // "HU"; "" where it is unknown
     ValueSpan range;
-    // Counts the values of what may be shown; holds what it counts. Any thread; throws Cancelled.
+    // Counts the values that may be shown; holds the data that it counts. Any thread; throws Cancelled.
     std::function<ValueCounts(Progress&)> count;
 };
 
-// The surface that options gave when the study was read.
+// The surface according to the options, when the study was read.
 struct BegunSurface {
-    std::optional<double> isovalue;  // none: it can not be moved
-    bool isovalueChosen = false;     // no option says it
+    std::optional<double> isovalue;  // empty: the surface can not be moved
+    bool isovalueChosen = false;     // no option sets it
     bool translucent = false;
     std::string transfer;  // a file, a name or a curve; "": by `opacity`
-    double opacity = 0;    // a millimetre: of a wall that is translucent without `transfer`
+    double opacity = 0;    // per millimetre: of a translucent wall without `transfer`
 };
 
 struct ShownValues {
     std::shared_ptr<const StudyValues> values;  // the same for all scenes of one study
-    TransferFunction function;                  // empty: the opaque surface alone
+    TransferFunction function;                  // empty: only the opaque surface
     BegunSurface begun;
 };
 

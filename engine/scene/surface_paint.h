@@ -1,5 +1,5 @@
-// Painters of a scene's surfaces in pictures that are shown or written. Comparisons and reports leave paint
-// out: it is the same for every way of making a frame.
+// Painters of a scene's surfaces, for pictures that are shown or written. Comparisons and reports are made
+// without paint, which would be the same for every way of making a frame.
 #pragma once
 
 #include <memory>
@@ -14,11 +14,11 @@ namespace stereonav {
 // A capability (capabilities.h). Changed by the thread that makes frames, or before it starts.
 class SurfacePaint {
 public:
-    // Sets the painters, which lie one over the other in this order.
+    // Sets the painters, which are applied in this order.
     void set(std::vector<std::shared_ptr<const EyePainter>> painters) { mPainters = std::move(painters); }
     void add(std::shared_ptr<const EyePainter> painter) { mPainters.push_back(std::move(painter)); }
     const std::vector<std::shared_ptr<const EyePainter>>& painters() const { return mPainters; }
-    // Sets a painter that comes over all others while one flies; null: none.
+    // Sets a painter that is applied after all others, during flight; null: none.
     void setOver(std::shared_ptr<const EyePainter> painter) { mOver = std::move(painter); }
     bool empty() const { return mPainters.empty() && !mOver; }
     void paint(const EyeView& view, EyeImage& image) const {
@@ -31,7 +31,7 @@ private:
     std::shared_ptr<const EyePainter> mOver;
 };
 
-// Paints an eye that is made with what the scene offers. Returns the time, ms: 0 where there is nothing to
+// Paints an eye's picture as the scene's capabilities require. Returns the time in ms; 0 where there is no
 // paint.
 double paintEye(const Scene& scene, const EyeView& view, EyeImage& image);
 

@@ -1,4 +1,4 @@
-// A capability (capabilities.h): a closed wall of which it can be followed what was on screen.
+// A capability (capabilities.h): a closed wall, for which it can be recorded what was on screen.
 #pragma once
 
 #include <memory>
@@ -21,16 +21,16 @@ struct WallLooking {
     bool operator==(const WallLooking&) const = default;
 };
 
-// A part of the wall that hangs together and was not seen.
+// A connected part of the wall that was not seen.
 struct UnseenPart {
     double area = 0;           // square metres
-    glm::dvec3 place{0.0};     // world, metres: on it, next to its middle
-    double along = 0;          // metres along the way through
-    std::optional<Pose> view;  // a view that shows it; none where there is no room for an eye
+    glm::dvec3 place{0.0};     // world, metres: on the part, near its middle
+    double along = 0;          // metres along the line through the scene
+    std::optional<Pose> view;  // a view that shows it; empty where there is no room for an eye
 };
 
-// The wall that was seen so far. Used by one thread at a time, also while frames are made; the scene outlives
-// it.
+// The part of the wall that was seen so far. For one thread at a time, also while frames are made; the scene
+// must outlive it.
 class WallSeen {
 public:
     virtual ~WallSeen() = default;
@@ -47,9 +47,10 @@ public:
 class WallToSee {
 public:
     virtual ~WallToSee() = default;
-    // Called on any thread. Throws Error (memory; a number out of range), Cancelled.
+    // Begins without anything seen. Called on any thread. Throws Error (memory; a number out of range),
+    // Cancelled.
     virtual std::unique_ptr<WallSeen> begin(const WallLooking& looking, Progress& progress) const = 0;
-    // The scene's own flight, or the way back. On any thread; may take seconds.
+    // Returns the scene's own flight, or the way back. On any thread; may take seconds.
     virtual std::vector<Pose> ownFlight(bool back) const = 0;
 };
 

@@ -1,5 +1,5 @@
-// Region V of Wan et al. 2004, fig. 2: things near the right border that only the right eye sees, in
-// front of what the warp put there. Marks the pixels where the scene can not rule them out.
+// Region V of Wan et al. 2004, fig. 2: objects near the right border that only the right eye sees, in front
+// of the surfaces that were warped there. Marks the pixels where the scene can not rule them out.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace stereonav {
 
-// Makes holes (mask 255, colour and view depth 0) where tiles may show such a thing. Runs on all threads.
+// Makes holes (mask 255, colour and view depth 0) in tiles that may show such an object. Runs on all threads.
 void markBorderOccluders(const EyeRenderer& renderer, const StereoViews& views, Plane<std::uint8_t>& mask,
                          EyeImage& right);
 

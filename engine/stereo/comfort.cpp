@@ -12,7 +12,7 @@ bool within(const ParallaxRange& parallax, double nearest, double farthest) {
     return parallax.near >= nearest && parallax.far <= farthest;
 }
 
-// How far all is to move, farther where it is positive.
+// Returns the change of parallax that brings both ends into the usual bounds; positive moves farther away.
 double missingTo(const ParallaxRange& parallax) {
     const double nearest = kUsedShare * kUsualNearest, farthest = kUsedShare * kUsualFarthest;
     if (parallax.near < nearest) return nearest - parallax.near;

@@ -1,5 +1,5 @@
-// How hard a picture's parallax is on the eyes, and eyes that make it comfortable at once: for a picture that
-// begins something. What goes on while one flies changes slowly (ComfortLimit, room_seen.h).
+// Comfort of a picture's parallax, and eye settings that make it comfortable at once: for the first picture
+// of a flight. During flight, settings change slowly (ComfortLimit, room_seen.h).
 #pragma once
 
 #include "engine/camera/stereo_rig.h"
@@ -7,8 +7,8 @@
 
 namespace stereonav {
 
-// Bounds of parallax within which all may lie all the time, as shares of the picture's width; farther out are
-// short excursions.
+// Bounds of parallax that are comfortable permanently, as shares of the picture's width; farther out only
+// short excursions are.
 constexpr double kUsualNearest = -0.01, kUsualFarthest = 0.02;
 
 // How long a picture's parallax can be looked at.
@@ -20,11 +20,11 @@ enum class ComfortState {
 // Judges a range of parallax; NaN is too much.
 ComfortState comfortOf(const ParallaxRange& parallax);
 
-// Returns the setting, changed as little as it takes for the same picture to lie within what is usual, and a
-// twentieth less: eyes come together where the range from nearest to farthest is too wide, which no screen
-// distance mends; what is then still too near or too far is mended by the distance of the screen. The setting
-// stays as it is where it is comfortable or has no parallax. atInfinity: the parallax of what is infinitely
-// far, a share of the picture's width.
+// Returns the setting with the least change after which the same picture lies within the usual bounds, with a
+// twentieth to spare. The eyes come together where the range from nearest to farthest is too wide, since no
+// screen distance helps there; then the distance of the screen is changed where one end is still too near or
+// too far. A comfortable setting, or one without parallax, is returned unchanged. atInfinity: parallax of
+// infinitely far objects, a share of the picture's width.
 StereoSetting comfortableEyes(const StereoSetting& setting, const ParallaxRange& parallax, double atInfinity);
 
 }  // namespace stereonav

@@ -1,5 +1,5 @@
-// How much the colours around a pixel differ: by what the error of a warped pixel is predicted. One row as
-// plain pointers, since the kernel is compiled once for each instruction set.
+// The contrast around each pixel, which predicts the error of a warped pixel. One row as plain pointers,
+// since the kernel is compiled once for each instruction set.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,17 @@ constexpr std::uint8_t kNoContrast = 255;  // the class of a hole
 
 // Three rows that the kernel reads, and the classes that it writes.
 struct ContrastRow {
-    const std::uint32_t *above, *row, *below;             // packed colours; at the border the row itself
-    const std::uint8_t *holesAbove, *holes, *holesBelow;  // 255 where nothing is known; the same
-    std::uint8_t* classes;                                // each pixel's
-    int width;                                            // >= 1
+    // Packed colours, and 255 where a colour is unknown. At the picture's border the row itself stands for
+    // the missing one.
+    const std::uint32_t *above, *row, *below;
+    const std::uint8_t *holesAbove, *holes, *holesBelow;
+    std::uint8_t* classes;  // output: the class of each pixel
+    int width;              // >= 1
 };
 
 // Finds the classes of one row.
 using ContrastFunction = void (*)(const ContrastRow&);
-// Returns the function for the processor at hand.
+// Returns the fastest function that this processor can run.
 ContrastFunction fastestContrast();
 
 }  // namespace stereonav

@@ -1,6 +1,6 @@
-// How wrong warped pixels are expected to be, so that those that are worth it can be cast as well. A warped
-// pixel is an interpolated one: its error grows with the contrast around it, and by how much is a matter of
-// the scene, so it is measured on a few of its frames whose right eye is cast in full.
+// Predicts the errors of warped pixels, so that the pixels with the largest errors can be cast as well. A
+// warped pixel is an interpolated one: its error grows with the contrast around it. The factor depends on the
+// scene, so it is measured on a few of its frames whose right eye is also cast in full.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ using ContrastCounts = std::array<long long, kContrastClasses>;
 // bytes, mean of the three channels.
 struct ErrorCalibration {
     std::array<double, kContrastClasses> meanSquare{};
-    // Factors above what is expected: what is expected of a frame whose classes from c on are cast, times
-    // margin[c], is not exceeded by 95 of 100 frames.
+    // Safety factors: for 95 of 100 frames whose classes from c on are cast, the error is at most margin[c]
+    // times the expected one.
     std::array<double, kContrastClasses + 1> margin{};
 
     // Returns the mean square error that is expected for a frame of `pixels` pixels whose classes from `cast`
@@ -30,17 +30,17 @@ struct ErrorCalibration {
     // Returns the PSNR that 95 % of frames exceed; kMostPsnr_db where nothing is expected.
     double boundPsnr_db(const ContrastCounts& counts, double pixels, int cast = kContrastClasses) const;
 };
-// The PSNR that stands for no error at all.
+// PSNR that is reported for pictures without any error.
 constexpr double kMostPsnr_db = 100.0;
 
-// Gathers frames. Each is added with its warped right eye, the mask of its holes and its right eye cast in
-// full.
+// Collects frames for a calibration: each with its warped right eye, the mask of its holes, and its right eye
+// cast in full.
 class ErrorCalibrator {
 public:
-    // Adds a frame; all three of one size.
+    // Adds a frame; all three pictures have the same size.
     void add(const EyeImage& warped, const Plane<std::uint8_t>& holes, const EyeImage& full);
-    // Returns the calibration, in which a class never expects less than the ones below it. Throws Error where
-    // no frame was added.
+    // Returns the calibration. The expected error never decreases from a class to the next. Throws Error
+    // where no frame was added.
     ErrorCalibration result() const;
 
 private:
@@ -53,12 +53,13 @@ private:
     std::vector<Frame> mFrames;
 };
 
-// Finds the classes of a whole picture, on all threads. classes is resized; counts those that are not holes.
+// Finds the classes of a whole picture, on all threads. classes: resized. Returns the number of pixels in
+// each class, without holes.
 ContrastCounts findContrast(const Plane<std::uint32_t>& color, const Plane<std::uint8_t>& holes,
                             Plane<std::uint8_t>& classes);
 
-// Returns the lowest class to be cast so that what is wanted holds; kContrastClasses: none. pixels: of the
-// whole picture.
+// Returns the lowest class that has to be cast to fulfil the refinement; kContrastClasses: none. pixels:
+// number of pixels in the whole picture.
 int classToCast(const Refinement& refinement, const ContrastCounts& counts, double pixels);
 
 }  // namespace stereonav

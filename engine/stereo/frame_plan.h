@@ -18,7 +18,8 @@ struct FrameCosts {
     double cast_ns = 0;    // a pixel of a full cast, all threads together
     double warp_ns = 0;    // a pixel of the warp
     double hole_ns = 0;    // a ray cast into a hole; 0 when there were none
-    double holeShare = 0;  // holes of all pixels of all right eyes, 0..1; 1 where all are cast with a jump
+    double holeShare = 0;  // share of pixels that are holes in all right eyes, 0..1; 1 where all pixels are
+                           // cast from known depths
 };
 
 // The decision for frames of one size, with the figures that it rests on.
@@ -29,7 +30,7 @@ struct FramePlan {
     RightEyeMethod method = kDefaultRightEyeMethod;  // Full where casting is cheaper
     double castRight_ms = 0, warpRight_ms = 0;       // predicted for the right eye alone
     FrameCosts costs;
-    std::size_t bytes = 0;  // held for both eyes and the hole mask
+    std::size_t bytes = 0;  // bytes of both eyes and the hole mask
     std::string reason;     // one sentence with the figures
 
     // Returns whether the right eye is warped rather than cast in full.
@@ -40,9 +41,9 @@ struct FramePlan {
 FramePlan planFromCosts(const FrameCosts& costs, int width, int height, ViewDependence dependence,
                         RightEyeMethod warp = kDefaultRightEyeMethod);
 
-// Measures a few calibration frames (all views of one size, at least one), in their order, and decides. Takes
-// about `budget_ms`, but three frames at least, or all where there are fewer; the first is made once before
-// it is timed. warp: the method that is weighed against the full cast; none: defaultMethodFor(renderer).
+// Measures a few calibration frames in their order and decides. views: at least one, all of one size. Takes
+// about `budget_ms`, but measures at least three frames, or all where there are fewer; the first is made once
+// before it is timed. warp: the method to compare with the full cast; none: defaultMethodFor(renderer).
 // Throws Error without views.
 FramePlan planFrame(const EyeRenderer& renderer, std::span<const StereoViews> views,
                     std::optional<RightEyeMethod> warp = std::nullopt, double budget_ms = 300.0);

@@ -1,6 +1,6 @@
-// Casts rays into the holes of a warped image: vertical bands of columns are the tasks, so that a scene
-// can use the depth below in a column (Wan et al. 2004, section 3.3). A band full of holes, such as the
-// strip that only the right eye sees, is cut into several, or one thread would be left with it.
+// Casts rays into the holes of a warped image. Tasks are vertical bands of columns, so that a scene can use
+// the depth below in a column (Wan et al. 2004, section 3.3). A band full of holes, such as the strip that
+// only the right eye sees, is cut into several tasks, so that one thread is not left with all of it.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,13 @@ public:
     static constexpr int kTaskHoles = 1024;  // a band with more holes is cut
     static constexpr int kTaskRows = 128;    // into pieces of so many rows
 
-    // Lists every pixel whose mask is 255 (the others' is 0) and returns their number. Dynamic takes the
-    // fullest bands first, one at a time.
+    // Lists all pixels whose mask is 255 (it is 0 elsewhere) and returns their number. Schedule::Dynamic
+    // takes the bands with most holes first, one at a time.
     long long list(const Plane<std::uint8_t>& mask, Schedule schedule);
-    // Casts what is listed. image.viewDepth there is 0, or as startsAtKnownDepth() wants it.
+    // Casts the listed pixels. In them image.viewDepth is 0, or as startsAtKnownDepth() requires.
     void cast(const EyeRenderer& renderer, const EyeView& view, Schedule schedule, EyeImage& image) const;
-    // Calls body(bounds, pixels) for each batch, as EyeRenderer::renderPixels wants them, on all threads: for
-    // who casts its pixels otherwise.
+    // Calls body(bounds, pixels) for each batch, as EyeRenderer::renderPixels needs them, on all threads: for
+    // callers that cast the pixels in another way.
     template <typename Body>
     void forEach(Schedule schedule, const Body& body) const {
         forEachPiece(static_cast<int>(mTasks.size()), schedule, [&](int, int i) {

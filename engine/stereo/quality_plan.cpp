@@ -66,7 +66,8 @@ struct Outcome {
 Outcome castInFull(const MeasuredWarps& measured, const QualityWish& wish) {
     const MeasuredWarp& full = measured.warps.back();
     Outcome outcome{{full.setting, full.name, 1, 0, measured.left_ms + full.right_ms, 1}, 1, true, true};
-    // What a frame says of its bound needs some calibration; any says that nothing is wrong.
+    // Reporting a frame's error bound requires a calibration; for a full cast any will do, since no error is
+    // expected.
     outcome.plan.setting.refinement.calibration = measured.warps.front().setting.refinement.calibration;
     outcome.fits = !wish.target_ms || outcome.plan.both_ms <= *wish.target_ms;
     return outcome;

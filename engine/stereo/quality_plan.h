@@ -1,7 +1,7 @@
-// Chooses the way of making the right eye that meets a wish for quality at the least cost. All ways worth
-// trying are measured on a few frames of the scene. Of each it is worked out how many of its pixels have to
-// be cast as well to meet the wish (error_prediction.h). Unless the wish is for a time, the choice does not
-// depend on measured times, so that pictures repeat.
+// Chooses the cheapest way of making the right eye that fulfils a wish for quality. All ways worth trying are
+// measured on a few frames of the scene. For each it is computed how many of its pixels must be cast as well
+// to fulfil the wish (error_prediction.h). Unless the wish is for a time, the choice does not depend on
+// measured times, so that pictures are reproducible.
 #pragma once
 
 #include <optional>
@@ -17,9 +17,11 @@ namespace stereonav {
 struct QualityWish {
     std::optional<double> quality =
         std::nullopt;  // share of the first way's expected squared error to be removed, 0 to 1
-    std::optional<double> targetPsnr_db = std::nullopt;  // at least, for 95 of 100 frames; 0 to kMostPsnr_db
-    std::optional<double> target_ms = std::nullopt;      // for both eyes, > 0; alone: all of it is used
-    bool firstAlone = false;  // only the first way is considered, not even the full cast
+    // dB that 95 of 100 frames are to reach; 0 to kMostPsnr_db.
+    std::optional<double> targetPsnr_db = std::nullopt;
+    // Milliseconds for both eyes, > 0; without another wish all of them are used.
+    std::optional<double> target_ms = std::nullopt;
+    bool firstAlone = false;  // only the first way is considered, and not the full cast either
 
     bool wantsError() const { return quality || targetPsnr_db; }
 };
@@ -28,18 +30,18 @@ struct QualityWish {
 struct MeasuredWarp {
     std::string name;  // "linear", "linear 1.1"
     WarpSetting setting;
-    // Pixels of each frame by the contrast around them, without holes; empty for the full cast, which has no
-    // setting.refinement.calibration either.
+    // Number of pixels by the contrast around them for each frame, without holes. Empty for the full cast,
+    // which has no setting.refinement.calibration either.
     std::vector<ContrastCounts> counts;
-    std::vector<double> holes;  // for each frame: pixels that the way casts itself
-    double right_ms = 0;        // mean of the frames, of each the least of its repeats
+    std::vector<double> holes;  // for each frame: number of pixels that the way itself casts
+    double right_ms = 0;        // mean over the frames of the fastest repeat
     double ray_ns = 0;          // expected for each pixel cast in addition
 };
 // All ways that were measured on the same frames.
 struct MeasuredWarps {
     std::vector<MeasuredWarp> warps;  // the scene's default first, the full cast last
     double pixels = 0;                // pixels of one eye
-    double left_ms = 0;               // mean of the frames, of each the least of its repeats
+    double left_ms = 0;               // mean over the frames of the fastest repeat
 };
 
 // A way of making the right eye, and its name.
@@ -53,27 +55,27 @@ struct NamedWarp {
 std::vector<NamedWarp> warpsWorthTrying(const EyeRenderer& renderer);
 
 // Makes the right eye of each view by each way, the last of which is the full cast. views: at least one, all
-// of one size. repeats: timed runs of each, >= 1. Throws Error without views, and where the last way is
-// another.
+// of one size. repeats: timed runs of each, >= 1. Throws Error without views, and where the last way is not
+// the full cast.
 MeasuredWarps measureWarps(const EyeRenderer& renderer, std::span<const StereoViews> views,
                            std::span<const NamedWarp> warps, int repeats);
 
-// The way that was chosen, and what is expected of it.
+// The chosen way, and what is expected of it.
 struct QualityPlan {
-    WarpSetting setting;  // with its refinement
+    WarpSetting setting;  // includes its refinement
     std::string name;
     double castShare = 0;   // expected share of all pixels that are cast: holes and refined ones
     double meanSquare = 0;  // expected squared error, levels of sRGB bytes; holes are exact
-    double both_ms = 0;     // expected for both eyes, by times measured
-    // Factor for the picture's width and height with which both eyes are expected to take target_ms; 1 where
-    // they do in full size.
+    double both_ms = 0;     // expected for both eyes, by measured times
+    // Factor for the picture's width and height at which both eyes are expected to take target_ms; 1 where
+    // they do so in full size.
     double scale = 1;
 };
 
-// Returns the way that meets the wish at the least cost: the first one unless another is cheaper by
-// kWorthAChange, and where nothing is wished but quality 0. Where no way is as fast as wished it is the
-// fastest one, in a smaller picture and without refinement, since errors are known at the full size alone.
-// Throws Error for a wish that is not in its range.
+// Returns the cheapest way that fulfils the wish. The first way is kept unless another is cheaper by
+// kWorthAChange, and where the only wish is quality 0. Where no way is as fast as wished, returns the fastest
+// one in a smaller picture without refinement, since errors are known only for the full size. Throws Error
+// for a wish that is out of its range.
 QualityPlan planQuality(const MeasuredWarps& measured, const QualityWish& wish);
 constexpr double kWorthAChange = 0.05;  // share of the cost, or of the error, that another way has to save
 constexpr double kLeastScale = 0.25;    // the least QualityPlan::scale

@@ -1,5 +1,5 @@
-// Included by resample_kernel.cpp only: how the left row is read at the sources of a block of right pixels.
-// They nearly always lie so close together that two neighbouring registers and a permutation stand for a
+// Included by resample_kernel.cpp only: reads the left row at the sources of a block of right pixels. The
+// sources nearly always lie so close together that two neighbouring registers and a permutation can replace a
 // gather.
 #pragma once
 
@@ -8,22 +8,22 @@
 namespace stereonav::STEREONAV_ISA {
 namespace {
 
-// Sources anywhere; index and what is read beside it lie in the tables.
+// Sources at any distance; each index, and what is read beside it, lies within the tables.
 struct FarWindow {
     I index;
 
     STEREONAV_INLINE I read(const void* table) const { return loadEach(table, index); }
-    // Reads at the sources and one further right.
+    // Reads the elements at the sources, and those one further right.
     STEREONAV_INLINE IPair readPair(const void* table, int offset = 0) const {
         return loadEachPair(static_cast<const std::int32_t*>(table) + offset, index);
     }
 };
 
 #if defined(STEREONAV_PERMUTES)
-// Sources that lie, with what is read beside them, within 2 * kLanes elements from `base` on.
+// Sources that lie, together with what is read beside them, within 2 * kLanes elements from `base` on.
 struct NearWindow {
     int base;
-    I index;  // from base on
+    I index;  // relative to base
 
     STEREONAV_INLINE I readAt(const void* table, I at) const {
         const std::int32_t* first = static_cast<const std::int32_t*>(table) + base;

@@ -1,5 +1,5 @@
-// The ways to a right eye, by name. What each of them does, and what follows from it, stands in a file of its
-// own (method_<name>.cpp, warp_method.h); a new one is such a file and a line here.
+// Methods of making the right eye, by name. What each does, and its properties, are in a file of its own
+// (method_<name>.cpp, warp_method.h); a new method is such a file and a line here.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ enum class RightEyeMethod {
     STEREONAV_RIGHT_EYE_METHODS(STEREONAV_METHOD)
 #undef STEREONAV_METHOD
 };
-// The method of opaque scenes where warping pays.
+// The default for opaque scenes where warping pays.
 constexpr RightEyeMethod kDefaultRightEyeMethod = RightEyeMethod::Linear;
 
 // A method and its name on the command line.
@@ -44,18 +44,18 @@ constexpr auto kRightEyeMethods = std::to_array<NamedMethod>({
 
 // Returns Selective for translucent scenes, else kDefaultRightEyeMethod.
 RightEyeMethod defaultMethodFor(const EyeRenderer& renderer);
-// The methods that are worth comparing, in the order of their names above: full, linear, selective and
-// depthsplat for a translucent scene, all but the last two for others. The others work too; depthsplat on an
-// opaque scene casts every pixel, with a jump, and selective is linear there. A warp of a translucent scene
-// moves each pixel as if all its colour came from where its ray first met something: near the truth for dense
-// walls, wrong where layers are seen through each other, which is where selective casts.
+// Returns the methods that are worth comparing, in the order of their names above: full, linear, selective
+// and depthsplat for a translucent scene, all but the last two for others. The other methods work too: on an
+// opaque scene depthsplat casts every pixel from a known depth, and selective equals linear. A warp of a
+// translucent scene moves each pixel as if all its colour came from where its ray first met something: nearly
+// right for dense walls, wrong where layers are seen through each other, which is where selective casts.
 std::vector<RightEyeMethod> methodsFor(const EyeRenderer& renderer);
 
 // Returns whether pixels that the warp does not reach are left as they are: nothing is cast.
 bool leavesHoles(RightEyeMethod method);
-// Returns whether every pixel is cast, from a depth that the left eye tells.
+// Returns whether every pixel is cast, from a depth known from the left eye.
 bool castsFromDepths(RightEyeMethod method);
-// Returns whether warped pixels may be cast as well, for a wish of quality (Refinement).
+// Returns whether warped pixels can be cast as well, to fulfil a wish for quality (Refinement).
 bool hasQualityDial(RightEyeMethod method);
 // Returns nullopt for an unknown name.
 std::optional<RightEyeMethod> rightEyeMethodFromName(std::string_view name);

@@ -1,5 +1,5 @@
-// What a picture tells of the room around the eyes, and eyes that suit it: in the window, in pictures and in
-// videos alike.
+// Distances in a picture of the room around the eyes, and eye settings that suit them: for windows, pictures
+// and videos.
 #pragma once
 
 #include <functional>
@@ -15,10 +15,10 @@ constexpr double kParallaxBudget = 0.03, kNearestParallax = -0.025, kFarthestPar
 
 // How near and how far things are in a picture.
 struct RoomSeen {
-    double nearest = 0, farthest = 0;  // view depths, metres; what is not hit is infinitely far
-    double ahead = 0;                  // the median in the picture's middle ninth, metres
+    double nearest = 0, farthest = 0;  // view depths, metres; infinite for pixels that hit nothing
+    double ahead = 0;                  // median view depth in the middle ninth of the picture, metres
 };
-// Returns what every step-th pixel of every step-th row shows of the room. viewDepth: metres.
+// Returns the distances in every step-th pixel of every step-th row. viewDepth: metres.
 RoomSeen roomSeen(const Plane<float>& viewDepth, int step);
 // Returns RoomSeen::ahead alone, metres. Infinite where no depth is known there.
 double depthAhead(const Plane<float>& viewDepth, int step);
@@ -33,33 +33,34 @@ ParallaxRange parallaxOf(const StereoViews& views, const RoomSeen& room);
 // width.
 double parallaxAt(const StereoViews& views, double depth);
 
-// Makes eyes that suit the room around them: one step on by dt seconds. free: distance around the head;
-// depth: view depth in the middle of the picture; metres.
+// Returns the next setting of eyes that follow the room around them. free: distance around the head; depth:
+// view depth in the middle of the picture, both in metres; dt: seconds since the last call.
 using StereoFollower = std::function<StereoSetting(double free, double depth, double dt)>;
 
-// What suits the room may still be too much for the picture's nearest and farthest things: brings eyes
-// together until their parallax is comfortable, slowly.
+// Limits the parallax of a setting: what suits the room may still be too much for the picture's nearest and
+// farthest objects. Brings the eyes together, slowly, until their parallax is comfortable.
 class ComfortLimit {
 public:
     // Notes that a picture was made with eyes `separation` apart, metres.
     void observe(double separation, const ParallaxRange& parallax);
-    // Returns the setting with its eyes as near to each other as is comfortable; dt: seconds since the last.
+    // Returns the setting with its eyes brought together as far as comfort requires; dt: seconds since the
+    // last call.
     StereoSetting limited(StereoSetting wanted, double dt) { return limited(wanted, dt, kLeastShare); }
-    // Returns the same, down to another share of what is wanted; 0: whatever it takes.
+    // Returns the same, but at least leastShare of the wanted separation; 0: no such bound.
     StereoSetting limited(StereoSetting wanted, double dt, double leastShare);
-    // Returns the setting without a limit, which goes as slowly as it came.
+    // Removes the limit as slowly as it was imposed, and returns the setting.
     StereoSetting released(StereoSetting wanted, double dt);
-    // Limits settings from now on as if they had never been limited: for who begins with what is shown.
+    // Forgets all limits, for callers that begin with the setting that is shown.
     void restart() { mShare = 1; }
     double share() const { return mShare; }  // share of the separation that was wanted last
 
 private:
-    static constexpr double kLeastShare = 0.2;  // a wall that is touched leaves some stereo
+    static constexpr double kLeastShare = 0.2;  // some stereo remains even when the eye touches a wall
 
     void approach(double share, double dt);
 
-    // The share of the wanted separation that is comfortable now; and the separation in metres that the last
-    // picture would suit, 0: any.
+    // Share of the wanted separation that is comfortable now; separation in metres that would suit the last
+    // picture, 0: any.
     double mShare = 1, mSeparation = 0;
 };
 

@@ -6,8 +6,8 @@
 
 namespace stereonav {
 
-// Returns the function of the set that availableTarget() gives, which throws for one that can not be used
-// here.
+// Returns the function for the instruction set of availableTarget(), which throws Error where this processor
+// does not have it.
 ResampleFunction resampler(SimdTarget target = SimdTarget::Auto);
 
 }  // namespace stereonav

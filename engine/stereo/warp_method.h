@@ -1,5 +1,5 @@
-// A way of making the right eye: how it warps a row, and what follows from that. Shared among right_eye.cpp
-// and the method_*.cpp.
+// Descriptions of the methods of making the right eye: how each warps a row, and its properties. Shared by
+// right_eye.cpp and the method_*.cpp.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct WarpScratch {
 
 struct WarpMethod;
 
-// One frame.
+// The warp of one frame.
 struct WarpJob {
     const StereoViews& views;
     const EyeImage& left;
@@ -32,7 +32,7 @@ struct WarpJob {
     EyeImage& right;
     Plane<std::uint8_t>& mask;  // 255 where a pixel is to be cast
     ViewDependence dependence;
-    bool airDiffers;  // colours have the left eye's air before them
+    bool airDiffers;  // fog or other air differs between the eyes, so that colours must be corrected
 
     int width() const { return left.width(); }
     // The rows' shift (pixels) and scale (pixels * metres): ResampleRow.
@@ -56,15 +56,15 @@ enum class AfterWarp {
 
 // A way of making the right eye: what it does with a row, and what follows from that.
 struct WarpMethod {
-    WarpRowFunction warpRow = nullptr;  // none: every pixel is cast, without a warp
+    WarpRowFunction warpRow = nullptr;  // null: every pixel is cast, without a warp
     AfterWarp after = AfterWarp::Cast;
-    // Whether a warped pixel lies between the left pixels source and source + 1, as ResampleRow says; else it
-    // is that of `source`, and its depth the nearest of what was drawn there.
+    // Whether a warped pixel lies between the left pixels `source` and `source` + 1, as in ResampleRow.
+    // Otherwise it shows the pixel `source`, and its depth is the nearest of those drawn there.
     bool between = false;
-    bool splats = false;       // wants scratch for splats
-    bool marksBorder = true;   // what only the right eye may see at its right border is cast (region V)
-    bool opaque = true;        // worth comparing for scenes of surfaces
-    bool translucent = false;  // worth comparing for translucent scenes
+    bool splats = false;       // needs WarpScratch::accumulators
+    bool marksBorder = true;   // casts pixels that may show what only the right eye sees (region V)
+    bool opaque = true;        // is worth comparing for scenes of surfaces
+    bool translucent = false;  // is worth comparing for translucent scenes
 };
 
 // kMethodFull, kMethodPaper, ...: each defined in its method_<name>.cpp.
@@ -77,7 +77,7 @@ const WarpMethod& warpMethodOf(RightEyeMethod method);
 
 // Returns the row of an inverse warp with two taps.
 ResampleRow resampleRowOf(const WarpJob& job, WarpScratch& scratch, int y);
-// Warps that row.
+// Warps row y with resampleRowOf().
 void warpRowLinear(const WarpJob& job, ResampleFunction resample, WarpScratch& scratch, int y);
 
 }  // namespace stereonav

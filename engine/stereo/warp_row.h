@@ -32,13 +32,13 @@ struct ResampleRow {
     float* inverse;
     std::int32_t* source;
 
-    // The colours are normals, to be shaded at the depth given: a link never joins surface and sky, and
-    // depth is linear between the two linked pixels. Between neighbours whose depths differ by a share d
-    // of their mean that is off from the plane through them by at most d^2 / 4 of it.
+    // The colours are normals, to be shaded at the given depths. A link then never joins surface and sky, and
+    // depth is interpolated linearly between the two linked pixels. Where their depths differ by a share d of
+    // their mean, the result is off from the plane through both by at most d^2 / 4 of the mean.
     bool surface = false;
 
-    // How far, in metres, the depths spread that a left pixel's light comes from; may be null. Where that
-    // shifts them apart by more than mostSpread right pixels no link holds.
+    // Spread, in metres, of the depths that each left pixel's light comes from; may be null. No link holds
+    // where it shifts those depths apart by more than mostSpread right pixels.
     const float* leftSpread = nullptr;
     float mostSpread = 0;
 };

@@ -6,9 +6,9 @@
 
 namespace stereonav {
 
-// Returns a cell in quotes (RFC 4180), printable, with its ends of lines. A spreadsheet takes what begins
-// with =, +, - or @ for a formula, which may start programs: such text gets an apostrophe before it, so that
-// it stays text. Numbers are written without this.
+// Returns a cell in quotes (RFC 4180), printable, with its line ends. Spreadsheets take text that begins with
+// =, +, - or @ for a formula, which may start programs: an apostrophe is put before it, so that it stays
+// text. Numbers are written without this function.
 std::string csvText(std::string_view text);
 
 }  // namespace stereonav

@@ -1,6 +1,6 @@
-// Estimates the stack and memory that JSON would take of a parser, before one reads it: values within values
-// take its stack, as do copies of them and their end, and each value takes memory, many times what it takes
-// in the file.
+// Estimates the stack and memory that parsing JSON would take, before a parser runs: nested values take
+// stack, also when they are copied and destroyed, and each value takes many times the memory that it takes in
+// the file.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace stereonav {
 
-constexpr int kDeepestJson = 100;  // lists and objects within each other
+constexpr int kDeepestJson = 100;  // largest nesting of lists and objects
 
-// Throws Error naming `file` where the text goes deeper, or may hold more values than there is memory for.
-// Whether it is JSON at all is left to the parser.
+// Throws Error naming `file` where the text is nested deeper, or may hold more values than fit into memory.
+// The parser tests whether it is JSON.
 void checkJson(std::string_view text, const std::string& file, const std::string& advice);
 
 }  // namespace stereonav

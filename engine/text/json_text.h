@@ -1,4 +1,4 @@
-// Documents of JSON as text.
+// JSON documents as text.
 #pragma once
 
 #include <string>
@@ -6,18 +6,20 @@
 
 namespace stereonav {
 
-// Returns a document with what is not printable (printable.h) as \uNNNN, as it can stand in strings alone.
+// Returns a document with characters that are not printable (printable.h) as \uNNNN; in valid JSON they occur
+// only in strings.
 std::string escapedJson(std::string_view document);
 
-// Returns the text of a document of nlohmann's. Bytes that are no UTF-8, as names of files may have them,
-// become U+FFFD.
+// Returns the text of an nlohmann document. Bytes that are no UTF-8, which names of files may have, become
+// U+FFFD.
 template <typename Json>
 std::string jsonText(const Json& json, int indent) {
     return escapedJson(json.dump(indent, ' ', false, Json::error_handler_t::replace));
 }
 
-// Returns what a reader of JSON says of a file, in words that go after its name: "is no JSON from line 1,
-// column 10 on". The reader's own words, which hold bytes of the file, are left out; other words stay.
+// Returns what a JSON parser says about a file, in words that follow its name: "is no JSON from line 1,
+// column 10 on". The parser's own message is left out, since it contains bytes of the file; other messages
+// stay.
 std::string jsonProblem(const std::string& said);
 
 }  // namespace stereonav

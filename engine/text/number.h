@@ -1,4 +1,4 @@
-// Numbers out of text, whatever the language of the system: decimal, with a point.
+// Reads numbers from text, in any locale: decimal, with a point.
 #pragma once
 
 #include <charconv>
@@ -9,15 +9,15 @@ namespace stereonav {
 
 enum class Plus { Refused, Allowed };  // before a number
 
-// Takes the number that the text begins with, which `rest` then begins behind; also "inf" and "nan". What no
-// double holds is 0 or infinite. Returns none, and leaves `rest` as it was, where it begins with something
-// else.
+// Takes the number at the beginning of the text, and moves `rest` behind it; also "inf" and "nan". Numbers
+// that no double can hold become 0 or infinite. Returns empty, and leaves `rest` as it was, where it does not
+// begin with a number.
 std::optional<double> takeNumber(std::string_view& rest, Plus plus = Plus::Refused);
-// Returns the whole text as a number; also "inf" and "nan", and 0 where no double is so small. Returns
-// nothing where it is something else or beyond all doubles.
+// Returns the whole text as a number; also "inf" and "nan", and 0 for numbers too small for a double. Empty
+// where it is something else or too large for a double.
 std::optional<double> numberOf(std::string_view text, Plus plus = Plus::Refused);
 
-// Takes the whole number that the text begins with, as takeNumber() does.
+// Takes the whole number at the beginning of the text, as takeNumber() does.
 template <typename Whole>
 std::optional<Whole> takeWhole(std::string_view& rest, Plus plus = Plus::Refused) {
     const std::string_view digits = rest.substr(plus == Plus::Allowed && rest.starts_with('+') ? 1 : 0);
@@ -27,7 +27,7 @@ std::optional<Whole> takeWhole(std::string_view& rest, Plus plus = Plus::Refused
     rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
     return value;
 }
-// Returns the whole text as a whole number; none where it is something else, or the type does not hold it.
+// Returns the whole text as a whole number; empty where it is something else, or out of the type's range.
 template <typename Whole>
 std::optional<Whole> wholeOf(std::string_view text, Plus plus = Plus::Refused) {
     const std::optional<Whole> value = takeWhole<Whole>(text, plus);

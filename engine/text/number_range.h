@@ -1,5 +1,5 @@
-// Numbers that an option of the command line or a key of a scene file takes: what is checked and what is said
-// come from one declaration.
+// Ranges of numbers for options of the command line and keys of scene files: the check and the message come
+// from one declaration.
 #pragma once
 
 #include <limits>
@@ -7,17 +7,17 @@
 
 namespace stereonav {
 
-// Numbers from low to high in `unit`. Open ends are not taken themselves.
+// Numbers from low to high in `unit`. An open end is not part of the range.
 struct NumberRange {
     double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
     bool openLow = false, openHigh = false;
     const char* unit = "";  // "degrees", "metres"; "": none
 
-    // Returns false for NaN and what is infinite.
+    // Returns whether the number is in the range; false for NaN and infinite numbers.
     bool holds(double number) const;
 };
 
-// Returns a range with both of its ends; above() one without `low`.
+// Returns a range that includes both ends; above() returns one without `low`.
 constexpr NumberRange within(double low, double high, const char* unit = "") {
     return {low, high, false, false, unit};
 }

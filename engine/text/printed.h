@@ -1,5 +1,5 @@
-// Output of the program on standard output and standard error. All of it goes through here, but for what a
-// document has in its own form (JSON, CSV, SVG): whatever a line holds, it is text alone (printable.h).
+// The program's output on standard output and standard error. All of it goes through here, except documents
+// in their own form (JSON, CSV, SVG): every line is made printable (printable.h).
 #pragma once
 
 #include <cstdio>
@@ -7,13 +7,12 @@
 
 namespace stereonav {
 
-// Prints one line; its end is added.
+// Prints one line and a line end.
 void printLine(std::FILE* to, std::string_view line);
-// Prints lines that the program has laid out. A word from a file that stands in them is printable() before: a
-// line that it breaks would look as one of the program's own.
+// Prints lines that the program has laid out. Words from files in them must have been made printable()
+// before: a line break in one would look like a line of the program.
 void printLines(std::FILE* to, std::string_view lines);
-// Prints a document that is text in a form of its own, which lets nothing else through (json_text.h); its end
-// is added.
+// Prints a document in a form of its own that is already printable (json_text.h), and a line end.
 void printDocument(std::string_view document);
 // Prints "stereonav: note" on standard error.
 void printNote(std::string_view note);

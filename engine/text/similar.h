@@ -1,4 +1,4 @@
-// How far a misspelled word is from the one that was meant.
+// Distance of a misspelled word from the one that was meant.
 #pragma once
 
 #include <string>
@@ -6,11 +6,12 @@
 
 namespace stereonav {
 
-// Returns the fewest letters put in, left out, replaced, or two neighbours exchanged ("siez" is 1 from
-// "size"), each place touched once: the optimal string alignment distance. Bytes, not characters.
+// Returns the smallest number of letters inserted, left out, replaced, or exchanged with their neighbour
+// ("siez" is 1 from "size"), each place changed at most once: the optimal string alignment distance. Counts
+// bytes, not characters.
 int editDistance(std::string_view a, std::string_view b);
 
-// Returns the nearest of some words, of equally near ones the first; "" where there are none.
+// Returns the nearest of some words, the first of equally near ones; "" where there are none.
 template <typename Words>
 std::string nearestWord(std::string_view word, const Words& words) {
     std::string nearest;

@@ -1,5 +1,5 @@
-// A TOML file read key by key, collecting what is wrong: callers ask for what they know, and whatever
-// nobody asked for is unknown. Knows nothing of scenes. Keeps the TOML library out of headers.
+// Reads a TOML file key by key and collects problems: callers ask for the keys that they know, and keys that
+// nobody asked for are unknown. Independent of scenes. Keeps the TOML library out of headers.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ public:
     // Throws one Error: for all keys that were never asked for, each with its line and the nearest
     // known one; else for the first wrong value.
     void finish() const;
-    // Does the same for one section alone. Throws Error.
+    // Does the same for one section. Throws Error.
     void finishSection(const std::string& name) const;
 
 private:
@@ -42,8 +42,8 @@ private:
     std::unique_ptr<State> mState;
 };
 
-// Each read() leaves `value` as it is when the key is absent or wrong; the latter is noted in the
-// document. Numbers must be finite. Lives no longer than its document.
+// Each read() leaves `value` as it is when the key is absent or its value wrong; the latter is noted in the
+// document. Numbers must be finite. The document must outlive this object.
 class TomlSection {
 public:
     bool has(const std::string& key) const;
@@ -56,14 +56,14 @@ public:
     // Degrees in the file, radians in `value`.
     void readDegrees(const std::string& key, double& value, const NumberRange& rangeDegrees);
 
-    // Returns a value as an option of the command line has it: a list of numbers is one text, with commas
+    // Returns a value in the form of the command line: a list of numbers is one text, with commas
     // between them; a list of anything else one text for each. Returns nothing where the key is absent.
     std::vector<std::string> texts(const std::string& key);
     // Returns whether the value is true or false.
     bool isFlag(const std::string& key) const;
     // Returns the key's line, from 1; 0 where the key is absent.
     int line(const std::string& key) const;
-    // Leaves this table's keys to somebody else who knows them.
+    // Leaves this table's keys to other code, which knows them.
     void leave();
 
     // Notes a problem at the key (or, without it, at the section's line).

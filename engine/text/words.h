@@ -16,7 +16,7 @@ inline std::string_view withoutComment(std::string_view line) {
     return line.substr(0, line.find('#'));
 }
 
-// Takes the first word, blanks before it left out; `rest` begins behind it. Empty at the end.
+// Takes the first word after any blanks; `rest` then begins behind it. Empty at the end.
 inline std::string_view takeWord(std::string_view& rest) {
     rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
     const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
@@ -31,7 +31,7 @@ inline std::vector<std::string_view> wordsOf(std::string_view text) {
     return words;
 }
 template <std::same_as<std::string> Text>
-std::vector<std::string_view> wordsOf(Text&& text) = delete;  // words of what is gone
+std::vector<std::string_view> wordsOf(Text&& text) = delete;  // the words would refer to a destroyed text
 // Returns copies of the words.
 inline std::vector<std::string> ownWordsOf(std::string_view text) {
     const std::vector<std::string_view> words = wordsOf(text);

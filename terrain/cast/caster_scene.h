@@ -1,4 +1,4 @@
-// Ground and colours as the casting kernels read them.
+// Ground and colours in the form that the casting kernels read.
 #pragma once
 
 #include "engine/image/color_texture.h"
@@ -9,11 +9,11 @@ namespace stereonav {
 
 struct GroundFilter;  // defined in terrain_renderer.h
 
-// Returns a ground as kernels read it. ground and pyramid must outlive the result.
+// Returns a ground in the kernels' form. ground and pyramid must outlive the result.
 GroundData groundData(const Heightfield& ground, const HeightPyramid& pyramid);
 
-// Returns colours as kernels read them, by grid coordinates of a ground. spacing: metres between the ground's
-// samples. `color` must outlive the result.
+// Returns colours in the kernels' form, addressed by grid coordinates of a ground. spacing: metres between
+// the ground's samples. `color` must outlive the result.
 TextureData textureData(const ColorTexture& color, const glm::dvec2& spacing, const GroundFilter& filter);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// What the casting kernels read: plain structs and pointers only, since kernels are compiled for wider
+// Data that the casting kernels read: plain structs and pointers only, since kernels are compiled for wider
 // instruction sets and must not share inline code with the rest (see cmake/rooms.cmake).
 #pragma once
 
@@ -18,20 +18,20 @@ struct GroundData {
     std::int32_t maximaOffset[16] = {}, maximaPitch[16] = {};  // HeightPyramid's, by level
     int levels = 0;                                            // levels of the pyramid
     float minHeight = 0, maxHeight = 0;
-    float maxSlope = 0;                 // metres a metre; infinite with open holes
+    float maxSlope = 0;                 // metres per metre; infinite with open holes
     double spacingX = 1, spacingY = 1;  // metres between samples
-    // The plain cell walk in double precision (plain_caster.h), for lanes that float can not decide. fall: of
-    // an EarthBend around the origin; cell: i, j; position: u, v. Returns the ray's parameter, infinite for a
-    // miss.
+    // The plain cell walk in double precision (plain_caster.h), for rays that single precision can not
+    // decide. fall: of an EarthBend around the origin; cell: i, j; position: u, v. Returns the ray's
+    // parameter, infinite for a miss.
     double (*exactHit)(const void* context, const double* origin, const double* direction, double fall,
                        double tMin, int* cell, double* position) = nullptr;
-    const void* context = nullptr;  // what exactHit is given
+    const void* context = nullptr;  // first argument for exactHit
 };
 
 // A SkyMap: an octahedral map of PackedColor.
 struct SkyData {
     const std::uint32_t* texels = nullptr;
-    int size = 0, stride = 0;  // texels a side; from row to row
+    int size = 0, stride = 0;  // texels a side; texels from row to row
 };
 
 // A plain fog.
@@ -40,83 +40,85 @@ struct FogData {
     float linear[3] = {};  // the colour, linear, 0 to 1
 };
 
-// Detail of the ground's shading below the sample spacing: terrain/cast/ground_detail.h. The lattice's values
-// a side; those kept of a row, which ends with its first again.
+// Sides of the lattice for detail of the ground's shading below the sample spacing
+// (terrain/cast/ground_detail.h): number of its values, and number of values stored for a row, which ends
+// with its first value again.
 constexpr int kDetailSide = 64, kDetailPitch = kDetailSide + 1;
 constexpr int kDetailOctaves = 7;
-constexpr float kDetailPixels = 1.5f;  // a cell of an octave that is gone; twice as many: it is all there
-constexpr float kDarkestDetail = -0.65f, kBrightestDetail = 0.8f;  // shares of the light: the limits
+// An octave has faded out where its cell has this many pixels; where twice as many, it is fully there.
+constexpr float kDetailPixels = 1.5f;
+constexpr float kDarkestDetail = -0.65f, kBrightestDetail = 0.8f;  // limits, as shares of the light
 
-// One octave: a lattice of values, turned and scaled, over the ground.
+// One octave: a lattice of values, rotated and scaled, over the ground.
 struct DetailOctave {
-    int a = 1, b = 0;              // place on the lattice: (a + b i) (x + y i)
-    float cell = 1;                // a side of its cells, in cells of the ground
+    int a = 1, b = 0;              // position on the lattice: (a + b i) (x + y i)
+    float cell = 1;                // side of its cells, in cells of the ground
     float lightX = 0, lightY = 0;  // share of the light for a gradient of 1 along the lattice's axes
 };
 // Data of GroundDetail, which adds to the shading.
 struct DetailData {
     const float* values = nullptr;  // values of the lattice, -1 to 1, kDetailPitch a row
-    const float* rough = nullptr;   // at the ground's samples: 0 on level ground, towards 1 on steep ground
+    const float* rough = nullptr;   // at the ground's samples: 0 on level ground, up to 1 on steep ground
     int roughPitch = 0;             // samples from row to row
     int octaves = 0;                // 0: no detail
-    float perMetre = 1;             // cells of the ground a metre
+    float perMetre = 1;             // cells of the ground per metre
     DetailOctave octave[kDetailOctaves];
 };
 
 struct CasterScene;
 
-// Ground that goes on beyond the border of a finer one, which lies in its middle
-// (terrain/ground/ground_rings.h).
+// The coarser ground around a finer one, which lies in its middle (terrain/ground/ground_rings.h).
 struct CoarserGround {
     const CasterScene* scene = nullptr;  // null: there is none
-    double originX = 0, originY = 0;     // sample (0, 0), in grid coordinates of the finer one
-    double scale = 1;                    // grid units for one of the finer: a power of two
+    double originX = 0, originY = 0;     // its sample (0, 0) in grid coordinates of the finer ground
+    double scale = 1;                    // its grid units per grid unit of the finer ground: a power of two
 };
 
-// The ground that rays can meet, and the air before it.
+// The ground that rays can meet, and the air in front of it.
 struct CasterScene {
     GroundData ground;
     DetailData detail;
     TextureData texture;
     SkyData sky;
     FogData fog;
-    AirData air;  // a physical sky's; then there is no fog
+    AirData air;  // air of a physical sky; it replaces fog
     CoarserGround beyond;
 };
 
 // A view turned so that `step` leads from steeper to higher rays (rows from bottom to top in an upright
-// picture) and `lane` runs across. Direction of pixel (lane a, step q), in grid units and metres for a unit
-// of view depth: base + a * perLane + q * perStep.
-// With a fall rays are parabolas over level ground (engine/math/earth_bend.h). The fall is counted from the
-// head; what differs around the eye, more with the distance, is in originZ and the directions' z already.
+// picture) and `lane` runs across. Direction of pixel (lane a, step q), in grid units and metres per unit of
+// view depth: base + a * perLane + q * perStep.
+// With a fall, rays are parabolas over level ground (engine/math/earth_bend.h). The fall is defined around
+// the head; the difference for the eye, which grows with the distance, is already part of originZ and the
+// directions' z.
 struct CasterView {
     double originX = 0, originY = 0, originZ = 0;           // the eye: grid, grid, metres
     double base[3] = {}, perLane[3] = {}, perStep[3] = {};  // x, y in grid units, z in metres
-    int lanes = 0, steps = 0;                               // pixels across and along
+    int lanes = 0, steps = 0;                               // number of pixels across and along
     // Pixel (x, y) = first + a * laneStep + q * stepStep, both axes swapped in rolled views.
     int firstX = 0, firstY = 0, laneX = 1, laneY = 0, stepX = 0, stepY = -1;
-    // Towards lower rays at (a, q): (lowA - a * lowW, lowQ - q * lowW); see terrain_view.cpp.
+    // Direction towards lower rays at (a, q): (lowA - a * lowW, lowQ - q * lowW); see terrain_view.cpp.
     double lowA = 0, lowQ = -1, lowW = 0;
     bool verticalColumns = false;  // each lane's rays lie in one vertical plane: the paper's rule is exact
-    bool coherent = false;         // a lower ray's free length may be used for a higher one at all
+    bool coherent = false;         // the free length of a lower ray may be used for a higher one
     double fall = 0;               // 1/metre, of the view's EarthBend, around the eye; 0: rays are straight
-    float nearDepth = 0;           // metres along the view: nothing nearer is hit
-    float pixelWidth = 0, pixelHeight = 0;  // metres a metre of view depth
-    AirEye air;                             // the eye's, of a physical sky
+    float nearDepth = 0;           // metres along the view: smallest depth of a hit
+    float pixelWidth = 0, pixelHeight = 0;  // metres per metre of view depth
+    AirEye air;                             // air at the eye, for a physical sky
 };
 
-// The pixels of a tile: at each step the lanes from ceil(left + leftSlope * step) to before ceil(right +
-// rightSlope * step), for steps from firstStep to endStep - 1.
+// The pixels of a tile: at each step the lanes from ceil(left + leftSlope * step) up to, but not including,
+// ceil(right + rightSlope * step), for steps from firstStep to endStep - 1.
 struct CasterBand {
-    double left = 0, leftSlope = 0, right = 0, rightSlope = 0;  // lanes; lanes a step
+    double left = 0, leftSlope = 0, right = 0, rightSlope = 0;  // lanes; lanes per step
     int firstStep = 0, endStep = 0;
-    // Lanes whose depths the picture may hold already (0: it does not), beside the band; empty where the
-    // picture is made anew.
+    // Range of lanes beside the band whose depths the picture may hold already (0: it does not); empty where
+    // the whole picture is new.
     int knownFrom = 0, knownTo = 0;
 };
 
-// How far in front of a known surface a ray beside or above it starts: the depth of a warped pixel is that
-// of its nearer neighbour in the left picture, good to about a pixel's worth of ground.
+// Share of a known depth at which a ray beside or above it starts: the depth of a warped pixel is that of its
+// nearer neighbour in the left picture, exact to about the ground that a pixel covers.
 constexpr float kInFront = 0.98f;
 
 // Returns the first lane of a band's edge at a step, 0 to `lanes`.
@@ -128,7 +130,7 @@ __attribute__((always_inline)) inline int bandEdge(double at, double slope, int 
     return whole < a ? whole + 1 : whole;
 }
 
-// Where a kernel writes; strides in elements.
+// Output of a kernel; strides in elements.
 struct CasterTarget {
     std::uint32_t* color = nullptr;  // PackedColor
     float* depth = nullptr;          // metres along the view, infinite: sky
@@ -140,7 +142,7 @@ struct CasterPixel {
     std::uint16_t x, y;
 };
 
-// Scattered pixels, and the view depth, metres, that each ray may start at (0: unknown).
+// Scattered pixels, and the view depth in metres at which each ray may start (0: unknown).
 struct CasterBatch {
     const CasterPixel* pixels = nullptr;
     const float* start = nullptr;
@@ -155,7 +157,7 @@ struct CasterKernels {
     void (*castBand)(const CasterScene&, const CasterView&, const CasterBand&, const CasterTarget&,
                      float* scratch);
     void (*castPixels)(const CasterScene&, const CasterView&, const CasterBatch&, const CasterTarget&);
-    // Colours row y of a view whose lanes are columns from depths that another caster found.
+    // Colours row y of a view whose lanes are columns, from depths that another caster has found.
     void (*shadeRow)(const CasterScene&, const CasterView&, int y, const CasterTarget&);
 };
 

@@ -10,8 +10,8 @@
 namespace stereonav {
 namespace {
 
-// The part of the ray over the ground's extent; of a rising one below the highest sample, of a straight one
-// that falls above the lowest.
+// The part of the ray over the ground's extent; for a rising ray the part below the highest sample, for a
+// straight falling ray the part above the lowest.
 struct Part {
     double begin, end;
 };

@@ -7,21 +7,24 @@
 namespace stereonav::STEREONAV_ISA {
 namespace {
 
-// Linear light, what the eye saw of it beyond the fog `ratio` times as strong.
+// Returns a packed channel after its light from behind the fog was multiplied by `ratio`. fog: the fog's own
+// colour, linear.
 STEREONAV_INLINE I changedChannel(I channel, float fog, F ratio) {
     const F root = toFloat(channel) * F(1.0f / 1023);
     const F linear = lerp(F(fog), root * root, ratio);
     return truncateToInt(mulAdd(sqrt(clamp(linear, F(0.0f), F(1.0f))), F(1023.0f), F(0.5f)));
 }
 
-// How much more of a thing's light reaches this eye than reached the other.
+// Returns the factor from the light of a surface that reached the other eye to the light that reaches this
+// eye.
 STEREONAV_INLINE F ratioAt(const FogRow& row, int x, F z) {
     const F rx = mulAdd(laneIndexF() + F(static_cast<float>(x)), F(row.perX), F(row.firstX)), ry(row.y);
     const F way = z * sqrt(mulAdd(rx, rx, mulAdd(ry, ry, F(1.0f))));
     const F ox(row.offset[0]), oy(row.offset[1]), oz(row.offset[2]);
     const F px = mulAdd(z, rx, ox), py = mulAdd(z, ry, oy), pz = z + oz;
     const F before = sqrt(mulAdd(px, px, mulAdd(py, py, pz * pz)));
-    // The difference of the squares, by their sum: far away the ways' own difference would be all rounding.
+    // The difference of the two distances, as the difference of their squares divided by their sum:
+    // subtracting large distances directly would leave only rounding.
     const F squares = mulAdd(
         z * F(2.0f), mulAdd(rx, ox, mulAdd(ry, oy, oz)),
         F(row.offset[0] * row.offset[0] + row.offset[1] * row.offset[1] + row.offset[2] * row.offset[2]));

@@ -1,4 +1,5 @@
-// A row of pixels that one eye saw through fog, as the other sees it through its own: what kernels read.
+// A row of pixels that one eye saw through fog, to be changed to what the other eye sees through its own fog;
+// in the kernels' form.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +10,20 @@ namespace stereonav {
 
 struct FogRow {
     std::uint32_t* color = nullptr;  // a row of PackedColor
-    // Metres along the view, of the eye that sees the row now; 0: nothing is known, infinite: sky. Both stay
-    // as they are. Rows may be read up to the end of their last 16 pixels.
+    // View depths in metres for the eye that sees the row now; 0: unknown, infinite: sky. Pixels with either
+    // stay as they are. Rows may be read up to the end of their last 16 pixels.
     const float* depth = nullptr;
     int width = 0;  // pixels
-    // Metres at a view depth of 1 m, along the picture's axes: the first pixel's centre, and from one to the
-    // next.
+    // Coordinates along the picture's axes at a view depth of 1 m, in metres: centre of the first pixel, step
+    // to the next, and the row.
     float firstX = 0, perX = 0, y = 0;
     float offset[3] = {};  // metres from the eye that saw it to this one: right, up, forward
     float perMetre = 0;    // extinction, 1/metre
     float linear[3] = {};  // the fog's colour, linear, 0 to 1
 };
 
-// More difference than that counts as so much: the colour behind the fog is divided by what the fog left of
-// it, which shows the steps of 10 bits.
+// Largest difference in fog between the eyes; larger ones are clamped to it. The colour behind the fog is
+// divided by the fog's transmittance, which magnifies the steps of 10 bits.
 constexpr float kMostFogBetweenEyes = 1.5f;  // optical depth
 
 // Changes the colours of a row; one for each instruction set.

@@ -1,9 +1,8 @@
-// Detail below the sample spacing: a fractal relief that tilts the ground's normal for its shading and does
-// nothing else. Silhouette, depth and colours' mean stay. It is a sum of octaves of value noise, each turned
-// and sqrt(5) times finer than the one before, whose lattices are the Gaussian integers' multiples of (2 +
-// i)^k: whole numbers in the ground's grid, so that a place far from the origin is as exact as one near it.
-// An octave fades out as a pixel's longer side on the ground comes from a third of a cell of its lattice to
-// two thirds.
+// Detail below the sample spacing: a fractal relief that tilts the ground's normal for shading. Silhouette,
+// depth and mean colour stay. It is a sum of octaves of value noise, each rotated and sqrt(5) times finer
+// than the one before. Their lattices are the multiples of (2 + i)^k among the Gaussian integers: whole
+// numbers in the ground's grid, so that places far from the origin are as exact as near ones. An octave fades
+// out as the longer side of a pixel on the ground grows from a third to two thirds of a cell of its lattice.
 #pragma once
 
 #include <vector>
@@ -19,7 +18,7 @@ public:
     // Takes half a second for a hundred million samples on two threads.
     explicit GroundDetail(const Heightfield& ground);
 
-    // Returns what kernels read, under the look's sun; must not outlive this.
+    // Returns the detail in the kernels' form, under the look's sun; must not outlive this object.
     DetailData forKernels(const TerrainLook& look) const;
     std::size_t byteCount() const { return sizeof(float) * (mValues.size() + mRough.size()); }
 

@@ -31,8 +31,8 @@ float depthInside(const Plane<float>& viewDepth, PixelRect bounds, int x, int y)
     return inside ? viewDepth.at(x, y) : -1.0f;
 }
 
-// Where a ray may start that is higher than a lower one, which meets the ground at that view depth: 0 where
-// the ground between their directions might rise above it.
+// Returns the start of a ray above a lower ray that meets the ground at that view depth; 0 where the ground
+// between their directions might rise above the upper ray.
 float provenStart(const Heading& ray, const Heading& lower, float depth, const GroundData& ground) {
     const double x = ray.x - lower.x, y = ray.y - lower.y;
     if (!(ray.slope - lower.slope >= ground.maxSlope * std::sqrt(x * x + y * y))) return 0.0f;
@@ -48,8 +48,8 @@ float startInColumn(const CasterView& v, PixelRect bounds, const Plane<float>& v
     return 0.0f;
 }
 
-// Where the ray at (lane a, step q) of the view, whole numbers at the centres of its pixels, may start by the
-// depths of pixels towards lower rays; 0: nothing is known.
+// Returns the start of the ray at (lane a, step q) of the view, whole numbers at pixel centres, from the
+// depths of pixels towards lower rays; 0: unknown.
 float startAbove(const CasterView& v, const GroundData& ground, PixelRect bounds,
                  const Plane<float>& viewDepth, double a, double q) {
     const double lowQ = v.lowQ - q * v.lowW;

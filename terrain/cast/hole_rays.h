@@ -1,5 +1,6 @@
-// How scattered pixels of terrain are cast: where holes are dense, as small bands (packets of whole rows,
-// each ray led by the one below); elsewhere one by one, each started just in front of what is known.
+// Casts scattered pixels of terrain: where holes are dense, as small bands (packets of whole rows, in which
+// each ray starts where the one below it permits); elsewhere one by one, each started just in front of a
+// known depth.
 #pragma once
 
 #include <span>
@@ -27,17 +28,17 @@ private:
     std::vector<int> mBlocks;
 };
 
-// Returns the view depth, metres, from which the ray of pixel p may start: that of known pixels towards lower
-// rays (Wan et al. 2004, section 3.2), where they prove its way free (caster_kernel.cpp has the rule for any
-// view). 0: nothing is known. Reads viewDepth inside bounds only.
+// Returns the view depth in metres at which the ray of pixel p may start: that of known pixels towards lower
+// rays (Wan et al. 2004, section 3.2), where these prove it free (caster_kernel.cpp has the rule for any
+// view). 0: unknown. Reads viewDepth inside bounds only.
 float startInFront(const CasterView& view, const GroundData& ground, PixelRect bounds,
                    const Plane<float>& viewDepth, PixelIndex p);
 
-// Where rays of a view may start whose window lies less than a pixel beside that of the `known` view, all of
-// whose depths are there.
+// Starts for the rays of a view whose window is shifted by less than a pixel from that of the `known` view,
+// all of whose depths are known.
 class StartBeside {
 public:
-    // The references must outlive this.
+    // The references must outlive this object.
     StartBeside(const CasterView& view, const CasterView& known, const GroundData& ground,
                 const Plane<float>& viewDepth);
     // Returns the view depth, metres, as startInFront() does.
@@ -47,7 +48,8 @@ private:
     const CasterView &mView, &mKnown;
     const GroundData& mGround;
     const Plane<float>& mDepth;
-    double mLane = 0, mStep = 0;  // pixels from one of the known view to the same of the other
+    // Shift in pixels from a pixel of the known view to the same pixel of this one.
+    double mLane = 0, mStep = 0;
     bool mAny = false;
 };
 

@@ -1,6 +1,6 @@
-// A packet of rays against the heightfield: leaps over the pyramid of maxima, then the exact hit of the
-// bilinear surface in a cell. Single precision finds the cell, conservatively; double precision has the
-// last word on where in it the hit lies. Included by kernels only.
+// Casts a packet of rays at the heightfield: leaps over the pyramid of maxima, then finds the exact hit of
+// the bilinear surface in a cell. Single precision finds the cell, conservatively; double precision decides
+// where in it the hit lies. Included by kernels only.
 #pragma once
 
 #include "engine/simd/simd.h"
@@ -9,8 +9,8 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Parameters, metres of view depth, at which the ray leaves the block of 2^level cells around (i, j), and the
-// block's border.
+// View depths in metres at which the ray leaves the block of 2^level cells around (i, j), and the block's
+// border.
 struct BlockExit {
     I borderI, borderJ;
     F tx, ty, t;
@@ -49,7 +49,7 @@ STEREONAV_INLINE void leaveBlock(const Eye<kBent>& eye, Walk<kBent>& w, const Bl
     w.active = andNot(w.active, outside < I(0));
 }
 
-// Pyramid level to begin with for a ray about which nothing is known.
+// Pyramid level to begin with for a ray without a known start.
 constexpr int kColdLevel = 3;
 
 // Returns where the walks leave their cells.
@@ -64,7 +64,7 @@ STEREONAV_INLINE BlockExit cellExit(const Eye<kBent>& eye, const Walk<kBent>& w)
     return e;
 }
 
-// Moves the lanes `move` to the next cell: nothing to round, the other index stays.
+// Moves the lanes `move` to the next cell. Exact: the other index stays the same.
 template <bool kBent>
 STEREONAV_INLINE void leaveCell(const Eye<kBent>& eye, Walk<kBent>& w, const BlockExit& e, M move) {
     const M crossX = e.tx < e.ty;
@@ -91,9 +91,9 @@ STEREONAV_INLINE F curvatureOf(const Walk<kBent>& w, F twist) {
         return F(0.0f) - w.rays.x * w.rays.y * twist;
 }
 
-// The first meeting with the surface of cell (i, j) at or behind w.t, for lanes m. The height over
-// ground is c + b s + a s^2 with s = t - w.t. `unsure`: already below at entry, so that a corner of
-// another cell was passed over, or the eye is below ground.
+// Finds the first hit with the surface of cell (i, j) at or behind w.t, for lanes m. The height over ground
+// is c + b s + a s^2 with s = t - w.t. unsure: set where the ray is already below ground at entry, so that it
+// passed a corner of another cell, or the eye is below ground.
 template <bool kBent>
 STEREONAV_INLINE CellHit hitCell(const Eye<kBent>& eye, const Walk<kBent>& w, const BlockExit& e, M m) {
     CellHit c;
@@ -116,7 +116,8 @@ STEREONAV_INLINE CellHit hitCell(const Eye<kBent>& eye, const Walk<kBent>& w, co
     const M rising = b > F(0.0f);
     const F s =
         select(rising, b + root, height + height) * approxReciprocal(select(rising, F(-2.0f) * a, root - b));
-    // The cell's far border is rounded too: a little more is let in, and settled in double precision.
+    // The cell's far border is rounded too: hits a little beyond it are accepted, and decided in double
+    // precision.
     const F length = mulAdd(e.t, F(0x1p-21f), e.t - w.t);
     c.hit = andNot(m, c.unsure) & (discriminant >= F(0.0f)) & (s >= F(0.0f)) & (s <= length);
     c.t = w.t + s;
@@ -125,8 +126,8 @@ STEREONAV_INLINE CellHit hitCell(const Eye<kBent>& eye, const Walk<kBent>& w, co
     return c;
 }
 
-// One Newton step from the single-precision hit, with the height over ground taken in double precision.
-// Lanes whose hit is not settled by it, or lies outside the cell, are returned.
+// Makes one Newton step from the single-precision hit, with the height over ground in double precision.
+// Returns the lanes whose hit that does not decide, or lies outside the cell.
 template <bool kBent>
 STEREONAV_INLINE M refine(const Eye<kBent>& eye, const Walk<kBent>& w, const CellHit& c, M m, Hits& hits) {
     const D t = toDouble(c.t);
@@ -156,8 +157,8 @@ STEREONAV_INLINE M refine(const Eye<kBent>& eye, const Walk<kBent>& w, const Cel
     return andNot(m, good);
 }
 
-// Returns the rate of height over ground along a ray at a point of a cell, metres for a unit of t. rise: the
-// ray's own rate there.
+// Returns the rate of height over ground along a ray at a point of a cell, in metres per unit of t. rise:
+// rate of the ray's own height.
 STEREONAV_INLINE float cellApproach(const GroundData& g, const int* cell, const double* position,
                                     const double* direction, double rise) {
     const float* south = g.heights + static_cast<std::int64_t>(cell[1]) * g.width + cell[0];
@@ -168,8 +169,8 @@ STEREONAV_INLINE float cellApproach(const GroundData& g, const int* cell, const 
                               direction[1] * (dv + position[0] * twist));
 }
 
-// Returns whether a ray is below ground at t, and where in the ground; not in a hole. slope: metres for a
-// unit of t, from the origin to there.
+// Returns whether a ray is below ground at t, and the position on the ground; false in a hole. slope: mean
+// rise of the ray from its origin to there, in metres per unit of t.
 inline bool belowGround(const GroundData& g, const double* origin, const double* direction, double slope,
                         double t, int* cell, double* position) {
     const double x = origin[0] + t * direction[0], y = origin[1] + t * direction[1];
@@ -183,9 +184,9 @@ inline bool belowGround(const GroundData& g, const double* origin, const double*
     return origin[2] + t * slope < low + position[1] * (high - low);
 }
 
-// The plain walk in double precision, lane by lane, from a little before `from` (the float walk has
-// cleared what lies before, up to corners of cells), but not before `floor`. A ray that came to this ground
-// there, and is below it by no more than single precision tells, has met it there.
+// The plain walk in double precision, lane by lane, from a little before `from` (the float walk has cleared
+// the way before, except for corners of cells), but not before `floor`. A ray that came from a finer ground
+// at `floor`, and is below this one by no more than single precision resolves, has hit it there.
 template <bool kBent>
 inline void castExactly(const Eye<kBent>& eye, const Rays& rays, F from, F floor, M m, Hits& hits) {
     alignas(64) float t[kLanes], u[kLanes], v[kLanes], approach[kLanes], start[kLanes], least[kLanes];
@@ -223,9 +224,8 @@ inline void castExactly(const Eye<kBent>& eye, const Rays& rays, F from, F floor
     hits = {loadF(t), loadI(i), loadI(j), loadF(u), loadF(v), loadF(approach), hits.free};
 }
 
-// The discriminant of over + t z + t^2 sink, which is 0 where a bent ray comes down to the highest sample,
-// and where it leaves that again. Where it is near 0 the ray is level there: what rounding makes of that is
-// within the margin.
+// Discriminant of over + t z + t^2 sink, the height of a bent ray over the highest sample. Near 0 the ray is
+// level where it comes closest, and errors by rounding are within the margin.
 struct Discriminant {
     F value, slack;
 };
@@ -234,13 +234,14 @@ STEREONAV_INLINE Discriminant discriminantOf(const Walk<true>& w) {
     return {mulAdd(F(-4.0f) * w.sink, w.over, square), F(0x1p-20f) * square};
 }
 
-// Returns falling rays from above all ground that bend up before they come down to it.
+// Returns falling rays from above all ground that bend up before they reach the highest sample.
 STEREONAV_INLINE M staysAbove(const Walk<true>& w) {
     const Discriminant d = discriminantOf(w);
     return (w.over > F(0.0f)) & (d.value < F(0.0f) - d.slack);
 }
 
-// Returns the view depth, metres, at which falling rays come down to the highest sample, or a little less.
+// Returns the view depth in metres, or a little less, at which falling rays come down to the height of the
+// highest sample.
 template <bool kBent>
 STEREONAV_INLINE F comesDown(const Walk<kBent>& w) {
     if constexpr (kBent) {
@@ -252,8 +253,8 @@ STEREONAV_INLINE F comesDown(const Walk<kBent>& w) {
     }
 }
 
-// Begins walks at view depth `start`, metres, or further on, where rays come to this ground; level: of the
-// pyramid.
+// Begins walks at view depth `start`, in metres, or where rays reach this ground, if that is farther. level:
+// of the pyramid.
 template <bool kBent>
 STEREONAV_INLINE Walk<kBent> startWalk(const Eye<kBent>& eye, const Rays& rays, F start, I level, M lanes) {
     Walk<kBent> w;
@@ -261,7 +262,7 @@ STEREONAV_INLINE Walk<kBent> startWalk(const Eye<kBent>& eye, const Rays& rays, 
     w.rays = rays;
     w.inverseX = approxReciprocal(divisible(rays.x));
     w.inverseY = approxReciprocal(divisible(rays.y));
-    // By the sign of what is divided by: a direction of exactly 0 has the positive one.
+    // The sign is that of the divisor: a direction of exactly 0 counts as positive.
     w.eastward = w.inverseX > F(0.0f);
     w.northward = w.inverseY > F(0.0f);
     if constexpr (kBent)
@@ -275,7 +276,7 @@ STEREONAV_INLINE Walk<kBent> startWalk(const Eye<kBent>& eye, const Rays& rays, 
     F t = max(start, max(min(west, east), min(south, north)));
     t = max(t, F(eye.nearDepth));
     const F end = min(max(west, east), max(south, north));
-    // Above all ground: a falling ray starts where it comes down to the highest sample.
+    // From above all ground a falling ray starts where it comes down to the highest sample.
     w.over = (eye.height - F(eye.ground->maxHeight)) + (eye.rest - eye.margin);
     t = select(w.downward & (w.over > F(0.0f)), max(t, comesDown(w)), t);
     w.risen = hasRisenAt(w, min(t, F(kBent ? 1e12f : 1e30f)));
@@ -289,8 +290,9 @@ STEREONAV_INLINE Walk<kBent> startWalk(const Eye<kBent>& eye, const Rays& rays, 
     return w;
 }
 
-// Leaps with the lanes `move` until all (patient) or most have left the ground or stand in a cell they may
-// hit: the latter are returned. Waiting for the last leaves the others idle where lanes differ much.
+// Leaps with the lanes `move` until all (patient) or most of them have left the ground or stand in a cell
+// that they may hit; returns the latter. Waiting for the last lane leaves others idle where lanes differ
+// much.
 template <bool patient, bool kBent>
 STEREONAV_INLINE M leap(const Eye<kBent>& eye, Walk<kBent>& w, M move) {
     const I top(eye.ground->levels - 1);
@@ -307,7 +309,7 @@ STEREONAV_INLINE M leap(const Eye<kBent>& eye, Walk<kBent>& w, M move) {
         parked = parked | arrived;
         const M over = andNot(move, near);
         leaveBlock(eye, w, e, blockI, blockJ, w.level, over);
-        // Down where the block may be hit; up where a border of the block above was crossed.
+        // Goes down a level where the block may be hit, and up where a border of the block above was crossed.
         const I crossed = select(e.tx < e.ty, blockI + select(w.eastward, I(1), I(0)),
                                  blockJ + select(w.northward, I(1), I(0)));
         const I up = (crossed & I(1)) ^ I(1);
@@ -321,7 +323,7 @@ STEREONAV_INLINE M leap(const Eye<kBent>& eye, Walk<kBent>& w, M move) {
     return parked;
 }
 
-// Keeps what was met in `c` until all lanes of the packet are done.
+// Stores hits `c` until all lanes of the packet are done.
 STEREONAV_INLINE void keep(CellHit& found, const CellHit& c) {
     found.t = select(c.hit, c.t, found.t);
     found.approach = select(c.hit, c.approach, found.approach);
@@ -334,7 +336,7 @@ STEREONAV_INLINE void keep(CellHit& found, const CellHit& c) {
     found.unsure = found.unsure | c.unsure;
 }
 
-// Tries the cells that the lanes `m` stand in, and moves on those that miss.
+// Tests the cells in which the lanes `m` stand, and moves on those that miss.
 template <bool kBent>
 STEREONAV_INLINE void tryCells(const Eye<kBent>& eye, Walk<kBent>& w, M m, CellHit& found) {
     const BlockExit e = cellExit(eye, w);
@@ -345,7 +347,7 @@ STEREONAV_INLINE void tryCells(const Eye<kBent>& eye, Walk<kBent>& w, M m, CellH
     leaveCell(eye, w, e, andNot(m, done));
 }
 
-// Returns hits of rays that meet nothing.
+// Returns hits for rays that meet nothing.
 STEREONAV_INLINE Hits noHits() {
     Hits hits;
     hits.t = infinity();
@@ -356,7 +358,7 @@ STEREONAV_INLINE Hits noHits() {
     return hits;
 }
 
-// Settles a packet's hits in double precision, once all its lanes are done.
+// Decides a packet's hits in double precision, once all its lanes are done.
 template <bool kBent>
 STEREONAV_INLINE Hits settle(const Eye<kBent>& eye, const Walk<kBent>& w, const CellHit& found) {
     Hits hits = noHits();
@@ -364,13 +366,13 @@ STEREONAV_INLINE Hits settle(const Eye<kBent>& eye, const Walk<kBent>& w, const 
         const M doubtful = found.unsure | refine(eye, w, found, found.hit, hits);
         if (any(doubtful)) castExactly(eye, w.rays, w.t, w.floor, doubtful, hits);
     }
-    // Hits end the free way, misses at the border of the ground (w.t).
+    // The free way ends at hits, and for misses at the border of the ground (w.t).
     hits.free = select(hits.t < infinity(), hits.t, select(w.risen, infinity(), w.t));
     hits.free = select(found.unsure, F(0.0f), hits.free);
     return hits;
 }
 
-// Walks on to the end with what startWalk() began.
+// Walks to the end, after startWalk().
 template <bool kBent>
 STEREONAV_INLINE Hits walkOn(const Eye<kBent>& eye, Walk<kBent>& w) {
     const I level = w.level;
@@ -379,7 +381,8 @@ STEREONAV_INLINE Hits walkOn(const Eye<kBent>& eye, Walk<kBent>& w) {
     found.t = infinity();
     found.approach = F(-1.0f);
     found.curvature = found.h00 = found.h10 = found.h01 = found.h11 = F(0.0f);
-    constexpr int kSure = 2, kOutright = 5;  // cells tried outright by all, and by the most of a packet
+    // Cells tested without leaping: by all lanes, and while most of a packet do.
+    constexpr int kSure = 2, kOutright = 5;
     for (int cells = 0; cells < kOutright; ++cells) {
         const M close = w.active & (level == I(0));
         if (!any(close) || (cells >= kSure && __builtin_popcount(bits(close)) < kLanes / 2)) break;
@@ -392,9 +395,9 @@ STEREONAV_INLINE Hits walkOn(const Eye<kBent>& eye, Walk<kBent>& w) {
     return settle(eye, w, found);
 }
 
-// Returns the first hits of the rays `lanes` at or behind view depth `start`, metres (and the near distance).
-// level: pyramid level to begin with; 0 where the hit is thought to be close: then two cells are tried
-// outright, which is all that most rays need, and some more while most of a packet do.
+// Returns the first hits of the rays `lanes` at or behind view depth `start`, metres, and the near distance.
+// level: pyramid level to begin with. 0 where the hit is expected to be close: then two cells are tested
+// before leaping, which is enough for most rays, and some more while most of a packet need them.
 template <bool kBent>
 STEREONAV_INLINE Hits castPacket(const Eye<kBent>& eye, const Rays& rays, F start, I level, M lanes) {
     Walk<kBent> w = startWalk(eye, rays, start, level, lanes);

@@ -9,7 +9,7 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Metres that a row's rays rise by for a metre of depth.
+// Rise of a row's rays, in metres per metre of depth.
 struct RowSlope {
     D exact;
     F rough;
@@ -18,7 +18,7 @@ struct RowSlope {
 template <bool kBent>
 class Columns {
 public:
-    // rays: the lowest ray of each column. border: view depth, metres, at which they come from a finer
+    // rays: the lowest ray of each column. border: view depth in metres at which rays come from a finer
     // ground; 0: they come from the eye.
     STEREONAV_INLINE Columns(const Eye<kBent>& eye, const Rays& rays, M lanes, F border = F(0.0f))
         : mEye(eye) {
@@ -26,11 +26,11 @@ public:
         mEntering = border > F(0.0f);
         mWalk.floor = max(mWalk.floor, border);
         mExit = cellExit(mEye, mWalk);
-        // A steeper ray may come down later than a flatter one enters: each must start at the border.
+        // A steeper ray may come down later than a flatter one enters, so that each must start at the border.
         mStarted = false;
     }
 
-    // Returns the hits of the lanes' rays in the next row, none of them flatter than that before.
+    // Returns the hits of the lanes' rays in the next row, which must not be flatter than those before.
     STEREONAV_INLINE Hits cast(const RowSlope& slope, M lanes) {
         mWalk.rays.exactZ = slope.exact;
         takeSlope(mWalk, slope.rough);
@@ -74,8 +74,8 @@ private:
         return leap<true>(mEye, mWalk, m & mWalk.active);
     }
 
-    // The ground along the columns in the cells that the lanes m stand in: h0 + h1 s + h2 s^2, s counted
-    // from the entry.
+    // Finds the ground along the columns in the cells where the lanes m stand: h0 + h1 s + h2 s^2, with s
+    // counted from the entry.
     STEREONAV_INLINE void enterCell(M m) {
         if (!any(m)) return;
         const I index = mWalk.j * I(mEye.ground->width) + mWalk.i;
@@ -89,7 +89,7 @@ private:
         const F u = mulAdd(mWalk.t, mWalk.rays.x, mEye.relativeX - toFloat(mWalk.i - I(mEye.baseI)));
         const F v = mulAdd(mWalk.t, mWalk.rays.y, mEye.relativeY - toFloat(mWalk.j - I(mEye.baseJ)));
         const F slopeU = mulAdd(v, twist, du), slopeV = mulAdd(u, twist, dv);
-        // Height of the eye above it.
+        // Height of the eye above the ground at the entry.
         mGround0 = (mEye.height - mH00) + (mEye.rest - mulAdd(u, slopeU, v * dv));
         mGround1 = mulAdd(mWalk.rays.x, slopeU, mWalk.rays.y * slopeV);
         mCurvature = curvatureOf(mWalk, twist);
@@ -132,7 +132,7 @@ private:
     BlockExit mExit;
     F mH00{0.0f}, mH10{0.0f}, mH01{0.0f}, mH11{0.0f};
     F mGround0{0.0f}, mGround1{0.0f}, mCurvature{0.0f}, mLength{0.0f};
-    M mEntering, mSunk;  // from a finer ground; below this one where they entered it
+    M mEntering, mSunk;  // come from a finer ground; are below this ground where they entered it
     bool mStarted = false;
 };
 

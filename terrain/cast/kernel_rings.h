@@ -1,6 +1,6 @@
-// Rays that leave a ground through its border and go on over the coarser ground around it
-// (terrain/ground/ground_rings.h). Where that ground lies higher than the finer one did at the border, a ray
-// meets the step between the two. Included by kernels only.
+// Rays that leave a ground through its border and continue over the coarser ground around it
+// (terrain/ground/ground_rings.h). Where the coarser ground lies higher at the border than the finer one, a
+// ray hits the step between them. Included by kernels only.
 #pragma once
 
 #include "engine/simd/simd.h"
@@ -19,17 +19,17 @@ STEREONAV_INLINE Rays scaled(Rays rays, double scale) {
     return rays;
 }
 
-// A ground of a scene, the eye over it, and the way to its borders.
+// A ground of a scene, the eye over it, and the distances to its borders.
 template <bool kBent>
 struct Ring {
     const CasterScene* scene;
-    double scale;                // grid units for one of the first ground: a power of two
+    double scale;                // its grid units per grid unit of the first ground: a power of two
     F west, east, south, north;  // grid units of the first ground
     Eye<kBent> eye;
 };
 
-// All grounds of a scene, the first one first, as a view's eye has them. They are the same for all rays: made
-// once for many.
+// All grounds of a scene, the first one first, as seen by a view's eye. They are the same for all rays, so
+// they are made once.
 template <bool kBent>
 class Rings {
 public:
@@ -49,7 +49,7 @@ public:
     const Ring<kBent>& operator[](int n) const { return mRings[n]; }
 
 private:
-    static constexpr int kMost = 32;  // grids have fewer levels, and each ring is of another
+    static constexpr int kMost = 32;  // grids have fewer levels, and each ring has another level
 
     STEREONAV_INLINE static Ring<kBent> ringAt(const CasterScene& scene, const CasterView& view, double x,
                                                double y, double scale) {
@@ -68,7 +68,7 @@ private:
     Ring<kBent> mRings[kMost];
 };
 
-// 1 / direction, by which the ways of the first ground's rays to borders are multiplied.
+// 1 / direction: distances of the first ground's rays to borders are multiplied by it.
 struct Inverses {
     F x, y;
 };
@@ -76,7 +76,7 @@ STEREONAV_INLINE Inverses inversesOf(const Rays& rays) {
     return {approxReciprocal(divisible(rays.x)), approxReciprocal(divisible(rays.y))};
 }
 
-// Returns the view depth, metres, at which rays leave the ring. They come from inside it, or above its
+// Returns the view depth in metres at which rays leave the ring. Rays come from inside it, or from above its
 // border.
 template <bool kBent>
 STEREONAV_INLINE F borderExit(const Ring<kBent>& ring, const Inverses& inverse) {
@@ -84,14 +84,14 @@ STEREONAV_INLINE F borderExit(const Ring<kBent>& ring, const Inverses& inverse) 
                max(ring.south * inverse.y, ring.north * inverse.y));
 }
 
-// A ray's place where its walk stands.
+// The position of a walk over its ground.
 struct Standing {
     F height;    // over ground, metres
     F u, v;      // in the cell, 0 to 1
     F approach;  // Hits::approach
 };
 
-// Returns the places of lanes m over this ground.
+// Returns the positions of lanes m over this ground.
 template <bool kBent>
 STEREONAV_INLINE Standing standingAt(const Eye<kBent>& eye, const Walk<kBent>& w, M m) {
     Standing s;
@@ -108,20 +108,20 @@ STEREONAV_INLINE Standing standingAt(const Eye<kBent>& eye, const Walk<kBent>& w
     return s;
 }
 
-// Returns which lanes are below the ground by more than rounding makes of nothing; none in a hole, whose
-// heights are NaN.
+// Returns the lanes that are below the ground by more than rounding can cause; false in a hole, where heights
+// are NaN.
 template <bool kBent>
 STEREONAV_INLINE M sunk(const Eye<kBent>& eye, F height) {
     return height < F(0.0f) - eye.margin - eye.margin;
 }
 
-// View depth, metres, and cell at which a walk stands.
+// View depth in metres, and cell, of a walk.
 struct WalkPlace {
     F t;
     I i, j;
 };
 
-// Makes the places of lanes m their hits.
+// Makes the positions of lanes m their hits.
 STEREONAV_INLINE void meetAt(const WalkPlace& w, const Standing& s, M m, Hits& hits) {
     hits.t = select(m, w.t, hits.t);
     hits.i = select(m, w.i, hits.i);
@@ -150,8 +150,8 @@ STEREONAV_INLINE Hits castEntering(const Eye<kBent>& eye, const Rays& rays, F bo
     return hits;
 }
 
-// Casts rays `lanes` that did not meet the first ground beyond it: what they meet, and its colour, or the
-// sky's. rays: of the first ground; start: castPacket()'s.
+// Casts the rays `lanes`, which did not hit the first ground, beyond it: finds their hits, and returns the
+// colour of those or of the sky. rays: of the first ground; start: as for castPacket().
 template <bool kBent>
 inline void castBeyond(const Rings<kBent>& rings, const CasterView& view, const Rays& rays, F start, M lanes,
                        Hits& hits, I& color) {
@@ -162,8 +162,8 @@ inline void castBeyond(const Rings<kBent>& rings, const CasterView& view, const 
         const Ring<kBent>& ring = rings[n];
         const bool last = n + 1 == rings.count();
         const F exit = borderExit(ring, inverse);
-        // A ring that all rays are known to be free in, up to its border, has nothing for them. So it is with
-        // most, as lower rays end further out.
+        // A ring in which all rays are known to be free up to its border can be skipped. That is so for most
+        // rings, since lower rays end farther out.
         if (!last && !any(left & (start <= exit))) {
             border = max(border, exit);
             continue;
@@ -180,8 +180,8 @@ inline void castBeyond(const Rings<kBent>& rings, const CasterView& view, const 
     }
 }
 
-// Returns the PackedColors of rays `lanes` that were cast at the first ground; hits become those beyond it
-// where they met nothing there.
+// Returns the PackedColors of rays `lanes` that were cast at the first ground. Where they missed it, their
+// hits are replaced by those beyond it.
 template <bool kBent>
 STEREONAV_INLINE I shadeThrough(const Rings<kBent>& rings, const CasterView& view, const Rays& rays, F start,
                                 M lanes, Hits& hits) {
@@ -198,7 +198,7 @@ STEREONAV_INLINE I shadeThrough(const Rings<kBent>& rings, const CasterView& vie
 template <bool kBent>
 STEREONAV_INLINE I castThrough(const Rings<kBent>& rings, const CasterView& view, const Rays& rays, F start,
                                M lanes, Hits& hits) {
-    if (!any(lanes & (start < infinity()))) {  // lower rays have risen above all ground for good
+    if (!any(lanes & (start < infinity()))) {  // lower rays have risen above all ground for good: so do these
         hits = noHits();
         hits.free = infinity();
         return shadePacket(*rings[0].scene, view, rays, hits, lanes);

@@ -1,4 +1,4 @@
-// Colour of a packet: the ground's texture filtered by the ray's footprint, fog, or the sky. Included by
+// Colours a packet: the ground's texture filtered by the ray's footprint, with fog, or the sky. Included by
 // kernels only.
 #pragma once
 
@@ -19,8 +19,8 @@ STEREONAV_INLINE F approxLog2(F x) {
 }
 
 // Returns the level of the texture, 0 or more. The footprint of a pixel on the ground is t * pixelWidth
-// across, and along the ray longer by as much as the ray is flat to the ground. The level fits the geometric
-// mean of the two sides: a compromise between shimmer and blur (docs/decisions).
+// across; along the ray it is longer, the more the flatter the ray meets the ground. The level fits the
+// geometric mean of the two sides: a compromise between shimmer and blur (docs/decisions).
 STEREONAV_INLINE F mipLevel(const TextureData& texture, const CasterView& view, F length, F t, F approach) {
     const F side = t * F(texture.texelsPerMetre);
     const F area = side * side * F(view.pixelWidth * view.pixelHeight) * length *
@@ -45,8 +45,8 @@ STEREONAV_INLINE ColorHalves skyColor(const SkyData& sky, F x, F y, F z, M m) {
     return bilinearColor(sky.texels, j * I(sky.stride) + i, I(sky.stride), fx, fy, m);
 }
 
-// Returns e^-x for x >= 0, relative error below 1e-5: a power of two, and the square of a series to the fifth
-// power for half of the rest (at most ln 2 / 2, so what is left out is below 2.5e-6).
+// Returns e^-x for x >= 0, relative error below 1e-5: a power of two times the square of a series of degree
+// five for half of the remainder (at most ln 2 / 2, so that the error of the series is below 2.5e-6).
 STEREONAV_INLINE F expMinus(F x) {
     const F y = min(x, F(80.0f)) * F(1.44269504f);
     const I whole = truncateToInt(y);
@@ -58,8 +58,8 @@ STEREONAV_INLINE F expMinus(F x) {
     return half * half * asFloat(shiftLeft<23>(I(127) - whole));
 }
 
-// Returns a channel (14-bit square root of linear light) seen through fog of the given linear colour, which
-// leaves the share `through`.
+// Returns a channel (14-bit square root of linear light) seen through fog of the given linear colour;
+// through: transmittance of the fog.
 STEREONAV_INLINE I fogChannel(I root, float fog, F through) {
     constexpr float kFull = 1023.0f * 16;
     const F value = toFloat(root) * F(1 / kFull);
@@ -67,7 +67,7 @@ STEREONAV_INLINE I fogChannel(I root, float fog, F through) {
     return truncateToInt(mulAdd(sqrt(clamp(linear, F(0.0f), F(1.0f))), F(kFull), F(0.5f)));
 }
 
-// Fog mixes in linear light, unlike texels, which hardly differ from their neighbours.
+// Fog is mixed in linear light. Texels are not: they hardly differ from their neighbours.
 STEREONAV_INLINE ColorHalves fogged(const FogData& fog, ColorHalves c, F through) {
     const I low(0xFFFF);
     const I red = fogChannel(c.redBlue & low, fog.linear[0], through);
@@ -76,7 +76,8 @@ STEREONAV_INLINE ColorHalves fogged(const FogData& fog, ColorHalves c, F through
     return {red | shiftLeft<16>(blue), green};
 }
 
-// Numbers as air_formula.h asks for them. airExp: e^-x within 3e-7, for x from -12 to 80; beyond as there.
+// Functions for air_formula.h. airExp: e^-x with an error below 3e-7 for x from -12 to 80; x is clamped to
+// that range.
 STEREONAV_INLINE F airExp(F x) {
     const F y = clamp(x, F(-12.0f), F(80.0f)) * F(-1.44269504f);
     const I whole = floorToInt(y + F(0.5f));
@@ -99,8 +100,8 @@ STEREONAV_INLINE F airRsqrt(F x) {
     return approxRsqrt(x);
 }
 
-// Returns a channel (14-bit square root of linear light) behind air, which leaves the share `through` and
-// adds `light`, linear.
+// Returns a channel (14-bit square root of linear light) seen through air; through: transmittance; light:
+// linear light that the air adds.
 STEREONAV_INLINE I airChannel(I root, F through, F light) {
     constexpr float kFull = 1023.0f * 16;
     const F value = toFloat(root) * F(1 / kFull);
@@ -108,8 +109,8 @@ STEREONAV_INLINE I airChannel(I root, F through, F light) {
     return truncateToInt(mulAdd(sqrt(clamp(linear, F(0.0f), F(1.0f))), F(kFull), F(0.5f)));
 }
 
-// Returns colours through the air of a physical sky. (x, y, z): a ray in metres with that length, of which t
-// go to the ground.
+// Returns colours seen through the air of a physical sky. (x, y, z): a ray in metres per unit of view depth,
+// with its length; t: view depth of the ground.
 STEREONAV_INLINE ColorHalves aired(const AirData& air, const AirEye& eye, ColorHalves c, F x, F y, F z,
                                    F length, F t) {
     const F perMetre = approxReciprocal(length);
@@ -128,7 +129,7 @@ STEREONAV_INLINE F longerSide(const CasterView& view, F length, F t, F approach)
     return t * max(along, F(view.pixelWidth));
 }
 
-// Returns what detailAt() of tests/oracle/plain_detail.h does, for the lanes m: kDarkestDetail to
+// Returns the same as detailAt() of tests/oracle/plain_detail.h, for the lanes m: kDarkestDetail to
 // kBrightestDetail.
 STEREONAV_INLINE F detailOf(const DetailData& detail, const Hits& hits, F footprint, M m) {
     const F inverse = approxReciprocal(max(footprint * F(detail.perMetre), F(1e-9f)));
@@ -178,7 +179,8 @@ STEREONAV_INLINE ColorHalves brightened(ColorHalves c, F brighter) {
     return {red | shiftLeft<16>(blue), channel(c.green & low)};
 }
 
-// Returns the PackedColors of rays `lanes`: the ground's where they met it, through the air, else the sky's.
+// Returns the PackedColors of rays `lanes`: of the ground where they hit it, through the air, else of the
+// sky.
 STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view, const Rays& rays,
                                const Hits& hits, M lanes) {
     const F x = rays.x * F(static_cast<float>(scene.ground.spacingX));
@@ -206,7 +208,7 @@ STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view,
             color = fogged(scene.fog, color, expMinus(t * length * F(scene.fog.perMetre)));
         }
         if (scene.air.any) {
-            // The air is that up to the place that is seen (EarthBend::wayToPlace).
+            // The air is that up to the place seen (EarthBend::wayToPlace).
             F z = rays.z;
             if (view.fall > 0) z = mulAdd(F(static_cast<float>(view.fall)) * mulAdd(x, x, y * y), t, z);
             color = aired(scene.air, view.air, color, x, y, z, length, t);

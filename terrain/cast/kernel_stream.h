@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    // Gives the next rays to the lanes m and tries their first cells.
+    // Loads the next rays into the lanes m and tests their first cells.
     STEREONAV_INLINE void take(M m) {
         std::uint32_t fresh = 0;
         for (std::uint32_t left = bits(m); left != 0 && mNext < mBatch.count; left &= left - 1, ++mNext) {
@@ -88,7 +88,7 @@ private:
         return r;
     }
 
-    // Settles, colours and stores the lanes m, which are done.
+    // Decides the hits of the lanes m, which are done; colours and stores them.
     STEREONAV_INLINE void finish(M m) {
         if (!any(m)) return;
         CellHit done = mFound;

@@ -1,7 +1,7 @@
-// Rays of a packet, the eye that they come from, and their walk over a ground. Included by kernels only.
+// A packet of rays, the eye that they come from, and their walk over a ground. Included by kernels only.
 //
-// Over a round Earth (CasterView::fall) rays are parabolas that open upwards: kBent. What is straight has no
-// part in that, and costs what it did.
+// Over a round Earth (CasterView::fall) rays are parabolas that open upwards (kBent). Straight rays are
+// compiled separately, and cost nothing more.
 #pragma once
 
 #include "engine/simd/simd.h"
@@ -9,23 +9,24 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Ray directions for a unit of view depth: grid units for x and y, metres for z.
+// Ray directions per unit of view depth: grid units for x and y, metres for z.
 struct Rays {
     D exactX, exactY, exactZ;
     F x, y, z;
 };
 
-// Where rays meet the ground. t: view depth, metres, infinite for a miss; then the rest means nothing.
+// Hits of rays with the ground. t: view depth in metres, infinite for a miss, where the other members have no
+// meaning.
 struct Hits {
     F t;
     I i, j;      // cell
     F u, v;      // position in the cell, 0 to 1
     F approach;  // rate of height over ground along the ray, metres a unit of t (negative from above)
-    F free;      // the ray is above the ground (where there is ground) up to here; 0: not known
+    F free;      // up to here the ray is known to be above the ground; 0: not known
 };
 
 // The curvature of a round Earth: a ray rises by t^2 (bendX x^2 + bendY y^2) metres over level ground, for a
-// direction of (x, y) grid units a unit of t.
+// direction of (x, y) grid units per unit of t.
 template <bool kBent>
 struct EyeBend {};
 template <>
@@ -40,9 +41,9 @@ struct Eye {
     double x, y, z;          // grid, grid, metres
     int baseI, baseJ;        // grid cell that single-precision coordinates are relative to
     F relativeX, relativeY;  // grid units from that cell
-    // Metres: its height as a float and what that leaves over. Heights of the ground are taken from the
-    // first, which is exact where both are far from 0, and only then is the rest added: ground at 10,000 km
-    // is as exact as ground at 0.
+    // The eye's height in metres: as a float, and the remainder. Heights of the ground are subtracted from
+    // the first, which is exact where both are far from 0; then the remainder is added. So ground at 10,000
+    // km is as exact as ground at 0.
     F height, rest;
     F margin;  // metres: bound of the rounding error of a ray's height (see below)
     I lastI, lastJ;
@@ -55,7 +56,7 @@ STEREONAV_INLINE int clampInt(double x, int low, int high) {
     return x < low ? low : x > high ? high : static_cast<int>(x);
 }
 
-// Returns the metres that a ray bends up by over this ground at most.
+// Returns the largest rise in metres of a ray by its bend over this ground.
 STEREONAV_INLINE double largestRise(const GroundData& ground, double fall, double x, double y) {
     const double east = ground.width - 1 - x, north = ground.height - 1 - y;
     const double wide = (x > east ? x : east) * ground.spacingX,
@@ -68,9 +69,8 @@ template <bool kBent>
 STEREONAV_INLINE Eye<kBent> makeEyeAt(const GroundData& ground, const CasterView& view, double x, double y) {
     const int baseI = clampInt(x, 0, ground.width - 2);
     const int baseJ = clampInt(y, 0, ground.height - 2);
-    // Heights take part as (eye - sample) + rest + t * slope, beside differences of samples: each term is
-    // rounded once, and each is at most the largest of these in size; 2^-21 of it covers the few roundings of
-    // 2^-24.
+    // Heights enter as (eye - sample) + rest + t * slope, and in differences of samples. Each term is rounded
+    // once and is at most as large as the largest of them; 2^-21 of that covers the few roundings of 2^-24.
     const float height = static_cast<float>(view.originZ);
     const auto size = [](double z) { return static_cast<float>(z < 0 ? -z : z); };
     float largest = ground.maxHeight - ground.minHeight;
@@ -80,7 +80,7 @@ STEREONAV_INLINE Eye<kBent> makeEyeAt(const GroundData& ground, const CasterView
     if constexpr (kBent) {
         bend.bendX = view.fall * ground.spacingX * ground.spacingX;
         bend.bendY = view.fall * ground.spacingY * ground.spacingY;
-        // The bend's factor alone is off by 2^-22.
+        // The factor of the bend alone has a relative error of 2^-22.
         largest += 4 * static_cast<float>(largestRise(ground, view.fall, x, y));
     }
     return {&ground,
@@ -110,7 +110,7 @@ STEREONAV_INLINE F infinity() {
     return F(__builtin_inff());
 }
 
-// Returns a direction component that may be divided by: its size is kept above 1e-18.
+// Returns a direction component that is safe to divide by: its magnitude is at least 1e-18.
 STEREONAV_INLINE F divisible(F d) {
     return select(abs(d) < F(1e-18f), select(d < F(0.0f), F(-1e-18f), F(1e-18f)), d);
 }
@@ -127,17 +127,18 @@ struct WalkBend<true> {
 template <bool kBent>
 struct Walk : WalkBend<kBent> {
     Rays rays;
-    F inverseX, inverseY;  // 1 / direction, of a component that may be divided by
+    F inverseX, inverseY;  // 1 / direction, with components from divisible()
     M eastward, northward, downward;
-    F t;            // view depth that the walk has come to, metres
-    F floor;        // metres; no hit lies before: the near distance, or where the ray came to this ground
+    F t;  // view depth that the walk has reached, metres
+    // Metres; hits before it do not count: the near distance, or where the ray came to this ground.
+    F floor;
     I i, j, level;  // cell, and level of the pyramid
-    M active;       // still over the ground, nothing met
-    M risen;        // above all ground and rising: free for good
+    M active;       // still over the ground, without a hit
+    M risen;        // above all ground and rising: can not hit any more
     F over;         // height of the eye over the highest sample, metres, and the margin
 };
 
-// Returns the height of a ray at t, metres, over what lies `eye` metres below the eye.
+// Returns the height in metres of a ray at t over a place that lies `eye` metres below the eye.
 template <bool kBent>
 STEREONAV_INLINE F heightAt(const Walk<kBent>& w, F t, F eye) {
     if constexpr (kBent)
@@ -146,7 +147,7 @@ STEREONAV_INLINE F heightAt(const Walk<kBent>& w, F t, F eye) {
         return mulAdd(t, w.rays.z, eye);
 }
 
-// Returns the metres that the ray rises by at t, for a unit of t.
+// Returns the slope of a ray at t, metres per unit of t.
 template <bool kBent>
 STEREONAV_INLINE F riseAt(const Walk<kBent>& w, F t) {
     if constexpr (kBent)
@@ -155,7 +156,7 @@ STEREONAV_INLINE F riseAt(const Walk<kBent>& w, F t) {
         return w.rays.z;
 }
 
-// Returns the t at which a ray is lowest from where it stands to `end`.
+// Returns the t between the present one and `end` at which a ray is lowest.
 template <bool kBent>
 STEREONAV_INLINE F lowestUntil(const Walk<kBent>& w, F end) {
     if constexpr (kBent)
@@ -164,7 +165,7 @@ STEREONAV_INLINE F lowestUntil(const Walk<kBent>& w, F end) {
         return select(w.downward, end, w.t);
 }
 
-// Returns which rays are above all ground at t, and stay so.
+// Returns the rays that are above all ground at t and stay so.
 template <bool kBent>
 STEREONAV_INLINE M hasRisenAt(const Walk<kBent>& w, F t) {
     if constexpr (kBent)
@@ -173,7 +174,7 @@ STEREONAV_INLINE M hasRisenAt(const Walk<kBent>& w, F t) {
         return andNot(heightAt(w, t, w.over) > F(0.0f), w.downward);
 }
 
-// Sets the rays' rise at t = 0, metres a unit of t, and what follows from it.
+// Sets the rays' slope at t = 0, metres per unit of t, and values derived from it.
 template <bool kBent>
 STEREONAV_INLINE void takeSlope(Walk<kBent>& w, F z) {
     w.rays.z = z;

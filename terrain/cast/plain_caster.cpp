@@ -69,8 +69,9 @@ GridRay gridRay(const Heightfield& ground, const glm::dvec3& origin, const glm::
             bend.fall * glm::dot(way, way)};
 }
 
-// Where a ray has passed all heights, and meets nothing any more: a straight one over or under them; one that
-// bends up over them, before which it may come down twice. That of a level straight ray is infinite.
+// Returns the ray parameter from which on the ray can hit nothing more: a straight ray is then above or below
+// all heights, a bent one rises above them, after it may have come down twice. Infinite for a level straight
+// ray.
 double passedAll(const Heightfield& ground, const GridRay& ray) {
     constexpr double kRounding = 1e-12;
     if (ray.sink > 0) {

@@ -1,5 +1,5 @@
-// The plain cell walk: one ray, every cell it crosses, an exact hit in each, all in double precision.
-// It is the oracle for the fast caster, and its fallback where single precision can not decide.
+// The plain cell walk: one ray, every cell it crosses, an exact hit in each, all in double precision. It is
+// the oracle for the fast caster, and its fallback where single precision can not decide.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -17,8 +17,8 @@ struct GroundHit {
 };
 
 // Returns the first t >= tMin at which origin + t * direction (world, metres) meets the bilinear surface,
-// from either side. direction: any length, not zero. Cells with a hole are passed through. bend: the Earth's
-// curvature as the ray sees it.
+// from either side. direction: any length, not zero. Cells with a hole have no surface. bend: the Earth's
+// curvature for this ray.
 GroundHit castPlain(const Heightfield& ground, const glm::dvec3& origin, const glm::dvec3& direction,
                     double tMin, const EarthBend& bend = {});
 

@@ -17,12 +17,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kMaxima = 4.0 / 3;       // all levels of maxima, or of a texture, over the finest one
-constexpr int kMargin = 8;                // samples around a part that its colours look at
-constexpr double kColored = 4 * kMaxima;  // bytes a texel
-constexpr double kOfFree = 0.6;           // share of the memory that can be had, for rings
+constexpr int kMargin = 8;                // samples around a part that are coloured with it
+constexpr double kColored = 4 * kMaxima;  // bytes per texel
+constexpr double kOfFree = 0.6;           // share of the available memory that rings may take
 
 double bytesBeside(const Heightfield& ground) {
-    constexpr double kLevels = 4.0 / 3, kBoxes = 4 * (1 + kMaxima) * 4.0 / 3;  // a sample
+    constexpr double kLevels = 4.0 / 3, kBoxes = 4 * (1 + kMaxima) * 4.0 / 3;  // bytes per sample
     return (kLevels + 2 * kBoxes) * ground.width() * ground.height();
 }
 
@@ -30,7 +30,7 @@ double samplesOf(const RingBox& box) {
     return double(box.size.x) * box.size.y;
 }
 
-// Returns the bytes that rings hold, with those before them until these are there.
+// Returns the bytes that rings hold while they replace others of the same size, which are kept until then.
 double bytesOf(const std::vector<RingBox>& boxes, const PartColors& colors) {
     double samples = 0, texels = 0, most = 0;
     for (const RingBox& box : boxes) {
@@ -45,8 +45,8 @@ double bytesOf(const std::vector<RingBox>& boxes, const PartColors& colors) {
 
 }  // namespace
 
-// Levels, and boxes of the finest ones, whose maxima are a third more; those before them are held until they
-// are there.
+// Memory is checked for all levels, and for boxes of the finest ones with their maxima: twice, since old
+// boxes are held until the new ones are ready.
 RingScenes::RingScenes(const Heightfield& ground, double share)
     : mLevels((checkMemory("--level-of-detail", bytesBeside(ground), "leave it out"),
                std::make_shared<GroundLevels>(ground))),
@@ -71,13 +71,13 @@ void RingScenes::mayBeLate(bool may) {
     if (mMayBeLate && !may) {
         if (mWork.valid()) mWork.wait();
         mWork = {};
-        mBoxes.clear();  // what is shown may be a part of the set: it is chosen again
+        mBoxes.clear();  // what is shown may be a part of the set, so that boxes are chosen again
         mLate = false;
     }
     mMayBeLate = may;
 }
 
-// Stored levels that would not fit are taken coarser.
+// Plans the rings. Stored levels take coarser rings where the wished ones would not fit into the budget.
 std::vector<RingBox> RingScenes::plan(const Looking& from, const glm::dvec3& way) {
     const EyeView& view = from.view;
     RingWish wish{view.eye,  std::max(view.pixelWidth(), view.pixelHeight()), mShare, way, view.fall > 0,
@@ -109,7 +109,8 @@ void RingScenes::lookNow(const Looking& from) {
     mShown = mSet;
 }
 
-// The rings are made for some way ahead, and again when they do not reach that far any more.
+// Makes rings for the place where the eye will be in some seconds, and makes them anew when they no longer
+// cover the near future.
 void RingScenes::lookLater(const Looking& from) {
     constexpr double kSoon = 2, kAhead = 6;  // seconds
     if (mWork.valid() && mWork.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
@@ -124,9 +125,10 @@ void RingScenes::lookLater(const Looking& from) {
     showAround(from);
 }
 
-// The way of the last pictures, which may stand still, or jump: none then.
+// Returns the way that the eye will go in `seconds` at its mean velocity; 0 after a pause, since the eye may
+// have jumped.
 glm::dvec3 RingScenes::wayOf(const glm::dvec3& eye, double seconds) {
-    constexpr double kJump = 1, kSmooth = 0.8;  // seconds without pictures; share of what was there
+    constexpr double kJump = 1, kSmooth = 0.8;  // seconds without pictures; weight of the earlier velocity
     const Clock::time_point now = Clock::now();
     if (mSeen) {
         const double passed = std::chrono::duration<double>(now - mSeen->when).count();
@@ -223,7 +225,7 @@ std::vector<CasterScene> RingScenes::dressed(const CasterScene& whole, const Gro
         const RingBox& box = rings[n]->box;
         CasterScene& scene = scenes[n];
         scene.ground = groundData(rings[n]->ground, rings[n]->maxima);
-        // A ray's way is proven free by others that may have gone over any of the rings.
+        // Beams and neighbouring rays, which prove a ray's start free, may have gone over any of the rings.
         scene.ground.maxSlope = steepest;
         TextureData& texture = scene.texture;
         glm::vec2 first, step(1.0f);

@@ -1,4 +1,4 @@
-// Ground in rings as the casting kernels read it: the level of detail of a renderer, chosen for each frame.
+// Ground in rings for the casting kernels: the level of detail of a renderer, chosen for each frame.
 #pragma once
 
 #include <atomic>
@@ -21,58 +21,57 @@ struct GroundFilter;  // terrain_renderer.h
 
 class RingScenes {
 public:
-    // Makes the levels of a ground, which must outlive this. share: RingWish::share, above 0. Throws Error
-    // where there is not enough memory.
+    // Makes the levels of a ground, which must outlive this object. share: RingWish::share, above 0. Throws
+    // Error where there is not enough memory.
     RingScenes(const Heightfield& ground, double share);
-    // Makes rings of stored levels. The scenes that are given to dress() have the samples of one of these
-    // levels, `whole`, and only rings are cast. Where rings need more memory than can be had the share is
-    // made larger.
+    // Makes rings of stored levels. whole: the level with the samples of the scenes that are given to
+    // dress(); only rings are cast. Where rings need more memory than is available, the share is increased.
     RingScenes(std::shared_ptr<const GroundLevels> levels, int whole, double share);
     ~RingScenes();
 
-    // Sets what colours rings finer than the whole ground's samples, for rings that are chosen from now on;
-    // null: the whole ground's colours.
+    // Sets the function that colours rings finer than the whole ground's samples, for rings that are chosen
+    // from now on; null: the whole ground's colours.
     void colorParts(PartColors colors);
-    // Lets rings come later than the first picture they are for, from a thread of their own: what is there is
-    // cast meanwhile, from further and further away. Else lookFrom() waits for them.
+    // Lets rings be made by a thread of their own: pictures do not wait for them, and meanwhile the existing
+    // rings are cast, from farther and farther away. Otherwise lookFrom() waits for them.
     void mayBeLate(bool may);
 
-    // Chooses the rings for pictures of these views, which differ in the eyes' places alone. Throws Error
-    // where levels are stored and can not be read.
+    // Chooses the rings for pictures of these views, which differ only in the eyes' places. Throws Error
+    // where stored levels can not be read.
     void lookFrom(const EyeView& left, const EyeView& right);
-    // Returns whether what was chosen differs from the ground itself.
+    // Returns whether rings are cast in place of the ground itself.
     bool any() const { return mShown.rings != nullptr; }
     const GroundRings& rings() const { return *mShown.rings; }                         // where any()
     const Heightfield& ground() const { return mShown.rings->rings.front()->ground; }  // the finest
-    // Share of a pixel that the ground of the next picture may be off: the wish's, or more.
+    // Largest error of the ground in the next picture, as a share of a pixel: the wished one, or more.
     double share() const { return mShareNow; }
     // Returns whether finer rings are on their way.
     bool late() const { return mLate; }
-    // Counts up, from any thread, when rings that were late are there.
+    // Returns a counter of late rings that have become ready, from any thread.
     std::uint64_t arrivals() const { return *mArrivals; }
 
-    // Makes the rings' scenes like those of the ground itself, with and without fog, in all but the ground.
-    // The given scenes, and what they point to, must outlive this or be replaced by others.
+    // Makes the rings' scenes like those of the ground, with and without fog, except for the ground itself.
+    // The given scenes, and what they point to, must outlive this object or be replaced by another call.
     void dress(const CasterScene& foggy, const CasterScene& clear, const GroundFilter& filter);
-    // The scene of the finest ring, which leads to the others; where any().
+    // Returns the scene of the finest ring, which leads to the others; requires any().
     const CasterScene& first(bool withoutFog) const { return (withoutFog ? mClear : mFoggy).front(); }
 
-    // Bytes of levels, rings and their colours.
+    // Returns the bytes of levels, rings and their colours.
     std::size_t byteCount() const;
 
 private:
     struct Color {
-        glm::dvec2 first{0.0};  // the ring's sample (0, 0), in the grid of what was coloured
+        glm::dvec2 first{0.0};  // sample (0, 0) of the ring, in the grid of the part that was coloured
         ColorTexture texture;
         int version = 0;
     };
-    // Rings, and the colours of each; null: the whole ground's.
+    // Rings, and the colours of each; null: colours of the whole ground.
     struct Set {
         std::shared_ptr<const GroundRings> rings;
         std::vector<std::shared_ptr<const Color>> colors;
     };
 
-    // Two eyes, and what of their pictures chooses rings.
+    // The eyes of a picture, by which rings are chosen.
     struct Looking {
         const EyeView& view;
         glm::dvec3 other;  // the second eye: world
@@ -90,16 +89,17 @@ private:
     std::vector<CasterScene> dressed(const CasterScene& whole, const GroundFilter& filter) const;
 
     std::shared_ptr<const GroundLevels> mLevels;
-    int mWhole = 0;            // level of the scenes that are dressed
-    double mBudget = 0;        // bytes of rings of stored levels
-    double mShare, mShareNow;  // shares of a pixel: the wished one, the one kept to
+    int mWhole = 0;            // level with the samples of the dressed scenes
+    double mBudget = 0;        // largest number of bytes for rings of stored levels
+    double mShare, mShareNow;  // shares of a pixel: wished, and present
     PartColors mColors;
     int mColorVersion = 0;
     bool mMayBeLate = false, mLate = false;
 
     std::vector<RingBox> mBoxes;  // the boxes of mSet
-    Set mSet, mShown;    // all that is there; what of it is cast from here. null rings: the ground itself
-    int mSetColors = 0;  // version of the set's colours
+    // All rings; those that are cast from the present place. null rings: the ground itself.
+    Set mSet, mShown;
+    int mSetColors = 0;                       // version of the set's colours
     std::vector<CasterScene> mFoggy, mClear;  // finest first
 
     // State of rings that may be late.

@@ -428,8 +428,8 @@ bool TerrainRenderer::mayHitBeyondEdgeFrom(const EyeView& view, PixelRect rect, 
                                            double parallaxScale, double& freeDepth) const {
     if (rect.x1 >= column) return true;
     const double end = parallaxScale / (column - rect.x1);
-    // What is cast, and the ground that is looked at here, may each be off the ground itself. Over a round
-    // Earth it is seen lower yet.
+    // Both the rings that are cast and the ground tested here may differ from the real ground by their error
+    // bounds. Over a round Earth the ground appears even lower.
     double coarser = rings() ? rings()->errorBound : 0;
     if (mScene.tiled) coarser += mScene.tiled->levels->errorBound(mScene.tiled->level);
     const Box corners = cornerBox(view, rect);

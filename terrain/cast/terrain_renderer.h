@@ -1,4 +1,4 @@
-// Casts rays at a terrain for any view: the engine's door into a terrain scene.
+// Casts rays at a terrain for any view: the engine's interface to a terrain scene.
 #pragma once
 
 #include <cstdint>
@@ -17,33 +17,33 @@ namespace stereonav {
 
 class Fog;  // terrain/light/fog.h
 
-// How the ground's colour is read; other values than these defaults are for comparing.
+// How the ground's colour texture is read; values other than these defaults are for comparisons.
 struct GroundFilter {
     bool mipLevels = true;  // false: the finest level alone
-    double levelBias = 0;   // levels coarser (above 0) or finer than the ray's footprint asks for, -8 to 8
+    double levelBias = 0;   // levels coarser (above 0) or finer than for the ray's footprint, -8 to 8
 };
 
-// Hits are those of the plain cell walk (plain_caster.h), whatever the height of the ground, for eyes up to
-// 4,000 spacings away from it; from 400,000 spacings away a ray in a thousand passes by a tip or an edge.
+// Hits equal those of the plain cell walk (plain_caster.h), at any height of the ground, for eyes up to 4,000
+// spacings away from it; from 400,000 spacings away one ray in a thousand misses a tip or an edge.
 class TerrainRenderer final : public EyeRenderer {
 public:
-    // scene must outlive the renderer.
+    // scene must outlive this object.
     explicit TerrainRenderer(const TerrainScene& scene, SimdTarget target = SimdTarget::Auto,
                              const GroundFilter& filter = {});
     ~TerrainRenderer() override;
 
-    // From now on a picture takes the ground from coarser samples where they are off by no more than that
-    // share of what a pixel covers there (terrain/ground/ground_rings.h); 0: all of it from the ground's own.
-    // The scene's own share at first. Not while a picture is cast.
+    // Lets pictures take the ground from coarser samples where their error is at most this share of a pixel
+    // (terrain/ground/ground_rings.h); 0: only from the ground's own samples. At first it is the scene's
+    // share. Not to be called while a picture is cast.
     void takeCoarser(double share);
     // Returns the rings that are cast in the next pictures; null: the ground itself.
     const GroundRings* rings() const;
-    // Sets whether pictures do without tiles that are not there yet; TerrainScene::ringsMayBeLate at first.
-    // Not while a picture is cast.
+    // Sets whether pictures are made without waiting for tiles that are not read yet;
+    // TerrainScene::ringsMayBeLate at first. Not to be called while a picture is cast.
     void ringsMayBeLate(bool may);
-    // Counts up, from any thread, when tiles that pictures did not wait for are there.
+    // Returns a counter of late tiles that have become ready, from any thread.
     std::uint64_t arrivals() const;
-    // The share of a pixel that rings keep to, and whether finer ones are on their way.
+    // The share of a pixel that rings keep to, and whether finer ones are being made.
     struct Detail {
         double share = 0;  // share of a pixel; 0: there are no rings
         bool late = false;
@@ -69,36 +69,36 @@ public:
     void changeAir(const EyeView& from, const EyeView& view, int y, EyeImage& image) const override;
 
     // Colours rows y0 to y1 - 1 of an upright view from the depths in image.viewDepth, which another caster
-    // found: the same shading for comparing casters.
+    // has found, so that casters can be compared with the same shading.
     void shadeRows(const EyeView& view, int y0, int y1, EyeImage& image) const;
 
-    // Makes highlights and the air follow the scene's look, which has changed (moveSun()). Not while a
+    // Updates highlights and air after the scene's look has changed (moveSun()). Not to be called while a
     // picture is cast.
     void sunMoved();
-    // Casts the ground in these colours from now on, in place of the scene's own. light: the baked light in
-    // them; null: the plain sun, or none. Both must live until others are shown. Not while a picture is cast.
-    // parts: colours of rings of a tiled ground that are finer than it; null: the whole ground's.
+    // Shows the ground in these colours from now on, instead of the scene's own. light: the baked light in
+    // them; null: the plain sun, or none. Both must live until others are set. Not to be called while a
+    // picture is cast. parts: colours for rings of a tiled ground that are finer than `lit`; null: colours of
+    // the whole ground.
     void showColors(const ColorTexture& lit, const TerrainIllumination* light, PartColors parts = {});
 
-    // Returns the fog that the ground is seen through now; lives as long as the renderer, and changes with
-    // sunMoved().
+    // Returns the present fog over the ground; it lives as long as the renderer, and changes with sunMoved().
     const Fog& fog() const;
     SimdTarget target() const;  // what Auto became
     const TerrainScene& scene() const { return mScene; }
-    std::size_t byteCount() const;  // beside the scene: pyramid of heights, detail, coarser levels
+    std::size_t byteCount() const;  // without the scene: pyramid of heights, detail, coarser levels
 
 private:
     struct State;
-    // Returns whether a picture keeps what shading again needs. Its base colours are without the fog then,
-    // which each eye sees through its own distances.
+    // Returns whether a picture stores what is needed to shade again. Its base colours are then without fog,
+    // since each eye sees the fog through its own distances.
     bool keepsBase(const EyeImage& image) const { return viewDependent() && !image.normal.empty(); }
-    // Casts what the kernels leave out: landmarks, normals, highlights and the fog before them.
+    // Adds what the kernels do not cast: landmarks, normals, highlights and the fog before them.
     void castSparse(const EyeView& view, const CasterView& caster, std::span<const PixelIndex> pixels,
                     const std::function<float(PixelIndex)>& startOf, EyeImage& image) const;
     void finish(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image) const;
     void castLandmarks(const EyeView& view, std::span<const PixelIndex> pixels, EyeImage& image,
                        std::vector<bool>& hit) const;
-    // The share of the sun's disc that is seen at a place on the ground; 1 without baked light.
+    // Returns the share of the sun's disc that is visible from a place on the ground; 1 without baked light.
     float sunShownAt(const glm::dvec3& place) const;
 
     const TerrainScene& mScene;

@@ -8,12 +8,12 @@
 
 namespace stereonav {
 
-// Returns a view over this ground, but for the air of a physical sky.
+// Returns a view over this ground in the kernels' form, without the air of a physical sky.
 CasterView makeCasterView(const EyeView& view, const Heightfield& ground);
 
-// Number of bands that together cover the picture, 1 or more.
+// Returns the number of bands that together cover the picture, 1 or more.
 int bandCount(const CasterView& view);
-// index: 0 to bandCount() - 1.
+// Returns a band; index: 0 to bandCount() - 1.
 CasterBand bandOf(const CasterView& view, int index);
 
 }  // namespace stereonav

@@ -1,4 +1,5 @@
-// A ground at coarser and coarser sampling, with a bound of how far each level lies from the ground itself.
+// A ground with coarser and coarser sampling, and for each level a bound of its distance to the ground
+// itself.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@
 
 namespace stereonav {
 
-// A ground whose levels are stored elsewhere than in memory, as on disk (terrain/tiles). Sizes of its levels
-// follow from the first.
+// A ground whose levels are stored outside memory, as on disk (terrain/tiles). The sizes of the levels follow
+// from the first one.
 struct StoredLevels {
     glm::ivec2 size{0};                      // samples of the ground itself
     glm::dvec2 spacing{1.0};                 // metres between them
@@ -25,16 +26,18 @@ struct StoredLevels {
     std::function<void(int level, const glm::ivec2& low, const glm::ivec2& size, float* heights)> read;
 };
 
-// Sample (i, j) of level k lies at sample (i, j) * 2^k of the ground. From one level to the next heights are
-// averaged with the weights 1 2 1 each way, over the samples that are known; a sample that is missing stays
-// so. A level ends at its last sample: up to 2^k - 1 cells at the ground's north and east are not part of it.
+// Levels of a ground. Sample (i, j) of level k lies at sample (i, j) * 2^k of the ground. From one level to
+// the next heights are averaged with the weights 1 2 1 in both directions over the known samples; missing
+// samples stay missing. A level ends at its last sample: up to 2^k - 1 cells in the north and east of the
+// ground are not part of it.
 class GroundLevels {
 public:
     static constexpr int kBlock = kLevelBlock;  // cells of a level along each side of a block
 
-    // ground must outlive this. A coarser level is made only where it has kBlock cells each way or more.
+    // ground must outlive this object. A coarser level is made only if it has at least kBlock cells in each
+    // direction.
     explicit GroundLevels(const Heightfield& ground);
-    // Takes levels that are stored, whose heights are read when they are asked for.
+    // Uses stored levels, whose heights are read when they are needed.
     explicit GroundLevels(StoredLevels stored);
 
     int count() const { return static_cast<int>(mLevels.size()); }  // level 0 is the ground
@@ -43,31 +46,32 @@ public:
     glm::dvec2 originWorld() const { return mOrigin; }  // place of sample (0, 0) of every level, metres
     float minHeight() const { return mLow; }            // metres, of the ground
     float maxHeight() const { return mHigh; }           // metres
-    // Returns grid coordinates of level 0 for a place of the world, metres; and whether it is over the
-    // ground.
+    // Return the grid coordinates of level 0 for a place in the world, metres, and whether the place is over
+    // the ground.
     glm::dvec2 gridFromWorld(const glm::dvec2& world) const { return (world - mOrigin) / mSpacing; }
     bool contains(const glm::dvec2& world) const;
     bool stored() const { return mGround == nullptr; }  // whether elsewhere than in memory
-    // Returns what tells the heights of all levels from others: a hash of level 0, or StoredLevels::content.
+    // Returns a number that identifies the heights of all levels: a hash of level 0, or
+    // StoredLevels::content.
     std::uint64_t content() const;
 
     glm::ivec2 blocks(int level) const { return mLevels[level].blocks; }  // each way
-    // Returns a bound in metres: over that block the surface of that level is nowhere further above or below
-    // the ground's, where both are known. 0 at level 0.
+    // Returns a bound in metres: over that block, the surface of that level differs from the ground's by at
+    // most this much, where both are known. 0 at level 0.
     float errorBound(int level, int blockI, int blockJ) const {
         return mLevels[level].bounds[static_cast<std::size_t>(blockJ) * mLevels[level].blocks.x + blockI];
     }
-    // Returns the bound, metres, of the block that a place of the world lies in; beyond the border, of the
+    // Returns the bound in metres of the block that contains a place in the world; beyond the border, of the
     // nearest block.
     float errorBoundAt(int level, const glm::dvec2& world) const;
     float errorBound(int level) const { return mLevels[level].most; }  // the largest of a level, metres
 
-    // Returns samples low to low + size - 1 of a level; nothing where no cell of them is known. Throws Error
-    // where they are stored and can not be read.
+    // Returns samples low to low + size - 1 of a level; empty where none of their cells is known. Throws
+    // Error where stored samples can not be read.
     std::optional<Heightfield> part(int level, const glm::ivec2& low, const glm::ivec2& size) const;
     // Writes the same samples as heights in metres, in rows of size.x, NaN where missing.
     void read(int level, const glm::ivec2& low, const glm::ivec2& size, float* heights) const;
-    std::size_t byteCount() const;  // in memory, beside the ground
+    std::size_t byteCount() const;  // bytes in memory, without the ground
 
 private:
     struct Level {

@@ -56,7 +56,8 @@ public:
     }
 
 private:
-    // Where the level's largest bound is too much: blocks low to end - 1. False: nowhere.
+    // Finds the blocks, low to end - 1, so near that the level's largest bound is too much for them. Returns
+    // false where there are none.
     bool blocksWithin(int level, glm::ivec2& low, glm::ivec2& end) const {
         const double reach = mLevels.errorBound(level) / (mWish.share * mWish.pixelAngle);
         if (!(reach > mOver)) return false;

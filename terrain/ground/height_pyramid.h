@@ -1,5 +1,4 @@
-// Maxima of a heightfield over blocks of 2^k x 2^k cells: what lets a ray leap over ground that lies
-// below it.
+// Maxima of a heightfield over blocks of 2^k x 2^k cells, by which a ray can leap over ground below it.
 #pragma once
 
 #include <array>
@@ -23,8 +22,8 @@ public:
         return mMaxima[mOffset[k] + static_cast<std::size_t>(j) * mPitch[k] + i];
     }
     const float* data() const { return mMaxima.data(); }
-    // Index of block (0, 0) of each level in data(), and its blocks a row. Entries above levelCount() repeat
-    // the last.
+    // Index of block (0, 0) of each level in data(), and number of blocks in a row. Entries above
+    // levelCount() repeat the last one.
     const std::array<std::int32_t, kMaxLevels>& offsets() const { return mOffset; }
     const std::array<std::int32_t, kMaxLevels>& pitches() const { return mPitch; }
     std::size_t byteCount() const { return mMaxima.size() * sizeof(float); }

@@ -11,10 +11,9 @@
 
 namespace stereonav {
 
-// Spaces. World: metres, x east, y north, z up, origin at the middle of the grid (of the whole ground's,
-// where this is a part of one) at z = 0 of the source's heights. Grid: gx = (x - originWorld.x) / spacing.x,
-// so sample (i, j) is at (i, j); i counts east, j counts north. Cell (i, j) has the corner samples (i, j) to
-// (i + 1, j + 1).
+// Spaces. World: metres, x east, y north, z up; its origin is the middle of the grid (for a part, of the
+// whole ground's grid) at height 0 of the source. Grid: gx = (x - originWorld.x) / spacing.x, so that sample
+// (i, j) is at (i, j); i counts east, j north. Cell (i, j) has the corner samples (i, j) to (i + 1, j + 1).
 class Heightfield {
 public:
     Heightfield() = default;
@@ -23,14 +22,14 @@ public:
     // Throws Error otherwise, which names `source`.
     Heightfield(int width, int height, glm::dvec2 spacing, std::vector<float> heights,
                 const std::string& source);
-    // Makes a part of a larger ground, whose sample (0, 0) lies there: world, metres.
+    // Makes a part of a larger ground. The place of its sample (0, 0) is given in the world, metres.
     Heightfield(int width, int height, glm::dvec2 spacing, std::vector<float> heights,
                 const std::string& source, const glm::dvec2& originWorld)
         : Heightfield(width, height, spacing, std::move(heights), source) {
         mOrigin = originWorld;
     }
 
-    // Returns whether there is a cell whose four samples are known: without one there is no ground.
+    // Returns whether some cell has four known samples: without one there is no ground.
     static bool anyCell(int width, int height, const float* heights);
 
     int width() const { return mWidth; }                // samples, >= 2
@@ -39,8 +38,8 @@ public:
     glm::dvec2 originWorld() const { return mOrigin; }  // place of sample (0, 0), metres
     float minHeight() const { return mMin; }            // metres, of all cells without a hole
     float maxHeight() const { return mMax; }            // metres
-    // Returns a Lipschitz constant of the surface: |h(p) - h(q)| <= maxSlope() * |p - q|, in metres a metre.
-    // Infinite when there are holes.
+    // Returns a Lipschitz constant of the surface: |h(p) - h(q)| <= maxSlope() * |p - q|, in metres per
+    // metre. Infinite where there are holes.
     double maxSlope() const { return mMaxSlope; }
     bool hasHoles() const { return mHasHoles; }
 

@@ -177,8 +177,8 @@ void Simplifier::measure(int triangle) {
     if (best.error > mError) mQueue.push({best.error, triangle, best.version});
 }
 
-// What a mesh comes to is not known before it is made: before each doubling there has to be memory for it,
-// with the copy that growing arrays take.
+// The size of a mesh is not known before it is made: before each doubling memory is checked, with the copy
+// that growing arrays need.
 void Simplifier::makeRoom() {
     mRoom = std::max(2 * mMesh.triangleCount(), kLeastRoom);
     checkMemory(fmt::format("a mesh of more than {} triangles", mMesh.triangleCount()),

@@ -36,8 +36,8 @@ double distanceFrom(double height, double step) {
                     step * static_cast<double>(static_cast<long long>(steps + (steps < 0 ? -0.5 : 0.5))));
 }
 
-// How much heights differ between a pixel and those beside it, one way: the more and the less of both sides.
-// NaN where neither side shows anything.
+// Differences of height between a pixel and its two neighbours along one axis: the larger and the smaller.
+// NaN where neither neighbour shows ground.
 struct HeightSteps {
     double more, less;
 };

@@ -1,4 +1,4 @@
-// Contour lines on an eye, row by row, by the kernels of contour_row.h.
+// Paints contour lines on an eye's picture, row by row, with the kernels of contour_row.h.
 #pragma once
 
 #include "engine/simd/simd_target.h"
@@ -10,14 +10,14 @@ namespace stereonav {
 
 class ContourRows {
 public:
-    // All parameters but target must outlive the object.
+    // All arguments except target must outlive this object.
     ContourRows(const Heightfield& ground, const Fog& fog, const ContourSetting& setting, const EyeView& view,
                 SimdTarget target);
 
-    // Returns whether floats and 32-bit numbers hold the ground: not beyond some 1000 million samples, nor
-    // where lines lie closer than its heights have digits, nor over a round Earth.
+    // Returns whether floats and 32-bit numbers are exact enough: not for ground of more than about 1000
+    // million samples, for lines closer than the precision of its heights, or over a round Earth.
     bool fits() const { return mFits; }
-    // Paints row y of a finished eye; where fits().
+    // Paints row y of a finished eye's picture; requires fits().
     void paint(EyeImage& image, int y) const;
 
 private:
@@ -36,7 +36,7 @@ private:
     const ContourSetting& mSetting;
     GroundView mGround;
     const Kernels& mKernels;
-    ContourRow mRow;  // what all rows share
+    ContourRow mRow;  // the part that is the same for all rows
     bool mFits = false;
 };
 

@@ -115,7 +115,7 @@ bool GroundView::at(int x, int y, float depth, GroundSeen& seen) const {
     if (!way.found) way = searched(ray, depth, cell);
     if (!way.found) return false;
     const PerPixel per = perPixel(ray, way.t, cell);
-    // Where ground turns away from the eye no plane tells what a pixel is wide there.
+    // Where the tangent plane faces away from the eye it does not give the width of a pixel.
     const bool faces = per.into < 0;
     glm::dvec3 apparent = mView.eye + way.t * ray;
     if (way.beside) apparent.z = cell.seenHeight;

@@ -1,5 +1,5 @@
-// A value for each sample of the ground, laid over the colours of a finished eye: what is seen from a place,
-// how long the sun shines.
+// Paints a value for each sample of the ground over the colours of a finished eye's picture: what is seen
+// from a place, how long the sun shines.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -12,16 +12,16 @@
 
 namespace stereonav {
 
-// A colour at one of equal steps of the value from 0 to 1; linear between them.
+// A colour for one of several evenly spaced values from 0 to 1; linear between them.
 struct PaintStop {
     glm::vec3 color{0.0f};  // linear
-    float share = 0;        // share of the colour over what is there, 0 to 1
+    float share = 0;        // share of this colour in the mix with the picture's, 0 to 1
 };
 
 class RasterPainter final : public EyePainter {
 public:
-    // ground and fog must outlive the painter. values: by sample, row 0 southernmost, bilinear between them;
-    // clamped to 0 to 1, and a cell with a NaN stays as it is. stops: two or more.
+    // ground and fog must outlive this object. values: by sample, row 0 southernmost, bilinear between them;
+    // clamped to 0 to 1; cells with a NaN are not painted. stops: two or more.
     RasterPainter(const Heightfield& ground, const Fog& fog, Plane<float> values,
                   std::vector<PaintStop> stops);
 

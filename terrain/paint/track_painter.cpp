@@ -49,7 +49,7 @@ bool cutAtNear(const EyeView& view, glm::dvec3& a, glm::dvec3& b) {
     return true;
 }
 
-// How much of a pixel is line, and how much is line or what is darker beside it.
+// Shares of a pixel that the line covers, and that the line with its casing covers.
 struct TrackShares {
     float line = 0, casing = 0;
 };

@@ -1,4 +1,4 @@
-// Where places of a terrain's world lie on the Earth.
+// Conversion of places in a terrain's world to places on the Earth.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -12,12 +12,12 @@ struct EarthPlace {
     double latitude = 0, longitude = 0;  // radians
 };
 
-// Places on the Earth and in the world, by the reference system of the world's grid. From any thread, one at
-// a time within.
+// Converts places between the Earth and the world, by the reference system of the world's grid. May be called
+// from any thread; calls wait for each other.
 class EarthPlaces {
 public:
     virtual ~EarthPlaces() = default;
-    // Returns nothing where the system has no such place. world: x, y in metres.
+    // Returns the place on the Earth; empty where the system defines none. world: x, y in metres.
     virtual std::optional<EarthPlace> placeAt(const glm::dvec2& world) const = 0;
     virtual std::optional<glm::dvec2> worldAt(const EarthPlace& place) const = 0;
 };

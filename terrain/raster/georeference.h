@@ -1,5 +1,5 @@
-// Where a raster lies on the Earth, and the mapping from one raster's pixels to another's. Used to
-// bring elevation models to metres and to lay images over them.
+// The place of a raster on the Earth, and the mapping of one raster's pixels to another's, for bringing
+// elevation models to metres and laying images over them.
 #pragma once
 
 #include <array>
@@ -20,10 +20,11 @@ struct Georeference {
     std::string wkt;                                     // reference system; "" when none is known
     std::array<double, 6> transform{0, 1, 0, 0, 0, -1};  // GDAL's order
     int width = 0, height = 0;                           // pixels
-    // Six or more where a polynomial through these places the pixels (terrain/read/gdal/control_points.h):
-    // then the transform, and what follows from it here, is only near.
+    // Six or more points where a polynomial through them places the pixels
+    // (terrain/read/gdal/control_points.h); the transform, and functions that use it, are then only
+    // approximate.
     std::vector<ControlPoint> points;
-    std::string placedBy;  // how control points place it, in words; "" where they do not
+    std::string placedBy;  // how control points place the raster, in words; "" without control points
 
     // Map pixel coordinates to reference coordinates, and back.
     glm::dvec2 fromPixel(const glm::dvec2& pixel) const;
@@ -36,13 +37,13 @@ struct Georeference {
 // bilinear between: to a hundredth of a pixel. at() is safe from several threads.
 class PixelMap {
 public:
-    static constexpr int kStep = 16;  // pixels between nodes at most
-    // Takes what mapPixels() of raster_file.h gives: rows of nodesX nodes each, pixel coordinates of the
+    static constexpr int kStep = 16;  // largest distance of nodes, pixels
+    // Takes the result of mapPixels() in raster_file.h: rows of nodesX nodes each, pixel coordinates in the
     // source, 2^shift pixels apart.
     PixelMap(int nodesX, std::vector<glm::dvec2> nodes, int shift);
 
-    // Returns the pixel coordinates in the source of a target pixel's centre; infinite or NaN where there is
-    // no such place.
+    // Returns the pixel coordinates in the source of the centre of a target pixel; infinite or NaN where
+    // there is no such place.
     glm::dvec2 at(int column, int row) const;
 
 private:

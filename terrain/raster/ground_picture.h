@@ -16,18 +16,17 @@ struct PixelWindow {
     int xMin = 0, yMin = 0, xMax = 0, yMax = 0;
 };
 
-// Stored values that are shown black and white.
+// Stored values that are shown as black and as white.
 struct PictureTone {
     double black = 0, white = 255;   // stored values
-    std::vector<std::string> notes;  // what was guessed of it, a line each
+    std::vector<std::string> notes;  // guesses of the tone, a line each
 };
 
 // A part of an image, perhaps shrunk.
 class GroundPicture {
 public:
     struct Parts {
-        // Pixels of the whole image: where the first pixel's corner lies, and how many a pixel is wide and
-        // high.
+        // Pixels of the whole image: corner of the first pixel; width and height of a pixel.
         glm::dvec2 origin{0.0}, shrink{1.0};
         Plane<PackedColor> color;
         Plane<unsigned char> mask;  // 0: no colour here; empty: colour everywhere

@@ -1,4 +1,4 @@
-// A line or an area out of a file of places.
+// A line or an area from a GPX or GeoJSON file.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -10,7 +10,7 @@ namespace stereonav {
 struct TrackLine {
     std::string name;  // "" where the file has none
     bool closed = false;
-    // Longitude, latitude of WGS 84; a closed line does not repeat the first.
+    // Longitude and latitude, WGS 84; a closed line does not repeat its first place.
     std::vector<glm::dvec2> degrees;
     int feature = 0;  // the same for all segments of one track, and for all parts of one drawing
 };
@@ -20,8 +20,8 @@ struct TrackPlace {
     glm::dvec2 degrees{0.0};  // longitude, latitude of WGS 84
 };
 
-// Returns lines whose segments are one after the other: those of one feature become one, a straight way from
-// the end of each to the beginning of the next. Areas stay apart.
+// Joins the segments of each feature into one line, straight from the end of each to the beginning of the
+// next. Areas are not joined.
 std::vector<TrackLine> joinedSegments(std::vector<TrackLine> lines);
 
 struct TrackFile {

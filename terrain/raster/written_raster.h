@@ -1,4 +1,4 @@
-// A raster as it is written: one band over a terrain's samples.
+// A raster to be written: one band over a terrain's samples.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace stereonav {
 
-// One of the two planes, row 0 southernmost, and what is written of it.
+// The values, in one of two planes with row 0 southernmost, and their description.
 struct WrittenRaster {
     const Plane<std::uint8_t>* bytes = nullptr;
     const Plane<float>* floats = nullptr;

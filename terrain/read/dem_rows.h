@@ -1,5 +1,5 @@
-// Elevation models read a run of rows at a time, for ground larger than memory: what readDem() reads at once.
-// The reader itself is in GDAL's module (terrain/read/gdal/dem_rows_reader.cpp).
+// Elevation models read in runs of rows, for ground larger than memory; readDem() reads all at once. The
+// reader itself is in GDAL's module (terrain/read/gdal/dem_rows_reader.cpp).
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 namespace stereonav {
 
-// Replaces each NaN of a grid by what fits the numbers around (terrain/ground/nodata.h).
+// Replaces each NaN of a grid by a value that fits the numbers around it (terrain/ground/nodata.h).
 using FillBetween = std::function<void(std::vector<float>& values, int width, int height)>;
 
 // The rows of one elevation model, for one thread at a time. At most 2^20 samples a side and 2^40 in all.
 //
 // Heights are those of readDem(), bit for bit, where its samples stay as they are. Ground that has to be
-// resampled (degrees, feet, turned, control points, web Mercator) is resampled alike, but summits and pits
-// that lie between two samples of the grid are not put back: that takes all samples at once. A height that
-// differs from readDem()'s is there one of the file's own summits or pits, and here what lies between the
-// samples around it.
+// resampled (degrees, feet, rotated, control points, web Mercator) is resampled in the same way, except that
+// summits and pits between two samples of the grid are not restored, since that takes all samples at once. So
+// where a height differs from readDem()'s, that has a summit or pit of the file, and this has a value
+// interpolated between the samples around it.
 class DemRows {
 public:
-    // What the module gives; its functions are those below.
+    // Interface of the module's reader; its functions are those below.
     class Reader {
     public:
         virtual ~Reader() = default;
@@ -41,59 +41,60 @@ public:
         virtual bool readSpread(double time_ms, double most_ms, const FillBetween& fill) = 0;
     };
 
-    // Opens it and reads no sample, but for the one tile of a GSI elevation tile. Throws Error as readDem()
-    // does for what can not be read.
+    // Opens the file without reading samples, except for the single tile of a GSI elevation tile. Throws
+    // Error as readDem() does for files that can not be read.
     explicit DemRows(const std::filesystem::path& file);
-    // Opens it at `most` samples at most, >= 4, spread over all of the ground, of the file's overviews where
-    // it has them. A text file gives all of its samples.
+    // Opens the file thinned to at most `most` samples, >= 4, spread over all of the ground, from the file's
+    // overviews where it has them. A text file gives all of its samples.
     DemRows(const std::filesystem::path& file, long long most);
 
-    // Returns the grid of readDem(), but for the heights and what is counted over samples (sourceMissing,
-    // outside: 0).
+    // Returns the grid as readDem() does, without the heights and without counts of samples (sourceMissing
+    // and outside are 0).
     const DemGrid& place() const { return mReader->place(); }
 
-    // Rows that are best read at once: whole blocks of the file, at most 256.
+    // Returns the number of rows to read at once for best speed: whole blocks of the file, at most 256.
     int runOfRows() const { return mReader->runOfRows(); }
-    // Rows of the southernmost run, at most as many, from which on runs begin where blocks of the file begin:
-    // who reads firstRun(), then runOfRows() at a time, decodes no block twice.
+    // Returns the number of rows of the southernmost run, after which runs begin where blocks of the file
+    // begin, at most runOfRows(). A caller that reads firstRun() rows, then runOfRows() at a time, decodes no
+    // block twice.
     int firstRun() const { return mReader->firstRun(); }
 
-    // Rows first .. first + rows - 1 counted from the south, of place().width heights each in metres (no
-    // vertical scale); NaN where missing. Throws Error ("row ... of ...: the file is cut off or damaged"),
-    // Cancelled.
+    // Reads rows first .. first + rows - 1, counted from the south, with place().width heights each in metres
+    // (without vertical scale); NaN where missing. Throws Error ("row ... of ...: the file is cut off or
+    // damaged"), Cancelled.
     void read(int first, int rows, float* heights) { mReader->read(first, rows, heights); }
 
-    // Returns true where -9999 alone, far below all else, in a file that names no nodata value, stands for
-    // missing samples. Only all samples tell, so it is asked after all rows were read. Whoever keeps the
-    // heights then reads all rows again, in which they are missing. True once: afterwards they are missing in
-    // whatever is read.
+    // Returns true where the file names no nodata value and all samples show that -9999 stands for missing
+    // ones: it is far below all other heights. To be called after all rows were read. A caller that keeps
+    // heights must then read all rows again, in which those samples are missing. True only once.
     bool mustBeReadAgain() { return mReader->mustBeReadAgain(); }
 
-    // Throws Error, once all rows were read, where heights are not what single precision holds, or all
-    // samples are missing, or heights times the vertical scale leave their range, as readDem() says it. Of
-    // ground that is resampled only samples around those of the grid count.
+    // Throws Error, once all rows were read, where heights can not be held in single precision, all samples
+    // are missing, or heights times the vertical scale are out of range, in the words of readDem(). For
+    // ground that is resampled, only source samples around those of the grid count.
     void checkHeights(double verticalScale) const { mReader->checkHeights(verticalScale); }
 
-    // Returns whether samples lie in compressed blocks, of which each row takes many, and there are no
-    // overviews: bad for who reads a few samples.
+    // Returns whether samples lie in compressed blocks that span many rows, without overviews: reading a few
+    // samples is then slow.
     bool isPacked() const { return mReader->isPacked(); }
 
-    // Decodes blocks of the file spread evenly over it, as many as time_ms gives, for who reads a few
-    // samples; from then on read() gives what they hold and what `fill` puts between them. It is missing
-    // where most of what was read nearby is. Returns false where blocks are too large or too slow for the
-    // fewest of them (most_ms), all samples are read, or the format is decoded from its beginning: then
-    // nothing is changed. Throws as read() does.
+    // Decodes blocks of the file spread evenly over it, as many as fit into time_ms, for callers that need
+    // few samples. From then on read() gives the decoded samples, and between them what `fill` interpolates;
+    // missing where most of the decoded samples nearby are. Returns false, having changed nothing, where
+    // blocks are too large, where the smallest permitted number of them would take longer than most_ms, where
+    // all samples are read anyway, or where the format can only be decoded from its beginning. Throws as
+    // read() does.
     bool readSpread(double time_ms, double most_ms, const FillBetween& fill) {
         return mReader->readSpread(time_ms, most_ms, fill);
     }
 
-    // Identifies the content by path, size and time of change of each file that it is made of, overviews and
-    // the sources of virtual rasters among them.
+    // Returns an identifier of the content, from path, size and time of change of each file that it is made
+    // of, including overviews and the sources of virtual rasters.
     std::uint64_t identity() const { return mReader->identity(); }
-    // Bytes of all these files on disk.
+    // Returns the bytes of all these files on disk.
     double bytesOfFiles() const { return mReader->bytesOfFiles(); }
 
-    // Bytes of memory that a block takes while it is read.
+    // Returns the bytes of memory that a block takes while it is read.
     double bytesOfBlock() const { return mReader->bytesOfBlock(); }
 
 private:

@@ -1,4 +1,4 @@
-// The heights that the program holds: floats, in metres.
+// The range of heights that the program can hold: floats, in metres.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,11 +11,11 @@
 
 namespace stereonav {
 
-// More than the Earth's radius, so that no ground is as high; casters are tested up to here.
+// Larger than the Earth's radius, so that no ground is higher; casters are tested up to this.
 constexpr double kMostHeight_m = 1e7;
 
 // Throws Error that names `file` where heights from low to high, times the vertical scale, are beyond
-// kMostHeight_m, or so small that floats lose them. low, high: metres.
+// kMostHeight_m, or too small for floats. low, high: metres.
 inline void checkScaledHeights(const std::string& file, double low, double high, double verticalScale) {
     constexpr double kLeast_m = 1e-30;  // below 1.2e-38 floats lose digits
     const double most = std::max(std::abs(low), std::abs(high));

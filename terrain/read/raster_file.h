@@ -1,6 +1,6 @@
-// What terrain asks of GDAL, beside readDem(): pictures in files, and where rasters lie to each other. The
-// functions are those of the module stereonav_gdal (terrain/read/gdal), which is loaded by the first that is
-// called.
+// GDAL's functions for terrain, other than readDem(): pictures in files, and the relation of rasters to each
+// other. The functions are in the module stereonav_gdal (terrain/read/gdal), which is loaded by the first
+// call.
 #pragma once
 
 #include <filesystem>
@@ -18,16 +18,17 @@
 
 namespace stereonav {
 
-// A picture's file, open. To one thread.
+// The open file of a picture. For one thread.
 class RasterPicture {
 public:
     virtual ~RasterPicture() = default;
-    // Returns where it lies; sets `known` to whether the file says so (else a unit a pixel, no system).
+    // Returns the picture's place; sets `known` to whether the file has one (else a unit per pixel, without a
+    // system).
     virtual Georeference georeference(bool& known) = 0;
-    // Returns the tone that its pixels ask for, of all of it, so that its parts are shown alike: 16 bits that
-    // are hardly used are stretched, and that is noted. Throws Error.
+    // Returns the tone for the whole picture, so that all its parts look alike: 16 bits of which few are used
+    // are stretched, with a note. Throws Error.
     virtual PictureTone tone() = 0;
-    // Returns the tone that spans all that its bits hold, whatever its pixels.
+    // Returns the tone over the full range of its bits, whatever its pixels.
     virtual PictureTone wholeTone() = 0;
     // Reads the window, averaged down by the factor `shrink` (>= 1) each way. Throws Error.
     virtual GroundPicture read(const PixelWindow& window, const glm::dvec2& shrink,
@@ -39,33 +40,33 @@ public:
 std::unique_ptr<RasterPicture> openRasterPicture(const std::filesystem::path& file,
                                                  const std::string& expected, const std::string& advice);
 
-// Maps pixels of `target` to those of `source`. Throws Error that names `file` when there is no way between
-// the two reference systems.
+// Maps pixels of `target` to those of `source`. Throws Error that names `file` where there is no conversion
+// between the two reference systems.
 PixelMap mapPixels(const Georeference& target, const Georeference& source, const std::filesystem::path& file);
 
 // Returns whether the two rasters share ground. Throws Error as mapPixels does.
 bool overlap(const Georeference& a, const Georeference& b, const std::filesystem::path& file);
 
-// Returns where the places of a world lie whose grid this is, north up, with `spacing` metres a pixel; the
-// world's origin is the grid's middle. Returns null where its reference system does not say, or belongs to
-// another body.
+// Returns the conversion from a world to places on the Earth; null where the grid's reference system is
+// unknown or belongs to another body. grid: the world's grid, north up, with `spacing` metres per pixel; the
+// world's origin is the grid's middle.
 std::unique_ptr<EarthPlaces> earthPlaces(const Georeference& grid, const glm::dvec2& spacing);
 
-// Returns the same places in the reference system of the file, `source`, that the grid was made of. Returns
-// null where there is no way between the two systems.
+// Returns the conversion from the same world to the reference system of the file, `source`, that the grid was
+// made from. Null where there is no conversion between the two systems.
 std::unique_ptr<ReferencePlaces> referencePlaces(const Georeference& source, const Georeference& grid,
                                                  const glm::dvec2& spacing);
 
 // Writes a GeoTIFF over the grid's samples; the file is made anew. Throws Error.
 void writeGeoTiff(const std::filesystem::path& file, const Georeference& grid, const WrittenRaster& raster);
 
-// Reads the lines, areas and places of a GPX or GeoJSON file, one or more; areas without their holes, and
-// tracks without their points. Throws Error.
+// Reads the lines, areas and places of a GPX or GeoJSON file, at least one; areas without their holes, and
+// tracks without their waypoints. Throws Error.
 TrackFile readTrackFile(const std::filesystem::path& file);
-// Reads the lines and areas of a file, one or more; the segments of a track are one line. Throws Error.
+// Reads the lines and areas of a file, at least one; the segments of a track become one line. Throws Error.
 std::vector<TrackLine> readTracks(const std::filesystem::path& file);
 
-// The module's functions, which those above call.
+// The module's functions, which the functions above call.
 struct RasterFunctions {
     decltype(&stereonav::readDem) readDem;
     decltype(&stereonav::glanceAtDem) glanceAtDem;

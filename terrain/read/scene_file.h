@@ -1,5 +1,5 @@
-// A scene as its TOML file says it: which files, where, how it looks, how it is flown. Parsing
-// checks keys and values; it opens none of the files named.
+// The content of a TOML scene file: which files it uses, where they are placed, how the scene looks and how
+// it is flown. Parsing checks keys and values; it opens none of the files named.
 #pragma once
 
 #include <cstdint>
@@ -14,31 +14,32 @@ namespace stereonav {
 
 constexpr int kBuiltInSizeMin = 17, kBuiltInSizeMax = 2049;  // samples a side of the generated terrain
 
-constexpr double kUsualVisibility = 60e3;  // metres; of a physical sky
+constexpr double kUsualVisibility = 60e3;  // metres; default for a physical sky
 
 // How a terrain is lit and shown.
 struct TerrainLook {
     double sunAzimuth = 5.5;     // radians clockwise from north; the default shines from the north-west
     double sunElevation = 0.79;  // radians above the horizon
-    float ambient = 0.35f;       // share of light that is there in shadow, 0..1
-    double fogDistance = 0.0;    // metres over which 63 % (1 - 1/e) is lost; 0: no fog
+    float ambient = 0.35f;       // share of the light in shadow, 0..1
+    double fogDistance = 0.0;    // metres over which 63 % (1 - 1/e) of the light is lost; 0: no fog
     glm::vec3 fogColor{0.62f, 0.68f, 0.75f};  // linear
-    float specular = 0.0f;    // strength of the view-dependent highlight, 0: none (nothing is stored)
-    float shininess = 32.0f;  // Blinn-Phong exponent
-    bool shadeImage = false;  // light the colour image too (images mostly hold light already)
-    // Sky and air by scattering (terrain/light/atmosphere.h), in the place of a picture and of fog.
+    float specular = 0.0f;                    // strength of the view-dependent highlight; 0: none
+    float shininess = 32.0f;                  // Blinn-Phong exponent
+    bool shadeImage = false;                  // shade the image as well; images mostly contain light already
+    // Sky and air by scattering (terrain/light/atmosphere.h), instead of a picture and fog.
     bool physicalSky = false;
     double visibility = kUsualVisibility;  // metres: meteorological range at the sea
     double seaLevel = 0, skySeenFrom = 0;  // world heights, metres; the loader sets them
-    // Whether below the horizon is the sky's light at it, as where ground ends in haze, and not a plain.
+    // Below the horizon is the sky's light at the horizon, as where ground ends in haze, instead of a plain.
     bool hazyBelow = false;
 };
 
-// What colours ground without a picture: its tints, or how it lies (terrain/scene/slope_color.h).
+// What colours ground without a picture: tints by height, or slope, aspect or hillshade
+// (terrain/scene/slope_color.h).
 enum class GroundPaint { None, Slope, Aspect, Hillshade };
 
-// Whether an elevation model's samples go into tiles on disk (terrain/scene/tiled_ground.h): where they would
-// not fit into memory, always, or never.
+// Whether an elevation model's samples are put into tiles on disk (terrain/scene/tiled_ground.h): where they
+// would not fit into memory, always, or never.
 enum class GroundTiles { Auto, On, Off };
 
 // A mesh in the scene.
@@ -58,19 +59,20 @@ struct SceneFile {
     std::filesystem::path dem;
     double verticalScale = 1.0;  // factor on heights, > 0
     GroundTiles tiles = GroundTiles::Auto;
-    // Samples a side of the coarser ground that is given while tiles have to be made; 0: none.
+    // Samples per side of the coarser ground that is shown while tiles are being made; 0: none.
     int standInSide = 0;
-    bool openHoles = false;                 // leave nodata open instead of filling it
+    bool openHoles = false;                 // leave missing samples open instead of filling them
     std::filesystem::path image;            // "" for hypsometric tint
     GroundPaint paint = GroundPaint::None;  // not with an image
     std::filesystem::path sky;              // "" for the built-in gradient
-    std::filesystem::path light;            // baked light; "auto": the cache's; "" for none
-    bool colorsAlone = false;  // the ground's, without the sun's light: whoever shows it lights it
+    std::filesystem::path light;            // file of baked light; "auto": from the cache; "": none
+    bool colorsAlone = false;  // colours of the ground without the sun's light, for callers that light them
     TerrainLook look;
-    // Whether first view, sun, sky and light are chosen where nothing says them, and what is said.
+    // Whether first view, sun, sky and light are chosen by the program where nothing sets them, and a note
+    // about them.
     bool chosen = false;
     bool sunGiven = false, fogGiven = false, visibilityGiven = false;
-    bool quickLight = false;  // light that is worked out with the loading (terrain/light/quick_light.h)
+    bool quickLight = false;  // light is computed while loading (terrain/light/quick_light.h)
     std::vector<LandmarkFile> landmarks;
     std::optional<glm::dvec3> startPosition;  // world metres; z above the ground when startAboveGround
     bool startAboveGround = true;
@@ -82,11 +84,12 @@ struct SceneFile {
     double clearance = 0.0;                                  // metres; 0: chosen from the spacing
 };
 
-// Reads a .toml scene. Relative files are relative to the scene's folder. Throws Error: unknown keys
-// all together, each with line and the nearest known key; wrong types and ranges with their line.
+// Reads a .toml scene. Relative file names are relative to the scene's folder. Throws Error: for all unknown
+// keys together, each with its line and the nearest known key; for wrong types and ranges with their line.
 SceneFile readSceneFile(const std::filesystem::path& toml);
 
-// `name` as a user gives it: "" or "terrain" for the built-in terrain, a .toml, or a DEM file.
+// Returns the scene for a user's argument: "" or "terrain" for the built-in terrain, a .toml file, or an
+// elevation model.
 SceneFile sceneFileFromName(const std::string& name);
 
 }  // namespace stereonav

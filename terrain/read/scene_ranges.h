@@ -1,4 +1,4 @@
-// Ranges of what is said of terrains, on the command line and in scene files alike.
+// Permitted ranges of settings of terrains, for the command line and scene files.
 #pragma once
 
 #include "engine/text/number_range.h"

@@ -1,4 +1,5 @@
-// Heights of a tiled ground at its finest samples, one place at a time: for who stands on it or reads it off.
+// Heights of a tiled ground from its finest samples, one place at a time, for instruments and for walking on
+// it.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,16 +12,16 @@
 
 namespace stereonav {
 
-// Keeps the parts that were asked for last. From any thread.
+// Keeps the parts that were used last. From any thread.
 class FineHeights {
 public:
     explicit FineHeights(std::shared_ptr<const GroundLevels> levels) : mLevels(std::move(levels)) {}
 
-    // Returns metres; clamped to the border, NaN in holes, as Heightfield::heightAt(). Throws Error where a
-    // tile can not be read.
+    // Returns the height in metres, like Heightfield::heightAt(): clamped to the border, NaN in holes. Throws
+    // Error where a tile can not be read.
     double heightAt(const glm::dvec2& world) const;
-    // Returns samples around a place, which lies at least one from their edge but at the ground's own; null
-    // in a hole. Throws as heightAt().
+    // Returns samples around a place, at least one on each side of it except at the ground's border; null in
+    // a hole. Throws as heightAt().
     std::shared_ptr<const Heightfield> around(const glm::dvec2& world) const;
 
 private:
@@ -31,7 +32,7 @@ private:
 
     std::shared_ptr<const GroundLevels> mLevels;
     mutable std::mutex mMutex;
-    mutable std::list<Part> mParts;  // the newest first
+    mutable std::list<Part> mParts;  // most recently used first
 };
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// Light that was baked at finer samples than those of the ground in memory, under a place of the sun.
+// Light that was baked at finer samples than those of the ground in memory, for one position of the sun.
 #pragma once
 
 #include <memory>
@@ -12,25 +12,25 @@ namespace stereonav {
 
 class FineLight {
 public:
-    // levels: those of the ground that it was baked for.
+    // levels: of the ground that the light was baked for.
     FineLight(std::shared_ptr<const GroundLevels> levels, LightTiles tiles, SimdTarget target);
 
     const GroundLevels& levels() const { return *mLevels; }
     const FineLightShape& shape() const { return mTiles.shape(); }
     std::uint64_t byteCount() const { return mTiles.byteCount(); }  // on disk
-    // Returns the level whose light is nearest to a part with samples `spacing` metres apart; nothing where
-    // the ground in memory has them too.
+    // Returns the level whose light has about the spacing of a part with samples `spacing` metres apart;
+    // empty where the light of the ground in memory is as fine.
     std::optional<int> levelFor(double spacing) const;
 
-    // A tile: its ground with a sample around it where there is one, and the brightness of the tile's own
-    // samples, of which the first is `first` in that ground.
+    // A lit tile: its ground, with one more sample on each side where the whole ground has one, and the
+    // brightness of the tile's own samples, the first of which is `first` in that ground.
     struct LitTile {
         Heightfield ground;
         glm::ivec2 first{0};
         GroundBrightness brightness;
     };
-    // Lights a tile; nothing where no sample is known. From any thread. Throws Error where it can not be
-    // read.
+    // Lights a tile; empty where none of its samples is known. From any thread. Throws Error where it can not
+    // be read.
     std::optional<LitTile> lit(const LightTiles::Tile& tile, const SunAndSky& now) const;
     glm::ivec2 size(int level) const { return mTiles.size(level); }  // samples
 

@@ -125,7 +125,7 @@ RecordedPath followTrack(const Heightfield& ground, const std::vector<glm::dvec2
     std::vector<PathSample> samples;
     double heading = std::atan2(at.back().x - at.front().x, at.back().y - at.front().y);
     for (std::size_t n = 0; n < at.size(); ++n) {
-        // Where a track comes back on itself its mean goes nowhere: as before.
+        // Where the track turns back on itself its mean direction is 0: the heading stays as before.
         if (glm::length(ways[n]) > 1e-6 * line.length() / count) heading = std::atan2(ways[n].x, ways[n].y);
         samples.push_back({seconds * double(n) / (count - 1),
                            poseFromAngles({at[n], heights[n] + height}, heading, kFollowPitch, 0)});

@@ -1,4 +1,5 @@
-// A copy of a ground at some ten thousand places, whatever its size: enough to tell what would be seen of it.
+// A coarse copy of a ground, at most 128 x 128 places whatever the ground's size: enough to estimate what
+// would be seen of it.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -14,20 +15,21 @@ public:
 
     explicit GroundSketch(const Heightfield& ground);
 
-    // Metres in the world and metres a metre: the ground around a place.
+    // Height in metres and slope in metres per metre around a place.
     struct At {
         double height;
         glm::dvec2 gradient;
     };
     // Returns the ground's mean around a place, NaN beyond the border and in holes.
     At at(const glm::dvec2& world) const;
-    // Returns the highest of some samples within a distance, the lowest ground of all where there is none.
+    // Returns the highest sample within a distance in metres, of those that the sketch read; the lowest
+    // ground of all where there is none.
     double highestAround(const glm::dvec2& world, double distance) const;
 
     glm::dvec2 half() const { return mHalf; }      // half extents, metres
     double usualHeight() const { return mUsual; }  // metres, the median
-    double highest() const { return mHighest; }    // metres, of the means
-    glm::dvec2 summit() const { return mSummit; }  // world, of that mean
+    double highest() const { return mHighest; }    // metres; the largest of the means
+    glm::dvec2 summit() const { return mSummit; }  // world; place of the largest mean
 
 private:
     int mWidth = 2, mHeight = 2;                   // places, >= 2

@@ -26,9 +26,9 @@
 
 namespace stereonav {
 
-// The ground's place on the Earth, as far as it is known, and its vertical scale.
+// The ground's position on the Earth, as far as it is known, and its vertical scale.
 struct TintPlace {
-    double verticalScale = 1;       // the ground's heights for one of the file's
+    double verticalScale = 1;       // factor from the file's heights to the ground's
     std::vector<double> latitudes;  // radians, evenly from the southern edge to the northern; empty: unknown
 };
 
@@ -41,48 +41,49 @@ GrowthLines growthLines(double latitude);
 
 class GroundTint {
 public:
-    // ground must outlive the tint.
+    // ground must outlive this object.
     GroundTint(const Heightfield& ground, const TintPlace& place) : GroundTint(ground, place, ground) {}
-    // Takes a part of a ground, finer than that or not: in the colours that it has as a part of the whole,
-    // which must outlive this. place: that of the whole.
+    // Tints a part of a ground, of any spacing, with the colours that it has as a part of the whole, which
+    // must outlive this object. place: of the whole.
     GroundTint(const Heightfield& part, const TintPlace& place, const Heightfield& whole);
 
-    // Properties that are kept at the samples and interpolated bilinearly; beyond the ground's edge those of
-    // the nearest sample count.
+    // Properties that are stored at the samples and interpolated bilinearly; beyond the ground's edge those
+    // of the nearest sample.
     struct Site {
-        glm::vec2 gradient{0.0f};  // metres a metre, as Heightfield::normalAt() has it
+        glm::vec2 gradient{0.0f};  // metres per metre, as for Heightfield::normalAt()
         float hollow = 0;          // -1 on ridges to 1 in hollows
         float broad = 0;           // noise, -1 to 1
         glm::dvec3 normal() const;
     };
     Site siteAt(const glm::dvec2& grid) const;
 
-    // Returns the linear colour without light. height: metres as the ground has them, NaN in holes; site: the
-    // place's.
+    // Returns the linear colour without light. height: metres on the ground, NaN in holes; site: at that
+    // place.
     glm::vec3 at(const glm::dvec2& grid, double height, const Site& site) const;
 
     static constexpr double kBytesPerSample = sizeof(Site);
 
 private:
-    // Tree line, snow line and colours of a latitude.
+    // Tree line, snow line and colours at a latitude.
     struct Zone {
         GrowthLines lines;
         double poleward = 0;            // y of the direction to the nearer pole: 1, -1, near the equator 0
-        std::vector<glm::vec3> colors;  // by height on the scale
+        std::vector<glm::vec3> colors;  // by height on the colour scale
     };
     double scaleHeight(const GrowthLines& lines, double metres) const;
     bool seaAt(const glm::dvec2& grid) const;
-    // Turns grid coordinates of the part into those of the whole.
+    // Converts grid coordinates of the part into those of the whole.
     glm::dvec2 inWhole(const glm::dvec2& grid) const { return mFirst + grid * mStep; }
 
     const Heightfield &mGround, &mWhole;
-    glm::dvec2 mFirst{0.0}, mStep{1.0};  // grid of the whole: the first sample, and from one to the next
-    double mUnscale = 1;                 // metres above the sea for one of the ground's
+    glm::dvec2 mFirst{0.0}, mStep{1.0};  // grid of the whole: the first sample; step to the next
+    double mUnscale = 1;                 // metres above the sea per metre of the ground
     double mMetresPerStep = 1;           // the wider spacing
     bool mPlaced = false, mSeaFloor = false;
-    double mLow = 0, mPerMetre = 0;                // metres, 1/metre: the range of heights without a place
-    double mStretch = 1, mMiddle = 0, mShift = 0;  // how the scales are stretched about a middle; metres
-    float mRockFrom = 0.6f, mRockFull = 1.2f;      // slopes, metres a metre
+    // Metres, 1/metre: the range of heights of ground with unknown position.
+    double mLow = 0, mPerMetre = 0;
+    double mStretch = 1, mMiddle = 0, mShift = 0;  // stretching of the scales around a middle; metres
+    float mRockFrom = 0.6f, mRockFull = 1.2f;      // slopes, metres per metre
     std::vector<Zone> mZones;                      // evenly from south to north
     std::vector<Site> mSites;
     Noise mFine;

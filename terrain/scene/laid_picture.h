@@ -1,5 +1,5 @@
-// A picture of the ground in a file: where it lies over an elevation model, and its pixels over any part of
-// it.
+// A picture of the ground in a file: its place over an elevation model, and its pixels over any part of the
+// model.
 #pragma once
 
 #include <filesystem>
@@ -16,29 +16,29 @@
 
 namespace stereonav {
 
-// Keeps no file open: every read opens it anew, so that parts may be read from any thread.
+// Keeps no file open: every read opens it again, so that any thread may read parts.
 class LaidPicture {
 public:
-    // Opens the picture. dem: its heights are not read. Throws Error that names the picture, among others
-    // where it does not overlap.
+    // Opens the picture. dem: only its place is used, not its heights. Throws Error that names the picture,
+    // for example where it does not overlap the model.
     LaidPicture(const std::filesystem::path& file, const DemGrid& dem);
 
-    // Returns pixels a sample, each way, of a ground, or a part of one, at any of its levels: by that at the
-    // model's middle.
+    // Returns the number of pixels per sample in each direction, for a ground or a part of one at any level,
+    // as measured in the middle of the model.
     glm::dvec2 density(const Heightfield& ground) const { return mDensity * ground.spacing() / mSpacing; }
 
     struct Pixels {
         PixelMap map;  // from the texels' columns and rows
         GroundPicture picture;
     };
-    // Returns what a texture of that size over a ground needs, averaged down to its texels: from the file's
-    // overviews where it has them. Returns nothing where the picture does not reach it. From any thread.
+    // Returns the pixels for a texture of that size over a ground, averaged down to its texels: from the
+    // file's overviews where it has them. Empty where the picture does not reach the ground. From any thread.
     // Throws Error where the file can not be read any more, or would not fit into memory.
     std::optional<Pixels> over(const Heightfield& ground, const GroundTextureSize& size) const;
 
-    // Returns what was guessed of its colours, a line each.
+    // Returns notes about guesses of its colours, a line each.
     const std::vector<std::string>& notes() const { return mTone.notes; }
-    // "image winter.jpg 457x499 over the same extent"
+    // Returns a description such as "image winter.jpg 457x499 over the same extent".
     std::string describe() const;
     // Throws Error that names the picture.
     [[noreturn]] void throwNoOverlap() const;
@@ -48,10 +48,10 @@ private:
 
     std::filesystem::path mFile;
     Georeference mGrid;   // grid of the model's finest samples
-    glm::dvec2 mSpacing;  // spacing of those, metres
-    Georeference mPlace;  // the picture's own, or over the elevation file's extent
+    glm::dvec2 mSpacing;  // metres between those samples
+    Georeference mPlace;  // georeference of the picture; its own, or the extent of the elevation file
     bool mOwn = false;
-    glm::dvec2 mDensity{1.0};  // pixels a finest sample
+    glm::dvec2 mDensity{1.0};  // pixels per finest sample
     PictureTone mTone;
 };
 

@@ -1,5 +1,5 @@
-// Meshes placed in a terrain (glTF), cast with Embree after the ground: a landmark is hit where it is
-// nearer than the ground. Both eyes, hole filling and region V use the same set.
+// Meshes placed in a terrain (glTF), cast with Embree after the ground: a landmark is seen where it is nearer
+// than the ground. Both eyes, hole filling and region V use the same set.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -26,7 +26,7 @@ public:
     void cast(const EyeView& view, int count, const glm::dvec3* direction, float* viewDepth,
               PackedColor* color, bool throughFog = true) const;
 
-    // Takes light and fog of another look. No cast() may run meanwhile.
+    // Changes the light and fog to those of a look. No cast() may run meanwhile.
     void setLook(const TerrainLook& look);
 
     // World bounding box of everything, metres.

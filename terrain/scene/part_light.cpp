@@ -63,7 +63,7 @@ glm::vec3 PartLight::quotientAt(const FineQuotients& fine, const glm::dvec2& wor
                     glm::mix(north[at.x], north[next.x], share.x), share.y);
 }
 
-// Where there is no finer light it is that of the whole.
+// Returns the quotients of finer light over a part; empty where there is none, and the whole's light is used.
 std::optional<PartLight::FineQuotients> PartLight::finerOver(const Heightfield& part,
                                                              const ColorTexture& colors) const {
     if (!mFine) return std::nullopt;

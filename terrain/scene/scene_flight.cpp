@@ -21,8 +21,8 @@ constexpr int kWindow = 75;      // segments to each side over which the height 
 constexpr double kOuterRadius = 0.74, kInnerRadius = 0.32, kFlightTurn = 1.25 * pi;
 // The view: inwards of the direction of flight, below the horizon, banked for an even turn; radians.
 constexpr double kLookInwards = 0.55, kLookDown = 0.10, kBank = 0.12;
-// From high above the mean ground the view looks further down: by this share of the angle under which it lies
-// half an extent away.
+// From high above the mean ground the view looks further down: by this share of the angle below the horizon
+// at which ground half an extent away is seen.
 constexpr double kLookAtGround = 0.8;
 // Share of the climb angle that the view follows.
 constexpr double kFollowClimb = 0.12;
@@ -126,7 +126,7 @@ struct Plan {
         constexpr double kStep = 1e-4;
         return at(u + kStep) - at(u - kStep);
     }
-    // Turns in heading a turn of the spiral: 1 on a circle.
+    // Change of heading per turn around the spiral's centre: 1 on a circle.
     double bend(double u) const {
         constexpr double kStep = 1e-3;
         const double turned = headingOf(direction(u - kStep)) - headingOf(direction(u + kStep));
@@ -179,7 +179,7 @@ std::vector<double> passingTimes(const std::vector<glm::dvec3>& points) {
         times[k] = times[k - 1] + glm::length(points[k] - points[k - 1]);
     const double length = times.back();
     const double segments = static_cast<double>(points.size() - 1);
-    // A thousandth goes by number, so that times rise strictly whatever the ground.
+    // A thousandth of the time is spread evenly over the points, so that times always rise.
     for (std::size_t k = 0; k < points.size(); ++k) {
         const double share = length > 0 ? times[k] / length : 0.0;
         times[k] = kDefaultFlightSeconds * (0.999 * share + 0.001 * static_cast<double>(k) / segments);

@@ -1,4 +1,4 @@
-// Where to stand and how to fly when a scene does not say it: computed from any ground.
+// First pose and flight for scenes that define none, computed from any ground.
 #pragma once
 
 #include "engine/camera/recorded_path.h"
@@ -7,10 +7,10 @@
 namespace stereonav {
 
 // Returns a viewpoint over low ground near the border, well above it, facing the highest ground. clearance:
-// metres, >= 0, kept in any case. pitch: radians upwards.
+// least height above the ground in metres, >= 0. pitch: radians upwards.
 Pose defaultStartPose(const Heightfield& ground, double clearance, double pitch);
 
-// How long defaultFlight() takes, seconds.
+// Duration of defaultFlight(), seconds.
 constexpr double kDefaultFlightSeconds = 24.0;
 // Returns a fixed flight: an inward spiral scaled with the ground's extent, at even speed, looking ahead and
 // a little down, banking mildly. Everywhere along it, between samples too, the position is at least

@@ -1,4 +1,4 @@
-// Ground coloured by how it lies in the place of its tints: slope, aspect, or a hillshade.
+// Colours of the ground by its orientation instead of its tints: slope, aspect, or a hillshade.
 //
 // slope: nine classes in the sequential scheme YlOrRd of ColorBrewer (Harrower and Brewer 2003), by the
 // steepness of the file's heights, central differences as GroundPlace tells it.
@@ -21,23 +21,23 @@
 
 namespace stereonav {
 
-// Returns the paint of "slope", "aspect", "hillshade"; nothing for other words.
+// Returns the paint for "slope", "aspect" or "hillshade"; empty for other words.
 std::optional<GroundPaint> groundPaintNamed(const std::string& word);
 
-// Paints the ground. paint: not None. look: its light falls on slope and aspect. density: texels a sample
-// each way. Throws Cancelled.
+// Paints the ground. paint: not None. look: lights slope and aspect. density: texels per sample in each
+// direction. Throws Cancelled.
 GroundColor paintedGround(const Heightfield& ground, double verticalScale, GroundPaint paint,
                           const TerrainLook& look, Progress& progress, double density = kLitDensity);
 
-// Returns what the colours mean; nothing for a hillshade.
+// Returns a legend for the colours; empty for a hillshade.
 Legend legendOfPaint(GroundPaint paint);
 
-// Return colours by the slope or aspect of the file's heights: linear, without light. gradient: metres a
-// metre.
+// Return the colour for the slope or aspect of the file's heights: linear, without light. gradient: metres
+// per metre.
 glm::vec3 slopeColor(const glm::dvec2& gradient);
 glm::vec3 aspectColor(const glm::dvec2& gradient);
-// Returns Horn's differences at a sample, metres a metre; unknown neighbours count as the sample itself, and
-// an unknown sample as level.
+// Returns Horn's differences at a sample, metres per metre; an unknown neighbour counts as equal to the
+// sample, and an unknown sample as level.
 glm::dvec2 hornGradient(const Heightfield& ground, int i, int j);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// Ground to be shown while the tiles of a large one are made: some of its samples.
+// A ground to show while the tiles of a large one are being made, from some of its samples.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,12 @@
 
 namespace stereonav {
 
-// Reads at most file.standInSide, squared, samples of the whole ground, missing ones left open; every second,
-// fourth or eighth of them each way where all would take more than some 1.5 seconds to read. Of compressed
-// blocks without overviews as many as that time gives, and a smooth surface between (DemRows::readSpread()).
-// Returns nothing where these are slow too, where the ground has no more samples than that, or where it can
-// not be read: making the tiles then says why. whole: what DemRows gives of all of it.
+// Reads at most file.standInSide^2 samples of the whole ground; missing ones stay open. Takes every second,
+// fourth or eighth sample in each direction where reading all would take more than about 1.5 seconds. From
+// compressed blocks without overviews it takes as many blocks as can be read in that time, with a smooth
+// surface between (DemRows::readSpread()). Empty where these are too slow as well, where the ground has no
+// more samples than that, or where it can not be read, which making the tiles will report. whole: from
+// DemRows, for all of the ground.
 std::optional<Heightfield> standInGround(const SceneFile& file, const DemGrid& whole);
 
 }  // namespace stereonav

@@ -1,4 +1,5 @@
-// A terrain under baked light: what its scene keeps beside the lit texture so that the sun can move.
+// A terrain under baked light: the data that its scene keeps in addition to the lit texture so that the sun
+// can move.
 #pragma once
 
 #include <memory>
@@ -16,8 +17,8 @@ struct TerrainScene;
 
 class TerrainIllumination {
 public:
-    // How much of the light's variation is laid over a photo, which holds the light of its own day: half, so
-    // that the sun's place is seen without doubling every shadow.
+    // Share of the light's variation that is applied to a photo, which already contains the light of its day:
+    // half, so that the sun's position shows without doubling every shadow.
     static constexpr float kPhotoShare = 0.5f;
 
     // albedo: colours without light; share: TerrainRelight::Display::share.
@@ -29,28 +30,29 @@ public:
     // Lights other colours without light; `lit` has their size.
     void applyTo(const ColorTexture& albedo, const TerrainLook& look, ColorTexture& lit);
 
-    // Lights colours `plain` by light that was baked at some samples alone. They are lit by a plain light
-    // already, which is known at all samples: what is baked is laid over it as the quotient of both at the
-    // baked samples, so that what lies between them keeps its shades. plainLight: by baked sample, the mean
-    // of the samples around it.
+    // Lights `plain`, colours that a plain light has lit already, by light that was baked at fewer samples.
+    // The quotient of baked and plain light at the baked samples is laid over the colours, so that the shades
+    // between those samples stay. plainLight: the plain light at each baked sample, averaged over the samples
+    // around it.
     void applyOver(const TerrainLook& look, const ColorTexture& plain, const std::vector<float>& plainLight,
                    ColorTexture& lit);
 
-    // Lets the ground cast the sun's shadow from the next apply() on, for light without horizons.
+    // Lets the ground cast the sun's shadow from the next apply() on; for light that was baked without
+    // horizons.
     void castShadowsOf(const Heightfield& ground) { mCaster.emplace(ground, light().grid); }
     bool castsShadows() const { return mCaster.has_value(); }
-    // Takes openness at the same samples, which is shown after the next apply().
+    // Replaces the openness, at the same samples; it shows from the next apply() on.
     void takeOpenness(std::vector<std::uint8_t> openness) { mRelight.takeOpenness(std::move(openness)); }
 
-    // Takes light that was baked at finer samples, as a part of this: for parts of the ground. Null: there is
+    // Takes light that was baked at finer samples, for partLight() to hand to parts of the ground. Null:
     // none.
     void takeFiner(std::shared_ptr<const FineLight> fine) { mFine = std::move(fine); }
     const FineLight* finer() const { return mFine.get(); }
-    // Returns the light of the last apply(), for parts of the ground that are finer than it.
+    // Returns the light of the last apply(), to light parts of the ground that have finer samples.
     PartLight partLight(const Heightfield& ground, const TerrainLook& look) const;
 
-    // Returns the share of their strength that the sun's highlights have after the last apply(), by colour,
-    // as the ground's own light is shown: 1 with the sun 45 degrees high. It does not know of shadows.
+    // Returns the factor, by colour, on the sun's highlights after the last apply(): 1 with the sun 45
+    // degrees high. It has the exposure at which the ground's light is shown, but no shadows.
     const glm::vec3& highlightLight() const { return mHighlightLight; }
     // Returns the share of the sun's disc that is seen from the ground at a grid coordinate, 0..1. For a look
     // with highlights; 1 where no horizons were baked.
@@ -71,8 +73,8 @@ private:
     glm::vec3 mHighlightLight{1.0f};  // shares, by colour
     float mShare;
     std::optional<ShadowCaster> mCaster;  // none: shadows are baked, or there are none
-    std::vector<std::uint8_t> mHidden;    // what it says under mHiddenFrom
-    glm::dvec3 mHiddenFrom{0.0};          // unit, to the sun
+    std::vector<std::uint8_t> mHidden;    // ShadowCaster::hidden() for mHiddenFrom
+    glm::dvec3 mHiddenFrom{0.0};          // unit vector to the sun that mHidden was made for
     std::shared_ptr<const FineLight> mFine;
 };
 

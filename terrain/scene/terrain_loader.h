@@ -1,4 +1,4 @@
-// From a scene description to a terrain that can be cast.
+// Makes a terrain that can be cast from a scene description.
 #pragma once
 
 #include "engine/base/progress.h"

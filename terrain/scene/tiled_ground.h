@@ -1,5 +1,5 @@
-// Ground whose samples do not all fit into memory: they lie in tiles on disk, which are made when such a file
-// is first opened.
+// Ground whose samples do not all fit into memory: they lie in tiles on disk, which are made when the file is
+// first opened.
 #pragma once
 
 #include <memory>
@@ -13,30 +13,30 @@ namespace stereonav {
 class GroundLevels;
 struct TerrainScene;
 
-// Whether the file's ground goes into tiles: where it was wished, or where it takes more memory than can be
-// had and that was not ruled out. bytesOfSamples: returns the bytes that a scene of `samples` samples holds.
-// Throws Error as readDem() does.
+// Returns whether the file's ground is put into tiles: where that was requested, or where it would take more
+// memory than is available and tiles were not ruled out. bytesOfSamples: returns the bytes of a scene with
+// `samples` samples. Throws Error as readDem() does.
 bool goesIntoTiles(const SceneFile& file, double (*bytesOfSamples)(double samples));
 
-// Sets scene.tiled, and scene.ground to the finest level that leaves room for what lies around an eye. Where
-// tiles are not there yet and file.standInSide wishes so, and the file gives some samples of all of it soon:
-// scene.standIn and scene.ground. Missing samples stay open. Returns what readDem() does, without heights.
-// Throws Error: as readDem() does, and where the cache has no room for the tiles; Cancelled.
+// Sets scene.tiled, and scene.ground to the finest level that leaves memory for the ground around an eye. If
+// the tiles do not exist yet, file.standInSide asks for a stand-in, and the file can be sampled quickly, sets
+// scene.standIn and scene.ground instead. Missing samples stay open. Returns the result of readDem() without
+// heights. Throws Error: as readDem() does, and where the cache has no room for the tiles; Cancelled.
 DemGrid readTiledGround(const SceneFile& file, TerrainScene& scene, Progress& progress);
 
-// The levels alone, for who needs no scene; tiles are made where they are not there yet.
+// The levels of a ground without a scene; tiles are made if they do not exist yet.
 struct GroundInTiles {
-    DemGrid place;  // what readDem() gives, without heights
+    DemGrid place;  // result of readDem() without heights
     std::shared_ptr<const GroundLevels> levels;
 };
 // Throws as readTiledGround().
 GroundInTiles readGroundInTiles(const SceneFile& file, Progress& progress);
 
-// Returns the finest level that has at most `mostSamples` samples; the coarsest where none has.
+// Returns the finest level with at most `mostSamples` samples; the coarsest where there is none.
 int levelWithin(const GroundLevels& levels, double mostSamples);
 
-// The most samples held of a whole ground whose finest samples do not fit into memory: more would only take
-// longer to open.
+// Largest number of samples held of a whole ground whose finest samples do not fit into memory: more would
+// only take longer to open.
 constexpr double kMostCoarseSamples = 1 << 24;
 
 }  // namespace stereonav

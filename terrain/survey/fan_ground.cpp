@@ -6,7 +6,7 @@
 namespace stereonav {
 namespace {
 
-// A line over a fan: heights and rows by the distance in columns.
+// A line of sight over a fan: height and row by the distance in columns.
 struct FanLine {
     double eye, rise;  // metres; a column
     double row, tangent;
@@ -62,8 +62,8 @@ Passing FanGround::passing(double eye, double target, int column, int row, int f
     const FanLine line{eye, (target - eye) / reach, mMiddle, tangent, mFall * stretch(tangent), reach};
     // Rounding itself is less than an eighth of what is allowed for it.
     const double least = grazing / 8, most = 2 * grazing;
-    // Whether a sample that the line runs through may hide it where the cell is open: one beside it has
-    // ground.
+    // Returns whether a sample that the line runs through may hide it although the cell is open, since a cell
+    // beside it has ground.
     const auto beside = [&](int at, double x, double y) {
         const int sample = static_cast<int>(std::round(y));
         return x == distance(at) && isWhole(y) && height(at, sample) - line.heightAt(x) > least - line.bulge;

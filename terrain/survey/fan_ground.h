@@ -1,5 +1,5 @@
-// The ground as one of the four fans around an eye sees it: columns across the view, near ones first, and
-// lines of sight over a few of them.
+// The ground as one of four fans around an eye: columns across the view, near ones first. Tests lines of
+// sight over a few columns at a time.
 #pragma once
 
 #include <cmath>
@@ -10,18 +10,20 @@
 
 namespace stereonav {
 
-// How a line passes ground; Untold: too close to it to say.
+// How a line of sight passes the ground; Untold: too close to it to decide.
 enum class Passing { Clear, Hidden, Untold };
 
 class FanGround {
 public:
-    // eye: grid. fall: curvatureFall(), 1/metre. axis: 0 looks east (sign 1) or west (-1), 1 north or south.
+    // eye: grid coordinates. fall: curvatureFall(), 1/metre. axis: 0 looks east (sign 1) or west (-1); 1
+    // looks north or south.
     FanGround(const Heightfield& ground, const glm::dvec2& eye, double fall, int axis, int sign);
 
     int columns() const { return mColumns; }
     int rows() const { return mRows; }
     int sign() const { return mSign; }
-    // The first column that is a sample spacing away or more: 0 or 1. Nothing before it has bounds.
+    // Returns the first column at a distance of one sample spacing or more: 0 or 1. Columns before it have no
+    // bounds.
     int first() const { return mNearest < 1 ? 1 : 0; }
     // Returns the distance of a column from the eye, in columns; that of column -1 is 0 or below.
     double distance(int column) const { return mNearest + column; }
@@ -29,27 +31,28 @@ public:
     double step() const { return mStep; }      // metres a column
     double across() const { return mAcross; }  // metres a row
     double fall() const { return mFall; }      // 1/metre
-    // Returns (length over distance in columns)^2 along a tangent (rows a column), square metres.
+    // Returns (length / distance in columns)^2 along a tangent (rows per column), square metres.
     double stretch(double tangent) const { return mStep * mStep + tangent * tangent * mAcross * mAcross; }
     // Returns the sample (i, j) of the ground.
     glm::ivec2 sample(int column, int row) const {
         const int along = mStart + mSign * column;
         return mAxis == 0 ? glm::ivec2(along, row) : glm::ivec2(row, along);
     }
-    // Returns metres; column: -1 or more.
+    // Returns the height in metres; column: -1 or more.
     float height(int column, int row) const { return mData[column * mAlongStride + row * mAcrossStride]; }
-    // Returns heights of a column from a row on, and how far one row is from the next.
+    // Returns the heights of a column from a row on. stride: set to the step from one row to the next.
     const float* row(int column, int first, std::ptrdiff_t* stride) const {
         *stride = mAcrossStride;
         return mData + column * mAlongStride + first * mAcrossStride;
     }
-    // Writes 0 for each of some samples that is known with all beside it, and so all that it is a corner of;
-    // NaN for the others.
+    // Writes 0 for each of `rows` samples that is known together with its eight neighbours, so that all cells
+    // around it are known; NaN for the others.
     void firm(int column, int firstRow, int rows, float* zeros) const;
 
-    // Returns how the line from `eye` metres up to a height, metres, in a sample of a column passes the
-    // ground between two columns: its cells as SightLines would look at them. Untold where the ground lies
-    // over the line by what SightLines may take for rounding, `grazing` metres or a part of it.
+    // Returns how the line from `eye` metres above the datum to `target` metres at sample (column, row)
+    // passes the ground between two columns, in the cells that SightLines would test. Untold where the ground
+    // rises over the line by no more than SightLines may take for rounding, which is `grazing` metres or a
+    // part of it.
     Passing passing(double eye, double target, int column, int row, int fromColumn, int toColumn,
                     double grazing) const;
 

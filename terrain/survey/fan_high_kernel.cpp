@@ -1,4 +1,5 @@
-// What no ray of a fan's bins has exceeded. Compiled once for each instruction set.
+// Raises the upper bounds of a fan's bins: slopes that no ray in them exceeds. Compiled once for each
+// instruction set.
 //
 // Between two columns a bin's ground is a polygon in each cell. Over it the surface less a slope is a saddle,
 // so it is largest on the border: at the samples inside the bin, or along one of the two rays at its edges.

@@ -1,5 +1,5 @@
-// A part of a fan around an eye, swept outward column by column: bounds of its bins, and what of its samples
-// is seen (terrain/survey/viewshed.h says how).
+// A part of a fan around an eye, swept outward column by column: finds bounds of its bins, and the visibility
+// of its samples (method: terrain/survey/viewshed.h).
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct FanKernels {
     decltype(&plain::walkSamples) walkSamples;
 };
 
-// Answers one line at a time. What that takes is made when the first one is asked for: mostly none is.
+// Tests one line at a time. Its data are made for the first line that is tested, since mostly there is none.
 class SingleLines {
 public:
     SingleLines(const Heightfield& ground, double fall) : mGround(ground), mFall(fall) {}
@@ -54,35 +54,35 @@ struct FanTask {
     const FanKernels& kernels;
     glm::dvec3 eye;                    // x, y in the grid's units, z in metres
     double fall, targetHeight, reach;  // ViewshedSetting's: 1/metre, metres, metres
-    double grazing;                    // metres that no line may lie under the ground by
+    double grazing;                    // metres: no line that counts as seen lies farther below the ground
     Plane<std::uint8_t>& seen;         // Seen
 };
 
 // Numbers of samples.
 struct FanCounts {
-    // Seen; not known; walked over the last columns; walked further; walked in doubles.
+    // Numbers of samples that are seen; unknown; tested over the last columns; tested over all columns;
+    // tested in doubles.
     long long visible = 0, unknown = 0, near = 0, all = 0, alone = 0;
 };
 
 class FanSweep {
 public:
-    // Prepares one of some parts of a fan: tasks for threads.
+    // Prepares one of `parts` parts of a fan, which are tasks for threads.
     FanSweep(const FanTask& task, int axis, int sign, int part, int parts);
     // Sets FanTask::seen of all samples of the part.
     FanCounts run();
 
 private:
-    static constexpr int kLag = 2;    // columns behind the samples that the upper bounds end at
-    static constexpr int kBlock = 4;  // columns of which upper bounds are kept together
+    static constexpr int kLag = 2;    // number of columns between the samples and the end of the upper bounds
+    static constexpr int kBlock = 4;  // number of columns that share stored upper bounds
 
-    // Rows of a column that the part may ask for, over the eye: with what low bounds, and what high ones
-    // need.
+    // Rows of a column that the part may need, above the eye, with data for lower and upper bounds.
     struct Column {
         int start = 0, rows = 0;
         bool holes = false;
         float* height = nullptr;  // heights in mStore
-        std::vector<float> tops;  // what ReadRow::tops points to
-        std::vector<float> firm;  // where there are holes
+        std::vector<float> tops;  // target of ReadRow::tops
+        std::vector<float> firm;  // used where there are holes
     };
 
     int bins() const { return mBins; }
@@ -90,16 +90,16 @@ private:
     void split();
     void makeStore();
     void read(int at, Column& column);
-    // The bins over a column that lie on the ground, in part at least: first and one past the last.
+    // Returns the bins over a column that lie at least partly on the ground: first, and one past the last.
     glm::ivec2 binsOver(double x) const;
     FanBins binsAt(double x, double fallAt, const glm::ivec2& range, int start, float slack) const;
-    float slackOf(int rows) const;  // rows: in a buffer, so far
+    float slackOf(int rows) const;  // rows: in a buffer, up to now
     void raiseLowAt(int at, const Column& column);
     void raiseHighAt(int at, const Column& near, const Column& far);
     double slopeBeside() const;
     void endBlock();
     void samplesAt(int at, const Column& column);
-    // First and last row of a column whose samples are this part's.
+    // Returns the first and last row of a column whose samples belong to this part.
     glm::ivec2 ownRows(double x) const;
     void samplesOneByOne(int at, const glm::ivec2& rows);
     void walk(int at, const Column& column);
@@ -114,23 +114,23 @@ private:
     const FanTask& mTask;
     const Heightfield& mHeights;
     const FanGround mGround;
-    double mFrom, mTo;          // tangents, rows a column
-    bool mOpenFrom, mClosedTo;  // whether mFrom is left out, and mTo is part of the fan
-    // Metres over the eye, and from row to row, the most in the columns so far.
+    double mFrom, mTo;          // tangents, rows per column
+    bool mOpenFrom, mClosedTo;  // mFrom is excluded; mTo is included
+    // Metres: largest height above the eye, and largest difference from row to row, in the columns so far.
     float mTallest = 0, mSteepest = 0;
-    // Metres a column: no slope up to the first column is above it.
+    // Metres per column: upper bound of all slopes up to the first column.
     double mBeside = std::numeric_limits<double>::infinity();
     int mBins = 1;
-    std::vector<float> mLow, mHigh, mEdge;  // slopes, metres a column
+    std::vector<float> mLow, mHigh, mEdge;  // slopes, metres per column
     std::vector<std::uint16_t> mOpen, mAbove;
-    std::vector<float> mBlock;  // upper bounds of the last columns, which are kBlock or less
-    // Upper bounds of the columns before, in the bins that there were at the end of each block.
+    std::vector<float> mBlock;  // upper bounds of the last columns, at most kBlock of them
+    // Upper bounds of the columns before, by the bins at the end of each block.
     std::vector<std::vector<float>> mKept;
     std::vector<WalkBlock> mBlocks;  // mKept, and the last one
     std::vector<float> mStore;       // heights of all columns so far, metres over the eye
     std::size_t mStored = 0;
-    bool mHoles = false;  // in any column so far
-    int mLastStart = 0;   // start of the column before
+    bool mHoles = false;  // in some column so far
+    int mLastStart = 0;   // mStart of the column before
     std::vector<WalkColumn> mWalkColumns;
     std::vector<int> mWalkRows;
     std::vector<std::uint8_t> mWalkAbove, mTold;

@@ -1,4 +1,4 @@
-// Bins that a column can not raise are found by the tallest of some of its rows, for kernels.
+// Finds bins that a column can not raise, from the largest heights of groups of its rows; for kernels.
 #pragma once
 
 #include <limits>
@@ -8,8 +8,8 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Returns a height, metres over the eye, no less than the surface between two rows, and a row beside them.
-// tops: ReadRow's.
+// Returns a height in metres above the eye that is at least that of the surface between two rows, and a row
+// beside them. tops: ReadRow::tops.
 STEREONAV_INLINE float tallestBetween(const float* tops, int rows, float from, float to) {
     const auto group = [&](float row) {
         const int whole = static_cast<int>(row);

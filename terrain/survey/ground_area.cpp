@@ -36,7 +36,7 @@ double crossOf(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// One cell, or what continues the last one.
+// A cell of the grid. Outside the grid it is the nearest cell, continued.
 struct Cell {
     int i, j;
     double a, b, c, twist;
@@ -52,7 +52,7 @@ struct Cell {
         const double u = g.x - i, v = g.y - j;
         return a + (b - a) * u + (c - a) * v + twist * u * v;
     }
-    // Area of the surface over one of the plan.
+    // Area of the surface per area of the plan.
     double stretch(const glm::dvec2& g) const {
         const glm::dvec2 slope = glm::dvec2(b - a + twist * (g.y - j), c - a + twist * (g.x - i)) / spacing;
         return std::sqrt(1 + glm::dot(slope, slope));
@@ -64,7 +64,8 @@ struct Triangle {
     double area() const { return 0.5 * crossOf(b - a, c - a); }  // signed, grid units
 };
 
-// Seven places, exact for polynomials to the fifth degree (Radon 1948).
+// Returns the surface's area over a triangle, by a quadrature with seven points that is exact for polynomials
+// of degree 5 (Radon 1948).
 double surfaceOver(const Cell& cell, const Triangle& t) {
     const double root = std::sqrt(15.0);
     const glm::dvec2 middle = (t.a + t.b + t.c) / 3.0;
@@ -76,8 +77,8 @@ double surfaceOver(const Cell& cell, const Triangle& t) {
     return sum * t.area();
 }
 
-// Returns what is over and under a plane, in metres of height times the triangle's area. The middles of the
-// sides are exact for the second degree.
+// Returns the volumes above and below a plane, in metres of height times the triangle's area. Quadrature at
+// the middles of the sides, exact for degree 2.
 glm::dvec2 volumeOver(const Cell& cell, const Triangle& t, double plane, int halvings) {
     const glm::dvec2 ab = 0.5 * (t.a + t.b), bc = 0.5 * (t.b + t.c), ca = 0.5 * (t.c + t.a);
     const double corner[3] = {cell.height(t.a) - plane, cell.height(t.b) - plane, cell.height(t.c) - plane};
@@ -131,8 +132,8 @@ void addCell(const Cell& cell, const Corners& part, double plane, PartSum& sum) 
     }
 }
 
-// A row of cells of an outline: its border there, and how often it goes around the cells that no border
-// crosses.
+// A row of cells that an outline covers: the part of the outline in the row, and the winding number of cells
+// that its border does not cross.
 class CellRow {
 public:
     CellRow(const Corners& outline, int row)
@@ -164,7 +165,7 @@ private:
     struct Edge {
         double low, high, down;
     };
-    // Returns how often the border winds around a cell; nothing where it crosses the cell.
+    // Returns the border's winding number around a cell; empty where the border crosses the cell.
     std::optional<int> timesAround(int i) const {
         double times = 0;
         for (const Edge& edge : mEdges) {
@@ -186,12 +187,12 @@ private:
     std::vector<Edge> mEdges;
 };
 
-// Calls each(cell, part of it, sum) for all cells of an outline. Rows are summed side by side, and their sums
-// in their order.
+// Calls each(cell, part of it, sum) for all cells of an outline. Rows are summed in parallel, then their sums
+// are added in the order of the rows.
 template <typename Each>
 PartSum sumOver(const GroundSamples& ground, const Corners& outline, const Each& each,
                 const ShareDone& done) {
-    constexpr int kRows = SurveyTiles::kSide;  // at once, so that tiles which are read are worked off
+    constexpr int kRows = SurveyTiles::kSide;  // rows at once: one tile high, so that each tile is read once
     const auto [south, north] = std::minmax_element(
         outline.begin(), outline.end(), [](const glm::dvec2& a, const glm::dvec2& b) { return a.y < b.y; });
     const int end = static_cast<int>(std::ceil(north->y));
@@ -227,7 +228,7 @@ AreaMeasure measureArea(const GroundSamples& ground, const std::vector<glm::dvec
         ground, onGrid(ground, corners),
         [plane](const Cell& cell, const Corners& part, PartSum& sum) { addCell(cell, part, plane, sum); },
         done);
-    // Clockwise or not is the same area.
+    // The sign of the area depends on the direction of the outline, clockwise or not.
     const double sign = all.plan < 0 ? -1 : 1, unit = sign * ground.spacing().x * ground.spacing().y;
     AreaMeasure measure;
     measure.plan = all.plan * unit, measure.along = all.along * unit;
@@ -258,7 +259,7 @@ AreaMeasure errorsOfArea(const GroundSamples& ground, const std::vector<glm::dve
         for (const auto figure : kFigures) values.push_back(measure.*figure);
         return values;
     };
-    constexpr double kPart = 0.25;  // each of the four thinned grounds
+    constexpr double kPart = 0.25;  // share of the work for each of the four thinned grounds
     double before = 0;
     const std::vector<double> found =
         errorsOfSpacing(ground, valuesOf(measured), [&](const GroundSamples& other, const glm::dvec2& shift) {

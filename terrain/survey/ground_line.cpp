@@ -58,7 +58,7 @@ std::vector<double> crossings(const glm::dvec2& from, const glm::dvec2& to) {
             shares.push_back((line - from[axis]) / (to[axis] - from[axis]));
     }
     std::sort(shares.begin(), shares.end());
-    // A crossing of both at once, but for rounding, is one.
+    // A crossing of a row and a column at the same place, except for rounding, counts as one.
     constexpr double kSame = 1e-12;
     shares.erase(std::unique(shares.begin(), shares.end(), [](double a, double b) { return b - a < kSame; }),
                  shares.end());

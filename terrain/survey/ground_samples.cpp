@@ -14,8 +14,8 @@ SurveyTiles::SurveyTiles(std::shared_ptr<const GroundLevels> levels, int level, 
       mTiles((mLevels->size(level) + kSide - 1) / kSide),
       mPlaces(static_cast<std::size_t>(mTiles.x) * mTiles.y, mKept.end()) {}
 
-// Not under the mutex: reading may work in parallel, and who waits there may be given another piece of work
-// that asks for tiles.
+// Called without the mutex: reading may run in parallel, and a thread that waits in it may be given other
+// work that asks for tiles.
 std::shared_ptr<const SurveyTiles::Tile> SurveyTiles::read(const glm::ivec2& number) const {
     const glm::ivec2 low = number * kSide, size = glm::min(mLevels->size(mLevel) - low, glm::ivec2(kSide));
     Tile samples(static_cast<std::size_t>(size.x) * size.y);

@@ -1,5 +1,5 @@
-// The samples of a ground for what follows lines and outlines over it, wherever they lie: all in memory, or
-// in tiles on disk, which are read as they are reached.
+// The samples of a ground for measurements along lines and outlines: all in memory, or in tiles on disk that
+// are read when they are needed.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@
 
 namespace stereonav {
 
-// Tiles of one level of a stored ground: those that were asked for last are kept, kMostBytes of them. From
-// any thread.
+// Tiles of one level of a stored ground: the most recently used are kept, up to kMostBytes of them. From any
+// thread.
 class SurveyTiles {
 public:
-    static constexpr int kSide = 256;  // samples, as they lie on disk
+    static constexpr int kSide = 256;  // samples, as on disk
     static constexpr std::size_t kMostBytes = std::size_t(128) << 20;
     using Tile = std::vector<float>;  // metres, kSide * kSide, NaN where missing and beyond the ground
 
@@ -28,12 +28,12 @@ public:
 
     const GroundLevels& levels() const { return *mLevels; }
     int level() const { return mLevel; }
-    // Returns a tile by its column and row of tiles. Throws Error where it can not be read.
+    // Returns a tile by its column and row in the grid of tiles. Throws Error where it can not be read.
     std::shared_ptr<const Tile> tile(const glm::ivec2& number);
 
 private:
     struct Kept {
-        std::size_t place;  // in mPlaces
+        std::size_t place;  // index in mPlaces
         std::shared_ptr<const Tile> tile;
     };
     std::shared_ptr<const Tile> read(const glm::ivec2& number) const;
@@ -43,22 +43,22 @@ private:
     const std::size_t mMost;  // tiles
     glm::ivec2 mTiles{0};
     std::mutex mMutex;
-    std::list<Kept> mKept;                           // the newest first
+    std::list<Kept> mKept;                           // most recently used first
     std::vector<std::list<Kept>::iterator> mPlaces;  // by tile; mKept.end(): not kept
 };
 
-// The samples of a ground. World and grid are Heightfield's: figures of both kinds are equal to the last bit.
-// One object is for one thread; copies are cheap, and share the tiles.
+// The samples of a ground. World and grid are those of Heightfield: results for samples in memory and in
+// tiles are equal to the last bit. One object is for one thread; copies are cheap, and share the tiles.
 class GroundSamples {
 public:
-    // ground must outlive the object.
+    // ground must outlive this object.
     GroundSamples(const Heightfield& ground);  // NOLINT: a ground is its samples
     explicit GroundSamples(std::shared_ptr<SurveyTiles> tiles);
 
     int width() const { return mSize.x; }  // samples, >= 2
     int height() const { return mSize.y; }
     glm::dvec2 spacing() const { return mSpacing; }  // metres
-    float minHeight() const { return mLow; }         // metres; of a thinned ground those of all of it
+    float minHeight() const { return mLow; }         // metres; for a thinned ground that of the whole one
     float maxHeight() const { return mHigh; }        // metres
 
     glm::dvec2 gridFromWorld(const glm::dvec2& world) const { return (world - mOrigin) / mSpacing; }
@@ -75,10 +75,10 @@ public:
     }
     double heightAt(const glm::dvec2& world) const;  // the same as Heightfield::heightAt()
 
-    // Returns every second sample from (firstX, firstY) on, in a world whose origin lies `shift` metres from
-    // this one's. This ground has four samples or more each way.
+    // Returns every second sample from (firstX, firstY) on. shift: set to the place of the new origin in this
+    // world, metres. Requires four samples or more in each direction.
     GroundSamples thinned(int firstX, int firstY, glm::dvec2& shift) const;
-    // Returns the same ground with its heights divided by that.
+    // Returns the same ground with its heights divided by `scale`.
     GroundSamples dividedBy(double scale) const;
 
 private:

@@ -1,4 +1,4 @@
-// Where a ground has samples that are not known, tile by tile: most of it has none.
+// Finds missing samples of a ground quickly: stores for each tile whether it has any.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ class HoleTiles {
 public:
     explicit HoleTiles(const Heightfield& ground);
 
-    // Returns whether any may be missing among the samples from `low` to `high`; beside the ground none is.
+    // Returns whether samples from `low` to `high` may be missing; samples outside the ground are not.
     bool any(const glm::ivec2& low, const glm::ivec2& high) const;
 
 private:
     static constexpr int kSide = 16;  // samples
 
-    int mWidth = 0, mHeight = 0;  // tiles; none: no holes
+    int mWidth = 0, mHeight = 0;  // in tiles; 0: the ground has no holes
     std::vector<std::uint8_t> mHoles;
 };
 

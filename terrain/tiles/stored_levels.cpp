@@ -12,7 +12,7 @@
 namespace stereonav {
 namespace {
 
-// Scales a height as readDem() does. A bound holds for those that were rounded, too.
+// Scales a height with the same rounding as readDem(). Bounds have to include that rounding.
 float scaledHeight(float height, double by) {
     return static_cast<float>(height * by);
 }
@@ -21,7 +21,8 @@ float scaledHeight(float height, double by) {
 
 StoredLevels storedLevels(std::shared_ptr<const TileStore> store, const glm::dvec2& spacing,
                           double verticalScale) {
-    constexpr double kRounding = 0x1p-23;  // share of a height, both levels' and the ground's
+    // Rounding error as a share of a height, of both the level's and the ground's.
+    constexpr double kRounding = 0x1p-23;
     StoredLevels levels;
     levels.size = store->size(0);
     levels.spacing = spacing;

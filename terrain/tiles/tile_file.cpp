@@ -14,7 +14,7 @@ TileFilePlan::TileFilePlan(const glm::ivec2& size) {
     }
     std::uint64_t at = sizeof(TileFileHead);
     for (Level& level : mLevels) {
-        level.checks = at;  // first, so that both begin at a multiple of their size
+        level.checks = at;  // checks come first, so that both parts begin at a multiple of their size
         at += sizeof(std::uint64_t) * level.tileCount();
     }
     for (Level& level : mLevels) {

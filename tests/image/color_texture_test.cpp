@@ -88,7 +88,7 @@ TEST(ColorTexture, ReadsPlacesBetweenTexelsAndLevels) {
                 const glm::vec3 here = unpackColor(level.at(x, y));
                 for (int c = 0; c < 3; ++c)
                     EXPECT_NEAR(texture.at(gridOf(x + 0.5, y + 0.5), k)[c], here[c], 1e-5);
-                // Halfway to the east, in roots; the last texel counts on.
+                // Halfway to the east, in roots; the last texel is repeated.
                 const glm::vec3 between =
                     0.5f * (root(here) + root(unpackColor(level.at(std::min(x + 1, level.width() - 1), y))));
                 for (int c = 0; c < 3; ++c)

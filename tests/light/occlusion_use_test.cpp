@@ -142,7 +142,7 @@ TEST(OcclusionUse, GradientModulates) {
                 ASSERT_EQ(cut.at(i, j, k), 255);
             }
     EXPECT_LT(modulation.at(0, 5, 4),
-              128);  // beyond the face the outermost counts on: half the slope along i
+              128);  // beyond the face the outermost is repeated: half the slope along i
     OpennessVolume one(VolumeFrame{glm::ivec3(1), glm::dvec3(1e-3)});
     one.at(0, 0, 0) = 200;
     EXPECT_EQ(gradientModulation(one, 0.1).at(0, 0, 0), 0);

@@ -10,8 +10,8 @@ struct ShownPanels {
     // A column of panels at one side of the picture.
     struct Column {
         bool shown = false;
-        float width = 22;  // in heights of letters
-        float taken = 0;   // width in the last layout, in units
+        float width = 22;  // multiples of a letter's height
+        float taken = 0;   // width in the last layout, in units of the interface
     };
     // The part that is left for the picture, in units of the interface: corner and size.
     struct Rest {
@@ -30,7 +30,7 @@ struct ShownPanels {
     Column left;             // places, map, slices
     Column side;             // panels at the right
     bool unfolded = false;   // the unfolded wall, a strip below the picture
-    // The last layout, in units.
+    // Sizes in the last layout, in units of the interface.
     bool beside = true;                     // whether columns take their room from the picture
     float above = 0, below = 0, strip = 0;  // heights of menu bar, status bar and strip
 };

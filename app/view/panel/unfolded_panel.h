@@ -45,7 +45,7 @@ private:
     enum ViewOfWall : std::size_t { kLaidFlat, kBothEnds, kViews };
     struct View {
         Made made;
-        bool begun = false;   // it is not begun again automatically
+        bool begun = false;   // a failed attempt is not repeated automatically
         std::string problem;  // reason why there is none, one line
     };
     // The visible part: units of the interface per pixel, and the pixel in the upper left corner.
@@ -85,9 +85,9 @@ private:
 
     BesideWork<Made> mWork, mPainting;
     ViewOfWall mMaking = kLaidFlat;        // view that mWork makes
-    std::weak_ptr<const Scene> mMakingOf;  // scene that mWork makes it of
+    std::weak_ptr<const Scene> mMakingOf;  // scene of the view that mWork makes
     double mPaintNext = 0;                 // time of the next repainting on the window's clock
-    std::weak_ptr<const Scene> mOf;        // scene of the views
+    std::weak_ptr<const Scene> mOf;        // scene whose views are kept
     std::array<View, kViews> mViews;
     ViewOfWall mView = kLaidFlat;
     PanelTexture mTexture;  // texture of the picture that is shown

@@ -39,8 +39,8 @@ private:
     bool mReadable;
 };
 
-// Attributes of the patient and the study, which are the same in all documents of a study. What is damaged in
-// the study's own heads is taken over as it is there.
+// Adds attributes of the patient and the study, which are the same in all documents of a study. Damaged ones
+// are copied as they are.
 void addSource(const StudySource& source, DSRDocument& document) {
     Characters text(source.characters);
     check(document.setPatientName(text(source.patientName), OFFalse), "the patient's name");
@@ -112,7 +112,7 @@ std::string bytesOf(DcmFileFormat& file) {
 }  // namespace
 
 std::string structuredReportFile(const StructuredReport& report) {
-    OFLog::configure(OFLogger::OFF_LOG_LEVEL);  // what is wrong is thrown
+    OFLog::configure(OFLogger::OFF_LOG_LEVEL);  // failures are reported as exceptions
     DSRDocument document;
     addAttributes(report, document);
     addContent(report, document);

@@ -1,5 +1,5 @@
-// A bake's sums in a file, so that the next run goes on from there and scenes open with their light. What the
-// file holds is written out in docs/formats.md, byte for byte.
+// A bake's sums in a file, so that the next run continues from there and scenes open with their light.
+// docs/formats.md defines the file byte for byte.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@
 
 namespace stereonav {
 
-// Everything that the texels' light depends on; bakes with the same key may go on from each other.
+// Everything that the texels' light depends on; bakes with the same key may continue each other.
 struct BakeInputs {
-    std::uint64_t content = 0;  // the volume's contentHash(), or what stands for it
-    LightSetup light;           // all of it for irradiance; for transfer albedo and bounces
+    std::uint64_t content = 0;  // the volume's contentHash(), or a value in its place
+    LightSetup light;           // for irradiance all of it counts; for transfer albedo and bounces
     TexelSampling sampling;
     VolumeFrame texels;
-    TexelChoice choice;  // the region counts as a part of `content`
+    TexelChoice choice;  // its region is covered by `content`
     BakeShape shape;
 };
 std::uint64_t bakeKey(const BakeInputs& inputs);
 
 // Returns a hash of all values and the frame.
 std::uint64_t contentHash(const GreyVolume& volume);
-// Returns a hash of the values at texels of bricks alone (whose grid is the volume's): for volumes that are
-// known near a wall only. The region is counted in whole.
+// Returns a hash of only the values at texels of bricks (whose grid is the volume's), for volumes that are
+// known only near a wall. The whole region is hashed as well.
 std::uint64_t contentHashNear(const GreyVolume& volume, const MaskVolume& region,
                               std::span<const TexelBrick> bricks);
 
@@ -34,8 +34,9 @@ std::uint64_t contentHashNear(const GreyVolume& volume, const MaskVolume& region
 std::filesystem::path bakeCacheFile(std::uint64_t key);
 
 struct BakeIdentity {
-    std::uint64_t key = 0;      // bakeKey()
-    std::uint64_t content = 0;  // BakeInputs::content: whether light that someone names is of this volume
+    std::uint64_t key = 0;  // bakeKey()
+    // BakeInputs::content, by which light that a user names is checked to be for this volume.
+    std::uint64_t content = 0;
 };
 
 struct BakeFile {
@@ -43,14 +44,13 @@ struct BakeFile {
     BakeSums sums;
 };
 
-// Reads a bake. Returns nothing when there is no such file, and when it is of no use: then `problem` says
-// why, in a clause ("is cut off: ..."), else it is empty. Throws for nothing that is in the file, but Error
-// where the disk reports an error; sizes are checked before memory is taken. key: that it must have; none:
-// any.
+// Reads a bake. Empty where there is no such file, and where it is not usable: then `problem` says why, in a
+// clause ("is cut off: ..."), else it is "". Never throws for the file's content, but throws Error where the
+// disk reports an error; sizes are checked before memory is taken. key: required key; empty: any.
 std::optional<BakeFile> readBakeFile(const std::filesystem::path& file, std::optional<std::uint64_t> key,
                                      std::string& problem);
 
-// Returns whether the file is there and begins as no bake does, so that it should not be written over.
+// Returns whether the file exists and does not begin like a bake, so that it should not be overwritten.
 bool isForeignFile(const std::filesystem::path& file);
 
 // Writes the file beside its place and renames it. Throws Error.

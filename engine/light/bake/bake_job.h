@@ -1,5 +1,5 @@
-// Adds samples to all texels of a bake, in passes that double, until there are enough of them, the error is
-// small enough, the time is up, or someone cancels: what is done is kept in the sums.
+// Adds samples to all texels of a bake, in passes that double, until the wished number of samples or error is
+// reached, the time is up, or the bake is cancelled. The sums keep all that was done.
 #pragma once
 
 #include <functional>

@@ -111,7 +111,7 @@ std::uint32_t BakeSums::fewestSamples() const {
     return samples.empty() ? 0 : *std::min_element(samples.begin(), samples.end());
 }
 
-// Adds in the order of the bricks, so that it is the same number however the bricks were shared out.
+// Adds in the order of the bricks, so that the result does not depend on which process lit which brick.
 double BakeSums::error() const {
     BrickEstimate all;
     for (const BrickEstimate& e : estimates) {
@@ -141,7 +141,8 @@ IlluminationVolume illuminationOf(const BakeSums& sums, float unit) {
 }
 
 float lightUnitOf(const BakeSums& sums) {
-    // Halves lose digits below 2^-14; what is that much darker than the mean is black in any picture.
+    // Half-precision numbers lose digits below 2^-14. At a mean of 2^-7 or more, what falls below that is 128
+    // times darker than the mean: black in any picture.
     constexpr double kDimmest = 0x1p-7;
     double sum = 0, count = 0, brightest = 0;
     for (std::size_t n = 0; n < sums.bricks().size(); ++n)

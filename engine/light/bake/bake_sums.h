@@ -1,5 +1,6 @@
-// The sums of a bake so far, brick by brick: enough to go on from, to tell its error, and to make the volumes
-// that are looked up. Between texels that were chosen (bake_texels.h) and the bake's file.
+// The sums of a bake so far, brick by brick: they allow the bake to continue, to estimate its error, and to
+// make the volumes that renderers look up. The step between the chosen texels (bake_texels.h) and the bake's
+// file.
 #pragma once
 
 #include <cstdint>
@@ -33,17 +34,18 @@ struct BakeShape {
     }
 };
 
-// A brick's texels added up; the relative error is the root of variance / square.
+// Sums over a brick's texels; the relative error is the root of variance / square.
 struct BrickEstimate {
-    double variance = 0;  // the sum over the means; infinite where there are too few samples to tell
-    double square = 0;    // the sum over the squared means
+    // Variance of the means, summed; infinite where there are too few samples for an estimate.
+    double variance = 0;
+    double square = 0;  // squared means, summed
 };
 
 class BakeSums {
 public:
     BakeSums() = default;
-    // bricks: by number, none without texels. beside: bytes that what lights them will take
-    // (TexelLighter::bytesToCome). Throws Error where there is less memory.
+    // bricks: ordered by number, each with at least one texel. beside: bytes that lighting them will take in
+    // addition (TexelLighter::bytesToCome). Throws Error where that is more than the available memory.
     BakeSums(const VolumeFrame& texels, std::vector<TexelBrick> bricks, const BakeShape& shape,
              std::size_t beside = 0);
 
@@ -57,22 +59,22 @@ public:
     // Sums of irradiance and openness of a brick's texels, in the order of texelsIn().
     std::span<TexelSum> light(std::size_t brick);
     std::span<const TexelSum> light(std::size_t brick) const;
-    // Transfer: sums of samples, numbersPerTexel() a texel, and whether texels lie on a surface.
+    // Transfer: sums of samples, numbersPerTexel() per texel, and whether texels lie on a surface.
     std::span<float> transfer(std::size_t brick);
     std::span<const float> transfer(std::size_t brick) const;
     std::span<std::uint8_t> alive(std::size_t brick);
     std::span<const std::uint8_t> alive(std::size_t brick) const;
 
-    // Samples that each texel of a brick has had, and what they tell of its error.
+    // Number of samples that each texel of a brick has had, and the estimate of the brick's error.
     std::vector<std::uint32_t> samples;
     std::vector<BrickEstimate> estimates;
     std::uint32_t fewestSamples() const;
-    // Returns the estimated relative RMSE over all texels; infinite while it can not be told; 0 for no light
-    // at all.
+    // Returns the estimated relative RMSE over all texels; infinite while there is no estimate; 0 without any
+    // light.
     double error() const;
 
-    // Writes the brick's part of what is looked up: means by `unit` with weight 1 where there is a surface,
-    // else nothing.
+    // Writes the brick's part of a volume for lookups: means divided by `unit` with weight 1 where there is a
+    // surface; nothing elsewhere.
     void writeLight(std::size_t brick, IlluminationVolume& to, float unit = 1) const;
 
 private:
@@ -80,24 +82,24 @@ private:
     TexelLayout mLayout;
     BakeShape mShape;
     std::vector<TexelBrick> mBricks;
-    std::vector<std::size_t> mFirst;  // texel of each brick, and one behind the last
+    std::vector<std::size_t> mFirst;  // index of each brick's first texel; at the end the number of texels
     LazyArray<TexelSum> mLight;
     LazyArray<float> mTransfer;
     LazyArray<std::uint8_t> mAlive;
 };
 
-// Returns irradiance and openness, as shares of `unit`.
+// Returns irradiance and openness, divided by `unit`.
 IlluminationVolume illuminationOf(const BakeSums& sums, float unit = 1);
-// Returns a unit by which half floats hold the light: 1 where they hold it as it is, else a power of two near
-// its mean.
+// Returns the unit in which half floats can hold the light: 1 where that suffices, else a power of two near
+// the mean of the light.
 float lightUnitOf(const BakeSums& sums);
-// Returns transfer, without the texels that lie on no surface.
+// Returns transfer, without texels that lie on no surface.
 TransferVolume transferOf(const BakeSums& sums);
 
-// Returns variances and squares of the luminance of a brick's texels.
+// Returns the estimate from the luminance of a brick's texels.
 BrickEstimate estimateOf(std::span<const TexelSum> texels);
-// Returns the estimate from sums over `countBefore` samples and sums over all `count`: the two parts are
-// independent estimates.
+// Returns the estimate from sums over the first `countBefore` samples and sums over all `count`: the samples
+// before and after are independent estimates.
 BrickEstimate estimateOf(std::span<const float> before, std::uint32_t countBefore, std::span<const float> all,
                          std::uint32_t count);
 

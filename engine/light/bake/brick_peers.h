@@ -1,5 +1,5 @@
-// Bricks of a bake as they go from one process to another and back (engine/peers): what has been added up,
-// and how far it is to go.
+// Messages between the processes of a bake (engine/peers): orders to light bricks, and the sums that come
+// back.
 #pragma once
 
 #include <span>
@@ -10,7 +10,8 @@
 
 namespace stereonav {
 
-// Bricks by runs, a piece of work each: many for each process, so that all are done at about the same time.
+// Groups bricks into runs, each a piece of work: many for each process, so that all processes finish at about
+// the same time.
 class BrickRuns {
 public:
     // bricks must outlive the object.
@@ -24,13 +25,13 @@ private:
     std::size_t mEach;
 };
 
-// Returns the order to bring these bricks to `target` samples within `seconds`.
+// Returns the order to add samples to these bricks up to `target`, within `seconds`.
 PeerBytes orderOf(const BakeSums& sums, std::span<const std::size_t> bricks, std::uint32_t target,
                   double seconds);
-// Does what the order says, on all threads. Ends early where a stop is wished. sums: of the same texels.
-// Throws Error.
+// Executes an order on all threads; stops early where a stop is wished. sums: of the same texels. Throws
+// Error.
 PeerBytes resultOf(BakeSums& sums, const BrickWork& work, std::span<const std::byte> order);
-// Takes in what came back. Throws Error.
+// Adds a result that came back. Throws Error.
 void takeResult(BakeSums& sums, std::span<const std::size_t> bricks, std::span<const std::byte> result);
 
 }  // namespace stereonav

@@ -9,21 +9,22 @@
 
 namespace stereonav {
 
-// Samples that a texel gets at once. TexelLighter gave 0.5, 0.9 and 1.2 million samples a second for 16, 64
-// and 128 at once (160 texels of the engine under Grace, one thread of a busy machine).
+// Number of samples that a texel gets per call. TexelLighter reached 0.5, 0.9 and 1.2 million samples per
+// second with 16, 64 and 128 per call (160 texels of the engine under Grace, one thread of a busy machine).
 constexpr std::uint32_t kBakeBatch = 128;
 
-// Returns the end of the batch that sample `first` is in: fixed, so that sums do not depend on breaks.
+// Returns the end of the batch that contains sample `first`. Batches are fixed, so that sums do not depend on
+// where a bake was broken off.
 std::uint32_t batchEnd(std::uint32_t first);
 
-// Advances bricks; different ones may be advanced at once.
+// Adds samples to bricks; different bricks may be handled at the same time.
 class BrickWork {
 public:
     // sums and source must outlive the object.
     BrickWork(BakeSums& sums, const BakeSource& source) : mSums(sums), mSource(source) {}
 
-    // Brings each texel to `target` samples, with what they tell of the error. added: samples of texels,
-    // after each batch; true ends it there, with the samples that it has.
+    // Brings each texel to `target` samples, and updates the estimate of the error. added: called after each
+    // batch with the number of added samples; where it returns true the work ends there.
     void advance(std::size_t brick, std::uint32_t target,
                  const std::function<bool(double samples)>& added) const;
 

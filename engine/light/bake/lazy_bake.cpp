@@ -1,6 +1,6 @@
-// Levels: one texel of every 4^3, one of every 2^3, all, and then more samples for all; each level of all
-// bricks before the next level of any. What is not lit yet borrows from the texel that was lit for its block,
-// with a weight that counts for little beside neighbours that know better.
+// Levels: one texel of every 4^3, one of every 2^3, all texels, and then more samples for all; each level of
+// all bricks comes before the next level of any. A texel that is not lit yet borrows the light of the one
+// that was lit for its block, with a weight so small that lit neighbours dominate.
 #include "engine/light/bake/lazy_bake.h"
 
 #include <sys/resource.h>
@@ -21,15 +21,15 @@ namespace {
 
 constexpr int kTexels = 512;
 constexpr int kAllLevel = 2;  // the first of all texels
-// Texels at once: with 64 samples some milliseconds' work, after which wishes are looked at.
+// Texels per call: with 64 samples some milliseconds of work, after which new wishes are looked for.
 constexpr std::size_t kAtOnce = 64;
 constexpr float kBorrowed[] = {1.0f / 64, 1.0f / 8};         // weights by level
-constexpr float kGiven = std::numeric_limits<float>::max();  // "samples" of texels that came from elsewhere
-constexpr int kOnNoSurface = 1000;                           // a rank behind all others
+constexpr float kGiven = std::numeric_limits<float>::max();  // "samples" of texels that were lit elsewhere
+constexpr int kOnNoSurface = 1000;                           // larger than every other rank
 constexpr int kNiceness = 15;
 
 void lowerPriority() {
-    // The priority of this thread alone. Where it is refused the thread is as the others.
+    // Sets the priority of this thread only. Where that is refused, the thread keeps the usual one.
     setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNiceness);
 }
 
@@ -41,7 +41,8 @@ glm::ivec3 inBrick(int texel) {
     return {texel & 7, texel >> 3 & 7, texel >> 6};
 }
 
-// The number of a texel's block of 4^3 (level 0) or 2^3 (level 1), and how far from its middle the texel is.
+// Returns the number of a texel's block of 4^3 (level 0) or 2^3 (level 1), and its distance from the block's
+// middle.
 int blockOf(int texel, int level) {
     const int shift = 2 - level, side = 8 >> shift;
     const glm::ivec3 b = inBrick(texel) >> shift;
@@ -58,12 +59,12 @@ int fromMiddle(int texel, int level) {
 struct LazyBake::Brick {
     std::uint32_t number = 0;
     glm::ivec3 first{0};
-    // Under the pick mutex.
+    // Guarded by the pick mutex.
     int level = 0;
     std::uint64_t choice = 0;  // the choice that `level` refers to; 0: none
     bool busy = false;
-    // What follows belongs to whoever is busy with it.
-    std::uint64_t chosen = 0;  // the choice that `wanted` is of
+    // The following members belong to the thread that has set `busy`.
+    std::uint64_t chosen = 0;  // the choice that `wanted` was made for
     TexelMask wanted{}, held{};
     std::vector<TexelSum> sums;  // sums of held texels; for transfer only how many samples
     int each = 0;                // numbers of a texel's transfer
@@ -142,7 +143,7 @@ void LazyBake::setChoice(const TexelChoice& choice) {
     change(nullptr, std::make_shared<const TexelChooser>(mVolume, mTo.frame, choice));
 }
 
-// Changes what is given; what is null stays.
+// Changes the parts of the wish that are given; null leaves a part as it is.
 void LazyBake::change(const std::shared_ptr<const std::vector<std::uint32_t>>& bricks,
                       const std::shared_ptr<const TexelChooser>& chooser) {
     std::shared_ptr<const std::vector<std::uint32_t>> before;  // freed after the mutex
@@ -183,7 +184,8 @@ void LazyBake::work(const std::stop_token& stop) {
     }
 }
 
-// Waits until there is another wish; where others are busy also until they may have left something.
+// Waits until there is another wish, or, where other threads are busy with bricks, a short time until they
+// may be free.
 void LazyBake::wait(Pick found, std::uint64_t seen, const std::stop_token& stop) {
     std::unique_lock lock(mWishMutex);
     if (mVersion != seen) return;
@@ -259,11 +261,11 @@ void LazyBake::giveBack(const Task& task, bool finished) {
     brick.busy = false;
     --mBusy;
     if (!finished) return;
-    // Where this level has nothing to light the others have nothing either.
+    // A brick without texels to light has nothing to do at the next levels either.
     brick.level = countTexels(brick.wanted) == 0 ? std::numeric_limits<int>::max() : task.level + 1;
 }
 
-// The wanted texels under the present choice, those that are known from elsewhere being done.
+// Chooses the wanted texels; those that were lit elsewhere count as done.
 void LazyBake::choose(const Task& task) {
     Brick& brick = *task.brick;
     brick.wanted = task.chooser->brick(brick.number);
@@ -283,7 +285,7 @@ std::vector<int> LazyBake::texelsAt(const Brick& brick, int level) const {
             if (isIn(brick.wanted, t)) texels.push_back(t);
         return texels;
     }
-    // The texel of each block that is nearest to its middle; where one is lit already, none.
+    // For each block the texel nearest to its middle; none where one is lit already.
     int best[64];
     std::fill(std::begin(best), std::end(best), -1);
     for (int t = 0; t < kTexels; ++t) {
@@ -320,8 +322,8 @@ bool LazyBake::light(const Task& task, const std::stop_token& stop) {
     return true;
 }
 
-// Lights texels in the bake's batches, so that the same samples give the same bytes. False: something else is
-// wanted.
+// Lights texels in the bake's batches, so that the same samples give the same bytes. Returns false where
+// another wish interrupts it.
 bool LazyBake::lightTexels(const Task& task, const std::vector<int>& texels, const std::stop_token& stop) {
     Brick& brick = *task.brick;
     const std::uint32_t target = samplesAt(task.level);

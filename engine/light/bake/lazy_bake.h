@@ -1,7 +1,7 @@
-// Irradiance or transfer computed while one flies (Wyman et al. 2006, section 4.2; Y6 of docs/ledger.md):
-// threads of low priority light the texels near what is seen, coarse first, and write them where frames look
-// them up. Nothing here makes a frame wait: whoever asks swaps a list and goes on. Other than the paper's,
-// which lights texels when a ray first meets them, and so makes the ray wait.
+// Irradiance or transfer computed during flight (Wyman et al. 2006, section 4.2; Y6 of docs/ledger.md):
+// threads of low priority light the texels near what is seen, coarse ones first, and write them where frames
+// look them up. No frame waits for this: a request only swaps a list. The paper instead lights texels when a
+// ray first meets them, so that the ray waits.
 #pragma once
 
 #include <atomic>
@@ -19,38 +19,38 @@ namespace stereonav {
 
 struct LazyBakeSetting {
     int samples = 64;   // samples of a texel before others get more
-    int refineTo = 64;  // most samples, reached in doubling passes
+    int refineTo = 64;  // largest number of samples, reached in passes that double
     int threads = 1;
-    BakeShape shape{};  // irradiance, or transfer, which setLight() lights
+    BakeShape shape{};  // irradiance, or transfer, whose light setLight() sets
 };
 
 class LazyBake {
 public:
-    // volume, the choice's region, what the source refers to, and `to` must outlive this. Texels of `to` that
-    // are known with weight 1 already stay as they are. Of the source the function for the setting's shape is
-    // used.
+    // volume, the choice's region, objects that the source refers to, and `to` must outlive this object.
+    // Texels of `to` that already have weight 1 stay as they are. Of the source only the function for the
+    // setting's shape is used.
     LazyBake(const GreyVolume& volume, const TexelChoice& choice, BakeSource source, IlluminationVolume& to,
              const LazyBakeSetting& setting = {});
-    // Ends promptly: waits for some milliseconds' work at most.
+    // Ends promptly: waits at most for some milliseconds of work.
     ~LazyBake();
     LazyBake(const LazyBake&) = delete;
     LazyBake& operator=(const LazyBake&) = delete;
 
-    // Asks for bricks near what is seen by their numbers (x + bricks.x (y + bricks.y z)), the most wanted
-    // first: replaces what was asked before, whose work is left where it is. Any thread; returns at once. The
-    // same list again disturbs nothing; numbers beyond the grid are passed over.
+    // Requests bricks near what is seen, by their numbers (x + bricks.x (y + bricks.y z)), the most urgent
+    // first. Replaces the previous request, whose work is left as it is; an equal list has no effect. Numbers
+    // outside the grid are ignored. Any thread; returns at once.
     void request(std::vector<std::uint32_t> bricks);
-    // Sets other surfaces that are shown: other texels are wanted. What is lit stays so, as a texel's light
-    // is that of the surface through itself.
+    // Sets the surfaces that are shown, which changes the texels that are wanted. Lit texels stay lit, since
+    // a texel's light is that of the surface through itself.
     void setChoice(const TexelChoice& choice);
 
-    // Sets the sky over transfer, order^2 harmonics; none at first: black. What is lit so far is dotted with
-    // it at once, some nanoseconds a texel. Any thread, between frames.
+    // Sets the sky whose light transfer shows: order^2 harmonics; black before the first call. Texels that
+    // are lit so far are multiplied with it at once, some nanoseconds per texel. Any thread, between frames.
     void setLight(std::vector<glm::vec3> light);
 
-    // Counts changes of texels: a frame drawn since the last one need not be drawn again.
+    // Returns a counter of changes to texels: a frame needs to be drawn again only where it has grown.
     std::uint64_t changes() const { return mChanges; }
-    // Texels lit so far by own samples.
+    // Returns the number of texels that were lit by samples of their own.
     std::uint64_t texelsLit() const { return mTexelsLit; }
     // Returns whether all texels that were asked for are lit.
     bool done() const;
@@ -61,7 +61,7 @@ private:
     struct Brick;
     struct Shown;
     struct Borrowed {
-        std::uint16_t to, from;  // texels of a brick
+        std::uint16_t to, from;  // range of a brick's texels
         float weight;
     };
     // The bricks and texels to be lit; replaced as a whole.
@@ -110,24 +110,25 @@ private:
     IlluminationVolume& mTo;
     const LazyBakeSetting mSetting;
 
-    // The wish: held for swapping alone.
+    // Guards the wish; held only while it is swapped.
     mutable std::mutex mWishMutex;
     Wish mWish;
     std::atomic<std::uint64_t> mVersion = 0;
     std::uint64_t mDoneVersion = 0;
     std::condition_variable_any mWake, mDone;
 
-    // Workers among themselves.
+    // Guards the choice of the next brick among workers.
     std::mutex mPickMutex;
     Wish mNow;
     std::uint64_t mNowVersion = 0;
-    std::vector<std::size_t> mCursor;  // by level: next in the list
+    std::vector<std::size_t> mCursor;  // by level: the next entry of the list
     int mBusy = 0;
-    bool mPassedOver = false;                     // some brick was busy when its turn came
+    // Whether a brick was skipped because another worker was busy with it.
+    bool mPassedOver = false;
     std::vector<std::unique_ptr<Brick>> mBricks;  // by number
 
-    // Guards transfer's light: held while a brick's texels are dotted, or after another light was set all of
-    // them.
+    // Guards the light for transfer: held while the texels of a brick are multiplied with it, or after a
+    // change the texels of all bricks.
     std::mutex mLightMutex;
     std::vector<glm::vec3> mLight;               // order^2 harmonics of the sky, linear RGB
     std::vector<std::unique_ptr<Shown>> mShown;  // by brick

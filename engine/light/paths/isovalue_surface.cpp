@@ -88,7 +88,8 @@ bool thinnerThanVoxel(const GreyVolume& volume, const glm::dvec3& voxel, double 
     const auto below = [&](const glm::dvec3& place) {
         return within(place) == place && plainValue(volume, place) < value;
     };
-    // How values rise a metre just before the surface: by voxels, long ones would hide which way it faces.
+    // Returns the slope of the values just before the surface, per metre, from steps of a quarter voxel:
+    // longer ones would hide which way it faces.
     const auto risesBefore = [&](const glm::dvec3& place, const glm::dvec3& outwards) {
         glm::dvec3 rises(0.0);
         for (int axis = 0; axis < 3; ++axis) {

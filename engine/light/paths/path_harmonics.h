@@ -1,5 +1,5 @@
-// Sums of harmonics of the directions in which paths left (eq. 8), a path a lane; the values are those of
-// evaluateHarmonics. Included by kernels only.
+// Sums the harmonics of the directions in which paths left (eq. 8), one path per lane; values equal those of
+// evaluateHarmonics(). Included by kernels only.
 #pragma once
 
 #include "engine/light/paths/path_trace.h"

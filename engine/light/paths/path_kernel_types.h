@@ -1,5 +1,5 @@
-// What the kernels of paths read and write: plain structs and pointers only, since kernels are compiled for
-// wider instruction sets and must not share inline code with the rest (see cmake/rooms.cmake).
+// Data that the kernels of paths read and write: plain structs and pointers only, since kernels are compiled
+// for wider instruction sets and must not share inline code with the rest (see cmake/rooms.cmake).
 //
 // Positions are a cell and a place in it; directions and normals are along the volume's axes, lengths in
 // units of the smallest spacing.
@@ -11,8 +11,9 @@
 
 namespace stereonav {
 
-// Blocks of 2^shift cells a side, two bytes each: how many blocks away (the largest of the three axes'
-// differences) the nearest occupied block is, 0: here; and one bit for each occupied octant, x + 2 y + 4 z.
+// Blocks of 2^shift cells a side, two bytes each: the distance in blocks (largest of the three axes'
+// differences) to the nearest occupied block, 0: this one; and one bit for each occupied octant, x + 2 y + 4
+// z.
 struct PathField {
     const std::uint8_t* blocks = nullptr;
     std::int32_t across[2] = {};  // blocks along x and y
@@ -40,7 +41,7 @@ struct PathProbe {
 // A point light.
 struct PathPoint {
     float voxel[3] = {};      // position, voxel space
-    float intensity[3] = {};  // over pi and the square of the unit: divided by squared units it is light
+    float intensity[3] = {};  // intensity / (pi unit^2): divided by squared distance in units it is light
     float weight = 0;         // luminance of the intensity, above 0
     float color[3] = {};      // intensity for a weight of 1
     float radius = 0;         // units
@@ -51,11 +52,12 @@ struct PathLights {
     PathProbe probe;
     const PathPoint* points = nullptr;
     std::int32_t pointCount = 0;
-    bool oneByChance = false;           // one of the points, by what each would bring unshadowed; else all
+    // One point light by chance, in proportion to its unshadowed light; else all.
+    bool oneByChance = false;
     float sky[3] = {}, albedo[3] = {};  // linear RGB: radiance; share, 0 to 1
     std::int32_t bounces = 0;
-    float reach = 0;  // units that rays look for distant light; 0: endless
-    float dim = 0;    // roulette below this throughput; 0: none
+    float reach = 0;  // units beyond which rays see distant light; 0: infinite
+    float dim = 0;    // roulette below this throughput; 0: no roulette
     bool lowDiscrepancy = true, cosine = true, nextEvent = true;
 };
 
@@ -64,7 +66,7 @@ struct PathStart {
     std::int32_t cell[3] = {};
     float local[3] = {}, normal[3] = {};  // place in the cell, 0 to 1; unit normal
     float isovalue = 0;                   // stored number
-    std::int32_t field = 0;  // blocks from the first of all fields to the one that serves the isovalue
+    std::int32_t field = 0;  // index of the first block of the field for this isovalue, in all fields
     std::uint32_t key = 0, firstSample = 0;
 };
 
@@ -81,14 +83,14 @@ struct alignas(64) PathStore {
     static constexpr int kRoom = kPaths + 16;  // whole vectors may be written at the end
     template <typename T>
     using Row = T[kRoom];
-    // Where each path is, by path: place in its cell (0 to 1), unit normal, isovalue (stored number)
+    // Position of each path: place in its cell (0 to 1), unit normal, isovalue (stored number).
     Row<std::int32_t> cell[3];
     Row<float> local[3], normal[3], isovalue;
     Row<std::int32_t> field, key, sample;
     Row<float> throughput[3], light[3];  // linear RGB
-    // Unit ways that are traced from there, with the most units of way, and what they meet
+    // Unit directions that are traced from there, with the largest distance in units, and the results.
     Row<float> way[3], shadowWay[3], shadowLight[3], shadowLimit;
-    Row<float> met;  // units of way, infinite where nothing is
+    Row<float> met;  // units along the ray, infinite where nothing is met
     Row<std::int32_t> metCell[3];
     Row<float> metLocal[3];
     // Lists of paths
@@ -101,7 +103,8 @@ struct PathKernels {
     // Lights texels; texels * samples <= PathStore::kPaths.
     void (*irradiance)(const PathVolume&, const PathField&, const PathLights&, const PathStart*, int texels,
                        int samples, PathStore&, PathMoments*);
-    // Adds to harmonics of `order`, `channels` (1 or 3) floats a coefficient, one texel after the other.
+    // Adds to harmonics of `order`, with `channels` (1 or 3) floats per coefficient, one texel after the
+    // other.
     void (*transfer)(const PathVolume&, const PathField&, const PathLights&, const PathStart*, int texels,
                      int samples, int order, int channels, PathStore&, float* sums);
     // Casts the first `count` paths of the store along `way`, from cell, local and isovalue, no further than

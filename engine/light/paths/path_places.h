@@ -1,12 +1,12 @@
-// Places on isosurfaces: smoothed normals (Y3 of docs/ledger.md) and lifted starts, as isovalue_surface.h has
-// them one at a time. Included by kernels only.
+// Places on isosurfaces: smoothed normals (Y3 of docs/ledger.md) and lifted starts, like isovalue_surface.h
+// but for vectors. Included by kernels only.
 #pragma once
 
 #include "engine/light/paths/path_trace.h"
 
 namespace stereonav::STEREONAV_ISA {
 
-// A place as a cell and what lies beyond its first corner, 0 to 1.
+// A place: a cell, and coordinates in it from its first corner, 0 to 1.
 struct Place {
     I3 cell;
     V3 local;
@@ -28,7 +28,7 @@ struct Spline {
     }
 };
 
-// The slope is nothing but rounding where it is less than this share of the values it was taken from.
+// Below this share of the values that it was computed from, a slope is only rounding.
 constexpr float kRounding = 1e-5f;
 
 constexpr float kOwnSlopeOnly = 0.25f;  // kOwnSlope of isovalue_surface.h
@@ -104,7 +104,7 @@ private:
         return (mLocal.x > zero) & (mLocal.x < one) & (mLocal.y > zero) & (mLocal.y < one) &
                (mLocal.z > zero) & (mLocal.z < one);
     }
-    // The slope of the trilinear values, by voxels.
+    // Returns the slope of the trilinear values, per voxel.
     STEREONAV_INLINE V3 slopeIn(const Corners& c) const {
         const auto along = [&](int k, F s, F t, int a, int b) {
             const F low = lerp(c.v[k] - c.v[0], c.v[a + k] - c.v[a], s);
@@ -113,7 +113,7 @@ private:
         return {along(1, mLocal.y, mLocal.z, 2, 4), along(2, mLocal.x, mLocal.z, 1, 4),
                 along(4, mLocal.x, mLocal.y, 1, 2)};
     }
-    // Towards smaller values, by length along the axes.
+    // Returns the direction towards smaller values, in units of length along the axes.
     STEREONAV_INLINE V3 downOf(const V3& slope) const {
         return {F(0.0f) - slope.x * F(mVolume.step[0]), F(0.0f) - slope.y * F(mVolume.step[1]),
                 F(0.0f) - slope.z * F(mVolume.step[2])};

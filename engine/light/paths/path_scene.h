@@ -1,4 +1,5 @@
-// A volume and its light as the kernels of paths read them. Owns the tables that the plain structs point to.
+// A volume and its light in the form that the kernels of paths read. Owns the tables that the plain structs
+// point to.
 #pragma once
 
 #include <vector>
@@ -11,23 +12,23 @@
 
 namespace stereonav {
 
-// Returns the kernels of the set that availableTarget() gives.
+// Returns the kernels for the instruction set of availableTarget().
 const PathKernels& pathKernels(SimdTarget target);
 
-// The volume as kernels read it; `volume` must outlive the result.
+// Returns the volume in the kernels' form; `volume` must outlive the result.
 PathVolume pathVolume(const GreyVolume& volume);
 
-// Roulette: paths whose throughput (its largest channel) has fallen below this go on with a probability that
-// is their share of it.
+// Roulette: a path whose throughput (largest channel) has fallen below this goes on with the probability
+// throughput / kDim.
 constexpr float kDim = 0.25f;
 
-// The unit of lengths in the kernels: metres.
+// Returns the unit of lengths in the kernels, in metres.
 double pathUnit(const VolumeFrame& frame);
 
-// Writes a place in voxel space within the volume's box, as a cell and what remains, 0 to 1.
+// Writes a place in voxel space, within the volume's box, as a cell and coordinates in it, 0 to 1.
 void splitPlace(const VolumeFrame& frame, const glm::dvec3& voxel, std::int32_t* cell, float* local);
 
-// Light as kernels read it: lights() is valid as long as this lives.
+// Light in the kernels' form; lights() is valid as long as this object lives.
 class PathLightTables {
 public:
     PathLightTables(const VolumeFrame& frame, const LightSetup& setup, const TexelSampling& sampling);

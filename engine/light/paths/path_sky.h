@@ -60,7 +60,7 @@ STEREONAV_INLINE F2 onDisc(const F2& u) {
     return {select(wide, along, across), select(wide, across, along)};
 }
 
-// Returns the unit vector with these coordinates across a normal (Duff et al. 2017) and along it.
+// Returns the unit vector with these coordinates across a normal (frame of Duff et al. 2017) and along it.
 STEREONAV_INLINE V3 aroundNormal(const V3& n, const F2& across, F up) {
     const F sign = select(n.z < F(0.0f), F(-1.0f), F(1.0f)), a = F(-1.0f) / (sign + n.z), b = n.x * n.y * a;
     const V3 s{mulAdd(sign * n.x, n.x * a, F(1.0f)), sign * b, F(0.0f) - sign * n.x};
@@ -96,7 +96,7 @@ STEREONAV_INLINE ProbeSight pixelAt(const PathProbe& probe, I column, I row, M m
             gatherRow(probe.pixels + 3, word, m)};
 }
 
-// Returns what LightProbe::seen gives.
+// Returns the same as LightProbe::seen().
 STEREONAV_INLINE ProbeSight probeTowards(const PathProbe& probe, const V3& world, M m) {
     const F polar = angleOf(sqrt(mulAdd(world.x, world.x, world.y * world.y)), world.z);
     const F azimuth = angleOf(world.y, world.x);
@@ -107,12 +107,13 @@ STEREONAV_INLINE ProbeSight probeTowards(const PathProbe& probe, const V3& world
     return pixelAt(probe, part(mulAdd(azimuth, F(0.5f / kPiF), F(0.5f)), probe.width), row, m);
 }
 
-// An entry of a running sum, and where in it, 0 to 1.
+// An index into running sums, and the position within that entry, 0 to 1.
 struct Choice {
     I index;
     F fraction;
 };
-// Returns the entry of a running sum, from `start` in `sums`, that holds u, and where in it u lies, 0 to 1.
+// Returns the entry of running sums, from `start` in `sums`, that contains u, and the position of u within
+// it, 0 to 1.
 STEREONAV_INLINE Choice chooseEntry(const float* sums, I start, int count, int steps, F u, M m) {
     I low(0), high(count);
     for (int n = 0; n < steps; ++n) {
@@ -127,12 +128,12 @@ STEREONAV_INLINE Choice chooseEntry(const float* sums, I start, int count, int s
     return {low, clamp((u - from) / max(width, F(1e-30f)), F(0.0f), F(1.0f))};
 }
 
-// A direction that was chosen, unit, world, and what is seen there.
+// A chosen direction, unit, world, with the radiance and density there.
 struct ProbeChoice {
     V3 world;
     ProbeSight sight;
 };
-// Returns what LightProbe::sample gives.
+// Returns the same as LightProbe::sample().
 STEREONAV_INLINE ProbeChoice chooseProbe(const PathProbe& probe, const F2& u, M m) {
     const Choice row = chooseEntry(probe.rows, I(0), probe.height, probe.rowSteps, u.y, m);
     const I start = row.index * I(probe.width + 1);

@@ -1,8 +1,9 @@
-// Follows queues of rays to the isosurface of each ray's own isovalue: leaps over blocks in which nothing
-// reaches it, then cell by cell (Amanatides and Woo 1987), with the exact cubic in cells that may hold it
-// (Y2 of docs/ledger.md). Lanes whose rays have ended take the next of the queue; cells wait until enough
-// lanes stand in one. Several packets take turns, so that what one waits for (memory, roots, a branch) is
-// there when its turn comes. What a ray meets depends on nothing but the ray. Included by kernels only.
+// Traces queues of rays to the isosurface of each ray's own isovalue: leaps over blocks in which nothing
+// reaches it, then goes cell by cell (Amanatides and Woo 1987), with the exact cubic in cells that may
+// contain it (Y2 of docs/ledger.md). Lanes whose rays have ended take the next ray of the queue; cells that
+// may contain the surface wait until enough lanes are in one. Several packets take turns, so that data that
+// one waits for (memory, roots, a branch) are there at its next turn. A ray's result depends on nothing but
+// the ray. Included by kernels only.
 #pragma once
 
 #include "engine/light/paths/path_kernel_types.h"
@@ -41,8 +42,8 @@ STEREONAV_INLINE int lanesIn(M m) {
     return __builtin_popcount(bits(m));
 }
 
-// Returns the index of the cell's first corner; cornersFrom() and cornersIn() the values of cells at their
-// corners less the isovalue.
+// Returns the index of the cell's first corner. cornersFrom() and cornersIn() return the values at the cells'
+// corners minus the isovalue.
 STEREONAV_INLINE I firstCorner(const PathVolume& volume, const I3& cell) {
     return (cell.z * I(volume.size[1]) + cell.y) * I(volume.size[0]) + cell.x;
 }
@@ -62,18 +63,18 @@ STEREONAV_INLINE Corners cornersIn(const PathVolume& volume, const I3& cell, F i
     return cornersFrom(volume, firstCorner(volume, cell), isovalue, m);
 }
 
-// Rays along one axis. Those towards smaller cells are mirrored (cell c is `flip` ^ c), so that all go
-// towards larger ones. Units of way to a plane x of the mirrored grid are (x - base) * inverse + first.
+// Rays along one axis. Rays towards smaller cells are mirrored (cell c is `flip` ^ c), so that all go towards
+// larger ones. Distance along the ray to a plane x of the mirrored grid: (x - base) * inverse + first.
 struct Rail {
     F origin, direction;  // the ray itself: place in its first cell, 0..1; cells a unit
     F inverse, first;     // inverse: of the direction's size
     I base, at, end;      // first cell, present cell, the first beyond the volume
-    I plane;              // at which the ray leaves the box it is in
+    I plane;              // plane at which the ray leaves its present box
     I back, flip;         // back: -1 where mirrored, else 0
     STEREONAV_INLINE F unitsTo(I x) const { return mulAdd(toFloat(x - base), inverse, first); }
 };
 
-// Returns the ray's course along one axis. mirror: a power of two above all cells, less 1.
+// Returns the ray's data along one axis. mirror: a power of two above all cells, minus 1.
 STEREONAV_INLINE Rail railOf(F origin, F direction, I cell, int cells, int mirror) {
     const F way = awayFromZero(direction), inverse = F(1.0f) / way;
     const M back = way < F(0.0f);
@@ -103,21 +104,21 @@ struct RayQueue {
     const std::int32_t* paths;
     int count;
     const PathStore::Row<float>* way;
-    const float* limit;  // units of way, by path; null: none
+    const float* limit;  // largest distances by path, units; null: no limits
 };
 
-// Rays of a packet. Each lane is walking (about to step to its planes), fresh (in its first cell, which is
-// not looked up yet), parked (in a cell that may hold its surface) or idle.
+// The rays of a packet. Each lane is walking (about to step to its planes), fresh (in its first cell, which
+// has not been looked up), parked (in a cell that may contain its surface) or idle.
 struct Rays3 {
     Rail x, y, z;
     F t, limit, isovalue;  // units of way, units of way, stored numbers
     I path, field;
-    I block, octant;  // where the walking ones are
+    I block, octant;  // present block and octant of walking lanes
     I corner;         // first corner of the cells
     M walking, fresh, parked;
 };
 
-// Cells in which rays end, kept until whole vectors of them can be looked into for where.
+// Cells in which rays end, collected until whole vectors of them can be searched for the exact place.
 struct EndCells {
     static constexpr int kMost = 64, kRoom = kMost + kLanes;
     template <typename T>
@@ -131,14 +132,14 @@ struct EndCells {
 constexpr int kRaysAtOnce = 64;
 constexpr int kPackets = kRaysAtOnce / kLanes > 2 ? kRaysAtOnce / kLanes : 2;
 constexpr int kRefill = kLanes / 4 > 0 ? kLanes / 4 : 1;  // least idle lanes that are worth filling
-// Whether corners are fetched before they are asked for. Sixteen lanes ask for so many at once that it costs
-// more than it saves.
+// Whether corners are prefetched. With sixteen lanes so many are fetched at once that it costs more than it
+// saves.
 constexpr bool kFetchAhead = kLanes <= 8;
-// Walking lanes for each that waits, below which these do not wait any longer.
+// Number of walking lanes per waiting lane, below which waiting ends.
 constexpr int kWorthWaiting = 1;
 
-// Traces a queue. With `Places` also where in the volume rays end is wanted; without, and without `Limited`,
-// only whether they do.
+// Traces a queue. With `Places` it finds where rays end. Without `Places` and without `Limited` it finds only
+// whether they do.
 template <bool Places, bool Limited>
 class RayTracer {
 public:
@@ -149,8 +150,8 @@ public:
             while (mMirror[k] < volume.size[k]) mMirror[k] = 2 * mMirror[k] + 1;
     }
 
-    // Fills met for all rays of the queue: infinite where nothing is met; without Places and Limited 0 where
-    // something is. With Places metCell and metLocal.
+    // Fills `met` for all rays of the queue: infinite where nothing is met; without Places and Limited, 0
+    // where something is. With Places also metCell and metLocal.
     STEREONAV_INLINE void run() {
         for (int n = 0; n < PathStore::kPaths; n += kLanes) store(mStore.met + n, F(__builtin_inff()));
         Rays3 packets[kPackets];
@@ -180,8 +181,8 @@ private:
         return {rail, rail, rail, zero, zero, zero, none, none, none, none, none, no, no, no};
     }
 
-    // Returns whether lanes that wait (for their cells to be tried, or for a ray) may wait for those that
-    // walk.
+    // Returns whether waiting lanes (for the test of their cells, or for a ray) should go on waiting for
+    // those that walk.
     STEREONAV_INLINE bool worthWalking(const Rays3& r) const {
         const int walking = lanesIn(r.walking);
         const int waiting = mNext < mQueue.count ? kLanes - walking : lanesIn(r.parked);
@@ -197,7 +198,7 @@ private:
         mNext += __builtin_popcount(idle);
     }
 
-    // The queue's next rays into the lanes m; its list has room for a whole vector behind its end.
+    // Loads the queue's next rays into the lanes m; its list has room for a whole vector behind its end.
     STEREONAV_INLINE void load(Rays3& r, M m) {
         const I path = keep(m, fromFront(loadI(mQueue.paths + mNext), m));
         const V3 local = gatherRows(mStore.local, path, m), way = gatherRows(mQueue.way, path, m);
@@ -218,8 +219,8 @@ private:
         r.fresh = m;
     }
 
-    // Moves an axis on to where the rays are after t. The axis that leaves its box is set, not found from
-    // rounded positions, and none goes back: so every step gets on. Cells are never below 0.
+    // Advances one axis to distance t. The axis whose plane is crossed is set directly and not found from
+    // rounded positions, and no axis goes back, so that every step makes progress. Cells are never below 0.
     STEREONAV_INLINE static void moveOn(Rail& a, F t, F end, M m) {
         const I whole = floorToInt(mulAdd(t, a.direction, a.origin));
         const I found = a.base + (whole ^ a.back);
@@ -240,7 +241,7 @@ private:
         return in;
     }
 
-    // One leap or step of the walking lanes; those that end walk no more.
+    // Makes one leap or step of the walking lanes; lanes that end stop walking.
     STEREONAV_INLINE void walkOn(Rays3& r) const {
         step(r);
         r.walking = (r.walking | r.fresh) & inside(r);
@@ -257,19 +258,19 @@ private:
         r.octant = (octant.x & one) | shiftLeft<1>(octant.y & one) | shiftLeft<2>(octant.z & one);
     }
 
-    // Looks up what the walking lanes find where they are: those in a full octant walk no more. The others
-    // know the planes of the box that they may leave at once. Apart from walkOn, so that all packets wait for
+    // Looks up the field where the walking lanes are. Lanes in a full octant stop walking; the others get the
+    // planes of the box that they may leave at once. Separate from walkOn(), so that all packets wait for
     // memory together.
     STEREONAV_INLINE void lookUp(Rays3& r) const {
         const I none(0), one(1), word = gatherHalves(mField.blocks, r.block, r.walking), code = word & I(255);
         const M leaps = none < code;
-        // The octant's bit, of eight above the code, as the sign.
+        // Moves the octant's bit, one of eight above the code, to the sign.
         const M full = shiftLeft(word, I(23) ^ r.octant) < none;
         const M here = andNot(r.walking & full, leaps);
         r.parked = r.parked | here;
         r.walking = andNot(r.walking, here);
         if constexpr (kFetchAhead) fetchAhead(keep(here, r.corner));
-        // Boxes of whole blocks, of an octant, or, where something is to be tried, of a cell.
+        // Boxes are whole blocks, octants, or, where the surface may be, cells.
         const I half(1 << (mField.shift - 1));
         const I side = half - keep(r.parked, half - one) + keep(leaps, half);
         const I count = max(shiftLeft(code, I(mField.shift)), side), low = none - side;
@@ -283,8 +284,8 @@ private:
         store(lanes, block);
         for (const std::int32_t lane : lanes) __builtin_prefetch(mField.blocks + 2 * std::int64_t{lane});
     }
-    // Corners that will be asked for when it is their packet's turn. All lanes alike: a loop over those that
-    // need it would be guessed wrong.
+    // Prefetches corners that the packet will need at its next turn. For all lanes alike, since a loop over
+    // those that need it would be mispredicted.
     STEREONAV_INLINE void fetchAhead(I corner) const {
         alignas(64) std::int32_t lanes[kLanes];
         store(lanes, corner);
@@ -298,7 +299,7 @@ private:
         }
     }
 
-    // Rays whose cells hold nothing walk on.
+    // Lets rays walk on whose cells contain no surface.
     STEREONAV_INLINE void tryCells(Rays3& r) {
         const I one(1);
         const I fromX = r.x.at - r.x.base, fromY = r.y.at - r.y.base, fromZ = r.z.at - r.z.base;
@@ -349,7 +350,7 @@ private:
         mEnds.count += lanesIn(m);
     }
 
-    // Hits beyond a path's limit count as none.
+    // Sets hits beyond a path's limit to none.
     __attribute__((noinline)) void finishEnds() {
         if constexpr (!Places && !Limited) {
             for (int n = 0; n < mEnds.count; ++n) mStore.met[mEnds.path[n]] = 0;

@@ -1,7 +1,7 @@
 // The reference picture of baked light (Wyman et al. 2006, section 3, "a brute-force approach"; Y11 of
-// docs/ledger.md): paths traced from what every pixel shows, with nothing stored and nothing interpolated.
-// Hits are those of the volume's caster, paths those of the bake: the two pictures differ by the lookup and
-// by noise alone.
+// docs/ledger.md): paths traced from the point that each pixel shows, with nothing stored or interpolated.
+// Hits are those of the volume's caster, paths those of the bake, so that the two pictures differ only by the
+// lookup and by noise.
 #pragma once
 
 #include "engine/base/progress.h"
@@ -14,13 +14,13 @@ namespace stereonav {
 
 class PixelPaths {
 public:
-    // scene must outlive this; it shows an opaque surface. Throws Error as TexelLighter does.
+    // scene must outlive this object and show an opaque surface. Throws Error as TexelLighter does.
     PixelPaths(const VolumeScene& scene, const LightSetup& setup, const TexelSampling& sampling = {});
 
-    // Adds samples to each pixel of `sums`, which is sized as the depths, all new ones zero. viewDepth: as
-    // the volume's caster gives it for `view`; pixels without a surface get samples -1. stream: pictures of
-    // different numbers have noise of their own. On all threads, whose number changes nothing. Throws
-    // Cancelled.
+    // Adds samples to each pixel of `sums`, which gets the size of the depths; new pixels are zero.
+    // viewDepth: from the volume's caster for `view`; pixels without a surface get samples -1. stream:
+    // pictures with different numbers have independent noise. Runs on all threads; results do not depend on
+    // their number. Throws Cancelled.
     void add(const EyeView& view, const Plane<float>& viewDepth, std::uint32_t stream, int samples,
              Plane<TexelSum>& sums, Progress& progress) const;
 
@@ -32,17 +32,17 @@ private:
     TexelLighter mLighter;
 };
 
-// Facts of luminance of irradiance / pi over the pixels that show a surface: its mean, and the root of the
-// mean variance of the pixels' means as a share of that of their squares (infinite below two samples). The
-// variance is that of independent samples: low discrepancy is better than it says.
+// Statistics of luminance of irradiance / pi over the pixels that show a surface: the mean, and the root mean
+// variance of the pixels' means relative to their root mean square (infinite below two samples). The variance
+// assumes independent samples; with low discrepancy the true error is smaller.
 struct PixelLightFacts {
     std::size_t pixels = 0;
     double mean = 0, error = 0;
 };
 PixelLightFacts factsOf(const Plane<TexelSum>& sums);
 
-// Gives pixels that show a surface the colour that the caster would give them under baked light of that
-// value and exposure: albedo of the look * light * exposure. The others keep theirs.
+// Colours the pixels that show a surface as the caster would under baked light of this value: albedo of the
+// look * light * exposure. Other pixels are unchanged.
 void showPixelLight(const VolumeLook& look, const Plane<TexelSum>& sums, float exposure, EyeImage& image);
 
 }  // namespace stereonav

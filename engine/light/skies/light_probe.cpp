@@ -43,8 +43,8 @@ int part(double x, int n) {
     return scaled > 0 ? std::min(static_cast<int>(std::min(scaled, 1e9)), n - 1) : 0;
 }
 
-// Turns the values behind the first entry into running sums that end at exactly 1; returns their sum. The
-// first entry is 0. Nothing to choose from: equal parts.
+// Turns the values behind the first entry, which is 0, into running sums that end at exactly 1; returns their
+// sum. Where all values are 0 the running sums rise evenly.
 double accumulate(double* begin, double* end) {
     for (double* p = begin + 1; p != end; ++p) *p += p[-1];
     const double total = end[-1];
@@ -56,10 +56,10 @@ double accumulate(double* begin, double* end) {
 
 struct Choice {
     int index;
-    double fraction;  // 0..1 within it: u used again
+    double fraction;  // 0..1 within the entry, so that one random number u serves twice
 };
 
-// Chooses an entry, never one of no width.
+// Chooses the entry that u falls into; entries of width 0 are never chosen.
 Choice choose(const double* begin, const double* end, double u) {
     const double inside = u > 0 ? std::min(u, 1.0 - 0x1p-53) : 0.0;  // NaN: 0
     const double* above = std::upper_bound(begin, end, inside);
@@ -138,7 +138,8 @@ LightProbe::Sample LightProbe::sample(const glm::vec2& u) const {
     const Pixel pixel{column.index, row.index};
     glm::dvec2 fraction(column.fraction, row.fraction);
     glm::vec3 direction = directionIn(pixel, fraction);
-    // A direction rounded to floats may land in the neighbour, whose density is another: drawn inwards.
+    // A direction rounded to floats may land in a neighbouring pixel, whose density differs: it is moved
+    // towards the pixel's middle.
     for (const double pull : {0.999, 0.9, 0.0}) {
         const Pixel met = pixelOf(direction);
         if (met.row == pixel.row && met.column == pixel.column) break;

@@ -21,20 +21,20 @@ public:
 
     // Returns the radiance of the pixel that the unit direction falls into: it is piecewise constant.
     glm::vec3 radiance(const glm::vec3& direction) const;
-    // Radiance and density() at once, for the price of one.
+    // radiance() and density() at once, for the cost of one.
     struct Seen {
         glm::vec3 radiance;  // linear RGB
         float density;       // per steradian
     };
     Seen seen(const glm::vec3& direction) const;
 
-    // A direction that was chosen, and what is seen there.
+    // A chosen direction, with the radiance and density there.
     struct Sample {
         glm::vec3 direction, radiance;  // unit; linear RGB
         float density;                  // per steradian; > 0 unless the probe is black
     };
-    // Chooses a direction by luminance times solid angle. u in [0, 1)^2; a well spread u gives well spread
-    // directions.
+    // Chooses a direction in proportion to luminance times solid angle. u in [0, 1)^2; evenly spread u give
+    // evenly spread directions.
     Sample sample(const glm::vec2& u) const;
     // Returns the density, per steradian, with which sample() gives a direction; 0 for a black probe.
     float density(const glm::vec3& direction) const;
@@ -62,16 +62,16 @@ private:
     int mWidth, mHeight;
     std::vector<glm::vec3> mRadiance;  // linear RGB
     std::vector<double> mEdges;        // cosine of the polar angle at the upper edge of row j; mHeight + 1
-    // Running sums of the chance of a row, and of a column within its row (mWidth + 1 a row): double, because
-    // a dim pixel's chance is the difference of two of them.
+    // Running sums of the probability of rows, and of columns within their row (mWidth + 1 per row). Double,
+    // because the probability of a dim pixel is a small difference of two sums.
     std::vector<double> mRows, mColumns;
     glm::vec3 mMean{0.0f};
     bool mBlack = false;
 };
 
-// Reads .hdr, or any picture (taken as sRGB), as one stands in it: its middle is seen towards +y, what lies
-// right of it towards +x, as a terrain's sky. A width not divisible by 4 is turned by up to half a column.
-// Throws Error.
+// Reads .hdr, or any other picture (taken as sRGB), as a panorama: its middle is seen towards +y, its right
+// half towards +x, like a terrain's sky. Where the width is not divisible by 4, it is turned by up to half a
+// column. Throws Error.
 LightProbe readLightProbe(const std::filesystem::path& file);
 
 }  // namespace stereonav

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kTurns = 2 * kMaxHarmonicsOrder - 1;  // m from 1 - order to order - 1
 
-using PolarIntegrals = std::array<double, kMaxHarmonics>;  // l (l + 1) + m, m >= 0
-using RowSums = std::array<glm::dvec3, kTurns>;            // m + kMaxHarmonicsOrder - 1
+using PolarIntegrals = std::array<double, kMaxHarmonics>;  // index: l (l + 1) + m, for m >= 0
+using RowSums = std::array<glm::dvec3, kTurns>;            // index: m + kMaxHarmonicsOrder - 1
 
 constexpr double kNodes[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
 constexpr double kWeights[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,

@@ -1,5 +1,5 @@
-// Skies as light probes, for scenes that come without a picture of one: a clear day (Preetham, Shirley and
-// Smits 1999) and an overcast one (CIE standard overcast sky, Moon and Spencer 1942).
+// Skies as light probes, for scenes without a picture of one: a clear day (Preetham, Shirley and Smits 1999)
+// and an overcast one (CIE standard overcast sky, Moon and Spencer 1942).
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,13 +8,14 @@
 
 namespace stereonav {
 
-// The light of both is brought to a common level: what a white horizontal surface in the open sends out has
-// the luminance 1. Sun, sky and colours keep their proportions. Below the horizon lies even grey ground that
-// is lit by this sky.
+// Parameters of a clear sky. Both skies are scaled so that a white horizontal surface in the open has the
+// luminance 1; the proportions of sun, sky and colours stay. Below the horizon is even grey ground lit by
+// this sky.
 struct ClearSky {
     glm::dvec3 sun{0.35, -0.6, 0.72};  // towards it, of any length; at or above the horizon
     double turbidity = 3.0;  // haze: 2 very clear, 3 clear, 6 hazy, 10 thick; the model holds from 1.8 to 10
-    bool disc = true;        // the sun itself, 0.533 degrees across; without it: the light of the sky alone
+    // Includes the sun itself, 0.533 degrees across; false: only the light of the sky.
+    bool disc = true;
     double groundAlbedo = 0.2;  // 0..1, linear
     int height = 128;           // rows, even, 2..4096; twice as many columns
 };

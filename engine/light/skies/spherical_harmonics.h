@@ -17,8 +17,8 @@ constexpr int harmonicsCount(int order) {
     return order * order;
 }
 
-// Fills values. order 1..kMaxHarmonicsOrder; direction: unit; values: harmonicsCount(order) of them. Sound at
-// the poles.
+// Fills `values` with the harmonics in a direction. order: 1..kMaxHarmonicsOrder; direction: unit; values:
+// harmonicsCount(order) of them. Valid at the poles too.
 void evaluateHarmonics(const glm::dvec3& direction, int order, double* values);
 void evaluateHarmonics(const glm::vec3& direction, int order, float* values);
 

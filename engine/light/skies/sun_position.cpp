@@ -20,7 +20,7 @@ constexpr double kEpoch = 2451545.0, kCentury = 36525;       // J2000, days
 constexpr double kClocks = 64;                               // TD - UT, seconds
 constexpr double kSunParallax = 8.794 / 3600 * kDegreeOfArc;
 constexpr double kRiseElevation = -0.8333 * kDegreeOfArc;  // half a disc, and 34 minutes of refraction
-constexpr double kLook = 240;                              // seconds between two looks at the sun
+constexpr double kLook = 240;                              // seconds between two tests for a crossing
 constexpr double kLatestTime = 3e11;                       // seconds: the year 11,000
 
 double turnOf(double angle) {
@@ -35,7 +35,8 @@ double siderealTime(double julianDay) {
     return turnOf(std::fmod(degrees, 360) * kDegreeOfArc);
 }
 
-// Longitude of the node of the moon's orbit, which the nutation goes with; radians. t: centuries since J2000.
+// Returns the longitude of the ascending node of the moon's orbit, on which nutation depends; radians. t:
+// centuries since J2000.
 double nodeAt(double t) {
     return std::fmod(125.04 - 1934.136 * t, 360) * kDegreeOfArc;
 }

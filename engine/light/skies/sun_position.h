@@ -1,8 +1,8 @@
-// Where the sun stands at a time and a place on the Earth. Meeus, Astronomical Algorithms, 2nd edition,
+// The sun's position at a time and a place on the Earth. Meeus, Astronomical Algorithms, 2nd edition,
 // chapters 12 (sidereal time), 13 (horizon), 16 (refraction), 25 (the sun, lower accuracy) and 40 (parallax).
-// From 1950 to 2050 within 0.02 degrees of an almanac, refraction apart: that varies by more than this within
-// a degree of the horizon. Differs from Meeus: the difference of the clocks, TD - UT, is taken to be 64 s
-// throughout, which makes 0.0004 degrees in that time.
+// From 1950 to 2050 within 0.02 degrees of an almanac, except for refraction, which varies by more than this
+// within a degree of the horizon. Differs from Meeus: the difference of the clocks, TD - UT, is taken to be
+// 64 s throughout, which causes an error of 0.0004 degrees in that period.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 namespace stereonav {
 
 // Returns seconds since 1970 in UTC, without leap seconds, as clocks count them. Gregorian. Throws Error for
-// what is no date (31 June), for hours from 24, and for years outside 1..9999.
+// invalid dates (31 June), for hours from 24, and for years outside 1..9999.
 double secondsFromUtc(int year, int month, int day, int hour = 0, int minute = 0, double second = 0);
 
 // The sun's place in radians: right ascension from 0 to 2 pi, declination; apparent, of date, seen from the

@@ -1,5 +1,5 @@
-// Which texels of a grid a bake computes: those that lookups on the surfaces that may be shown touch, in
-// bricks of 8^3. The first step of every bake, and what the background bake asks for each brick it visits.
+// The texels of a grid that a bake computes: those that lookups on the possible surfaces touch, in bricks of
+// 8^3. The first step of every bake; a background bake asks for each brick that it visits.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 
 namespace stereonav {
 
-// Which texels are wanted.
+// The choice of texels.
 struct TexelChoice {
-    // Stored values of the surfaces that may be shown: texels count at corners of texel cells that a surface
-    // of a value in [lowest, highest] passes through: trilinear lookups at points of such a surface touch
-    // just these.
+    // Range of stored values of the surfaces that may be shown. A texel is wanted where it is a corner of a
+    // texel cell that a surface with a value in [lowest, highest] passes through: trilinear lookups at points
+    // of such a surface touch exactly these.
     float lowest = 0, highest = 0;
-    // If given (same frame as the volume): cells without a voxel inside do not count.
+    // If not null (same frame as the volume): cells without a voxel inside the region do not count.
     const MaskVolume* region = nullptr;
     bool full = false;  // all texels instead, for any isovalue
 };
@@ -32,14 +32,15 @@ struct TexelBrick {
     TexelMask wanted{};
 };
 
-// Return the place of a brick in bricks, and the texels of its mask in the order of their bits.
+// Return the position of a brick in the grid of bricks, and the texels of its mask in the order of their
+// bits.
 glm::ivec3 brickPlace(const TexelLayout& layout, std::uint32_t number);
 std::vector<glm::ivec3> texelsIn(const TexelLayout& layout, const TexelBrick& brick);
 
-// Finds the wanted texels of one brick at a time; may be asked from any thread.
+// Finds the wanted texels of one brick at a time; may be called from any thread.
 class TexelChooser {
 public:
-    // volume (and the region) must outlive this; texels: made by texelFrame from the volume's frame.
+    // volume (and the region) must outlive this object. texels: from texelFrame() for the volume's frame.
     TexelChooser(const GreyVolume& volume, const VolumeFrame& texels, const TexelChoice& choice);
     TexelMask brick(std::uint32_t number) const;
 

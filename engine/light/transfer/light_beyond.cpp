@@ -98,7 +98,8 @@ Level pulled(const Level& fine) {
     return coarse;
 }
 
-// Light of the level above, trilinear at the middle of a cell; beyond its faces the outermost cells count on.
+// Returns the light of the coarser level, trilinear at the middle of a cell; beyond its faces the outermost
+// cells are repeated.
 glm::vec3 above(const Level& coarse, const glm::ivec3& cell) {
     const glm::ivec3 own = cell / 2;
     const glm::ivec3 side =

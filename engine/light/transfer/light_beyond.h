@@ -1,18 +1,20 @@
-// Light for places whose texels a bake did not light: inside a translucent volume whose surface alone was
-// baked, at another isovalue, in a medium. What is known is averaged over blocks of 4^3 texels and, blocks
-// that know little taking the rest from ones twice as large, spread over the whole grid (the pull and push of
-// Gortler et al. 1996, section 3.4.3): near what is known its light, farther away that of ever more of it.
+// Light for places whose texels a bake did not light: inside a translucent volume of which only the surface
+// was baked, at another isovalue, in a medium. Known light is averaged over blocks of 4^3 texels and spread
+// over the whole grid, where blocks with few known texels are filled up from blocks twice as large (pull and
+// push of Gortler et al. 1996, section 3.4.3). Near known texels it is their light, farther away a mean over
+// ever more of it.
 #pragma once
 
 #include "engine/volume/illumination_volume.h"
 
 namespace stereonav {
 
-// Returns light on a grid of blocks, all known (BakedLook::beyond); empty where nothing of `light` is.
+// Returns light on a grid of blocks, known everywhere (BakedLook::beyond); empty where no texel of `light` is
+// known.
 IlluminationVolume lightBeyond(const IlluminationVolume& light);
 
-// Brings what lightBeyond() gave up to date, after texels of `light` have changed. Where nothing is known any
-// more `beyond` stays as it is.
+// Updates a result of lightBeyond() after texels of `light` have changed. Where no texel is known any more,
+// `beyond` stays as it is.
 void updateLightBeyond(const IlluminationVolume& light, IlluminationVolume& beyond);
 
 }  // namespace stereonav

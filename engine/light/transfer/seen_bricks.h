@@ -1,4 +1,4 @@
-// Which bricks of texels a picture looks up: what a background bake is asked for.
+// The bricks of texels that a picture looks up, as requests for a background bake.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace stereonav {
 
-// Returns the numbers of the bricks (x + bricks.x (y + bricks.y z)) around the texels that the surfaces seen
-// through every `every`-th pixel lie between, those of most pixels first, without repeats. Pixels that met
+// Returns the numbers of the bricks (x + bricks.x (y + bricks.y z)) with the texels around the surface points
+// seen through every `every`-th pixel, those seen by most pixels first, without repeats. Pixels that met
 // nothing do not count. every >= 1.
 std::vector<std::uint32_t> bricksSeen(const EyeView& view, const EyeImage& image,
                                       const IlluminationVolume& light, int every = 4);

@@ -13,8 +13,9 @@
 namespace stereonav::STEREONAV_ISA {
 namespace {
 
-// The half in the upper 16 bits: its exponent lands where a float's is, 112 too small. Sums are scaled, not
-// each of their terms: half of it in the light that comes here, half at the end.
+// Returns the half in the upper 16 bits of each word as a float that is 2^-112 times as large: its exponent
+// bits land in a float's exponent, whose bias is larger by 112. Sums are scaled by 2^112 instead of each
+// term: by 2^56 in TransferGroups::light, by 2^56 at the end.
 STEREONAV_INLINE F upperHalf(I word) {
     return asFloat(shiftRight<3>(word) & I(static_cast<int>(0x8fffe000u)));
 }

@@ -10,9 +10,10 @@ namespace stereonav {
 // Texels in a group: the most lanes that a kernel has.
 constexpr int kTransferGroup = 16;
 
-constexpr float kTransferLightScale = 0x1p56f;  // what a half's bits lack as a float's, 2^112, in two parts
+// Half of the factor 2^112 that upperHalf() leaves out; applied twice.
+constexpr float kTransferLightScale = 0x1p56f;
 
-// Transfer of groups of texels: a group is channels * pairs rows of kTransferGroup words, one word a texel,
+// Transfer of groups of texels: a group is channels * pairs rows of kTransferGroup words, one word per texel,
 // with the halves of coefficients 2 p (low) and 2 p + 1 of a channel.
 struct TransferGroups {
     const std::uint32_t* words = nullptr;

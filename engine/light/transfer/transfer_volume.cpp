@@ -20,9 +20,9 @@ STEREONAV_EACH_SET(void relight(const TransferGroups&, std::uint32_t*, std::uint
 
 namespace {
 
-// 0 for what is not finite. Numbers below the least normal half, 2^-14, become that or 0: off by at most
-// 2^-15, as numbers of 1/16 are by their rounding. As denormals, one in seven of them made the dot products
-// 45 times as slow.
+// Returns the half to store: 0 for numbers that are not finite. Numbers below the least normal half, 2^-14,
+// become that or 0, with an error of at most 2^-15, the rounding error of numbers near 1/16. Stored as
+// denormals, one in seven of them made the dot products 45 times as slow.
 std::uint16_t storedHalf(float v) {
     constexpr float kLeast = 0x1p-14f;
     if (!(std::abs(v) <= std::numeric_limits<float>::max())) return 0;
@@ -117,7 +117,7 @@ std::vector<float> TransferVolume::at(const glm::ivec3& texel) const {
     return numbers;
 }
 
-// One word a texel, since a frame may be looking it up.
+// Writes each texel as one word, since a frame may read it at the same time.
 void TransferVolume::relightBrick(std::size_t n, const Light& light, IlluminationVolume& to) const {
     alignas(64) std::array<std::uint32_t, kBrickTexels> redGreen, blueWeight;
     TransferGroups groups;
@@ -146,7 +146,7 @@ void TransferVolume::relight(std::span<const glm::vec3> light, std::span<const s
         for (int channel = 0; channel < 3; ++channel)
             if (std::isfinite(light[c][channel]))
                 prepared.values[c * 3 + channel] = light[c][channel] * kTransferLightScale;
-    // Handing out single bricks would cost as much as small ones take.
+    // Number of bricks per task: small single bricks would take less time than handing them out.
     constexpr int kBricksAtOnce = 16;
     const int count32 = static_cast<int>(which.size());
     parallelFor((count32 + kBricksAtOnce - 1) / kBricksAtOnce, [&](int part) {

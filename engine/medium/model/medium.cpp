@@ -37,7 +37,8 @@ double valueAt(const GreyVolume& field, const glm::dvec3& voxel) {
     return stored * field.scale + field.offset;
 }
 
-// Value units a metre, world axes. Beyond the faces the outermost voxels count on, still two voxels apart.
+// Returns the gradient in value units per metre, world axes. Beyond the faces the outermost voxels are
+// repeated; the step stays two voxels.
 glm::dvec3 gradientOf(const GreyVolume& field, const glm::dvec3& voxel) {
     glm::dvec3 gradient(0.0);
     for (int a = 0; a < 3; ++a) {

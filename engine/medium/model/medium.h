@@ -1,5 +1,5 @@
-// A participating medium in the world: a grid of values under a transfer function, thin layers over height
-// fields, both perturbed. at() is the plain statement of what kernels and shaders sample.
+// A participating medium in the world: a grid of values under a transfer function, or thin layers over height
+// fields, both with perturbation by noise. at() is the plain definition of what kernels and shaders sample.
 #pragma once
 
 #include <memory>
@@ -23,19 +23,20 @@ struct WorldBox {
 class Medium {
 public:
     Medium() = default;  // empty space
-    // A grid: the value is trilinear between voxel centres, nothing is outside the grid's outermost ones.
-    // Throws Error for what is out of range.
+    // A medium in a grid of values, which are trilinear between voxel centres. It is empty beyond the centres
+    // of the outermost voxels. Throws Error for values out of range.
     Medium(std::shared_ptr<const GreyVolume> field, const MediumTransfer& transfer,
            Perturbation perturbation = {});
-    // Layers alone; where several overlap their properties are added by extinction. The perturbation moves
-    // the place in them. Throws Error.
+    // A medium of layers only; where several overlap, their properties are added by extinction. The
+    // perturbation displaces the place at which they are looked up. Throws Error.
     explicit Medium(std::vector<HeightLayer> layers, Perturbation perturbation = {});
 
-    // footprint: metres a sample stands for, for mip levels; 0: the finest. time: seconds, of the noise.
+    // Returns the medium's properties at a place. footprint: metres that a sample stands for, for the mip
+    // level of layers; 0: the finest. time: seconds, for the noise.
     OpticalProperties at(const glm::dvec3& world, double time = 0, double footprint = 0) const;
-    // Returns the gradient of the grid's value at the displaced place, by central differences of one voxel to
-    // both sides: value units a metre, world axes; 0 outside; at the faces the outermost voxels count on.
-    // With layers: the upward normal of the nearest one.
+    // Returns the gradient of the grid's value at the displaced place, in value units per metre along world
+    // axes, by central differences over one voxel to each side; at the faces, outermost voxels are repeated.
+    // 0 outside. For layers: the upward normal of the nearest one.
     glm::dvec3 gradientAt(const glm::dvec3& world, double time = 0) const;
 
     const GreyVolume* field() const { return mField.get(); }  // null: layers alone
@@ -44,7 +45,7 @@ public:
     const Perturbation& perturbation() const { return mPerturbation; }
     const NoiseVolume* noise() const { return mNoise.get(); }  // null: not perturbed
 
-    // The box that holds everything which is not empty, displacements counted.
+    // Returns a box around everything that is not empty, displacements included.
     const WorldBox& bounds() const { return mBounds; }
     double largestExtinction() const { return mLargestExtinction; }  // 1 / metres, anywhere
 

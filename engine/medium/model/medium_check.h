@@ -1,5 +1,5 @@
-// What is wrong with one entry of a transfer function: shared by its constructors, which name the entry, and
-// by its text file's reader, which names the line.
+// Problems of one entry of a transfer function, for its constructors, which name the entry, and for the
+// reader of its text file, which names the line.
 #pragma once
 
 #include <string>

@@ -35,8 +35,8 @@ Sides sidesOf(const GreyVolume& field, double lowest, double highest) {
     return sides;
 }
 
-// The side on which all four voxels around each place of a row between two rows and two slices are; 0: no
-// such.
+// Finds for each place of a row the side on which all four voxels around it lie, between two rows and two
+// slices; 0: they lie on different sides.
 void classifyRow(const GreyVolume& field, const Sides& sides, int j, int k, std::vector<std::uint8_t>& row) {
     const std::int16_t* at[4];
     for (int n = 0; n < 4; ++n) at[n] = field.values.data() + field.frame.index(0, j + (n & 1), k + (n >> 1));

@@ -9,9 +9,9 @@
 namespace stereonav {
 
 struct MediumPicture {
-    // Linear RGB radiance, the background not in it, and in w the share of the background that is seen.
+    // Linear RGB radiance without the background; w: share of the background that is seen.
     Plane<glm::vec4> light;
-    // View depth, metres, at which the eye's ray first meets something not empty, kMissDepth where nothing.
+    // View depth in metres at which the ray first meets the medium; kMissDepth where it meets nothing.
     Plane<float> viewDepth;
 };
 

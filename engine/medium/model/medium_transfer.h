@@ -1,6 +1,6 @@
-// Optical properties by value, and by how steeply it changes (Kniss et al. 2003, section 3.3; row K5 of
-// docs/ledger.md). One dimension: points over the value, linear between. Two: regions over value and gradient
-// magnitude, added up by extinction.
+// Optical properties by value and by gradient magnitude (Kniss et al. 2003, section 3.3; row K5 of
+// docs/ledger.md). In one dimension: points over the value, linear between them. In two: regions over value
+// and gradient magnitude, added up by extinction.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace stereonav {
 
-// A material as people write it: opacity and transport colour of a layer of the file's reference length.
+// A material in its text form: opacity and transport colour of a layer of the file's reference length.
 struct MediumMaterial {
     glm::vec3 color{1.0f};      // linear RGB 0..1
     double opacity = 0;         // 0..1; 1 counts as kDensest
@@ -25,10 +25,10 @@ struct MediumPoint {
     double value = 0;  // in the field's units
     MediumMaterial material;
 };
-// Weight 1 inside, falling linearly to 0 over the outer parts: a trapezoid in each of both.
+// Weight 1 inside, falling linearly to 0 over the outer parts: a trapezoid in value and one in gradient.
 struct MediumRegion {
     double value[4] = {};  // A < B <= C < D: the weight is 0, 1, 1, 0 there
-    // Corners A, B, C and D for the gradient magnitude, value units a metre; A = B = 0: from 0 on; the last
+    // Corners A, B, C and D for the gradient magnitude, value units per metre. A = B = 0: from 0 on; the last
     // may be infinite.
     double gradient[4] = {};
     MediumMaterial material;
@@ -52,24 +52,25 @@ public:
     const std::vector<MediumRegion>& regions() const { return mRegions; }
 
     // Multiplies every surface weight by a share that rises from 0 at gradient magnitude `low` to 1 at `high`
-    // (value units a metre): smooth insides keep their volume light. Throws Error unless 0 <= low < high.
+    // (value units per metre), so that smooth interiors keep their volume light. Throws Error unless 0 <= low
+    // < high.
     void setSurfaceRamp(double low, double high, const std::string& source);
     bool hasSurfaceRamp() const { return mSurfaceHigh > 0; }
     double surfaceLow() const { return mSurfaceLow; }
     double surfaceHigh() const { return mSurfaceHigh; }
 
-    // Returns the properties, by value and gradient magnitude (value units a metre). Extinctions are added
-    // (and linear between points) as opacities' logarithms; colours mixed by extinction. Where the opacity is
-    // 0 nothing is left of the rest either: all 0.
+    // Returns the properties at a value and gradient magnitude (value units per metre). Extinctions, which
+    // are logarithms of opacity, are added, and are linear between points; colours are averaged by
+    // extinction. Where the opacity is 0 all properties are 0.
     OpticalProperties at(double value, double gradient) const;
-    // Values outside are transparent for every gradient; lowest > highest where all are; ends may be
-    // infinite.
+    // Returns the range of values outside which the medium is transparent for every gradient; lowest >
+    // highest where it is everywhere; ends may be infinite.
     struct Range {
         double lowest, highest;  // values
     };
     Range visibleRange() const;
-    Range changingRange() const;  // values; outside nothing changes any more
-    // Returns value units a metre: beyond it nothing changes any more; 0 in one dimension.
+    Range changingRange() const;  // range of values outside which properties are constant
+    // Returns the gradient in value units per metre above which properties are constant; 0 in one dimension.
     double largestGradient() const;
 
 private:
@@ -79,8 +80,8 @@ private:
     double mSurfaceLow = 0, mSurfaceHigh = 0;  // value units a metre; both 0: no ramp
 };
 
-// Returns the transport colour, linear RGB 0..1, that diffusion gives a material of this colour and opacity
-// (docs/formats.md), for files that name none.
+// Returns the transport colour, linear RGB 0..1, that diffusion gives to a material of this colour and
+// opacity (docs/formats.md), for files without one.
 glm::vec3 diffuseTransport(const glm::vec3& color, double opacity);
 
 // Read the text format of docs/formats.md. Throw Error with file and line.

@@ -18,7 +18,7 @@
 namespace stereonav {
 namespace {
 
-constexpr double kPerMillimetre = 1e3;  // a metre; gradients in files are a millimetre's
+constexpr double kPerMillimetre = 1e3;  // millimetres in a metre: files give gradients per millimetre
 
 constexpr const char* kPointForm =
     "write a point as \"value red green blue opacity\", then \"transport red green blue\", \"surface s\", "
@@ -99,7 +99,7 @@ private:
     const char* mForm;
 };
 
-// Words that a line has had, each allowed once.
+// The words that a line has had so far; each is allowed once.
 class Once {
 public:
     void add(const Line& line, std::string_view word) {
@@ -117,7 +117,7 @@ private:
     std::vector<std::string_view> mWords;
 };
 
-// Reads what points and regions have in common; false where the word is not one of these.
+// Reads a word that points and regions have in common; returns false for any other word.
 bool readCommon(Line& line, std::string_view word, Reading& reading) {
     if (word == "transport") {
         reading.transport = line.color(word);

@@ -8,7 +8,8 @@
 
 namespace stereonav {
 
-// Returns "none", "cloud" or "fur" for a medium that is `extent` metres long, or a file. Throws Error.
+// Returns the noise for --noise: "none", "cloud" or "fur" for a medium that is `extent` metres long, or that
+// of a file. Throws Error.
 Perturbation findNoise(const std::string& text, double extent);
 // Reads a file's text. Throws Error with file and line.
 Perturbation parseNoise(std::string_view text, const std::string& source);

@@ -1,6 +1,6 @@
-// Detail that the data do not have: a small repeating noise volume moves the places at which data are read,
-// or changes optical properties (Kniss et al. 2003, section 3.4; row K6 of docs/ledger.md). Moves with a
-// clock that is handed in, so that the same time gives the same picture.
+// Detail that the data do not have: a small repeating noise volume displaces the places at which data are
+// read, or changes optical properties (Kniss et al. 2003, section 3.4; row K6 of docs/ledger.md). It moves
+// with a time that callers give, so that the same time gives the same picture.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace stereonav {
 
-// Noise of 32^3 texels of four bytes, uniform numbers blurred a little along each axis, repeating; made from
-// its seed alone.
+// Noise of 32^3 texels of four bytes, uniform numbers blurred a little along each axis, repeating; it depends
+// only on its seed.
 class NoiseVolume {
 public:
     static constexpr int kSize = 32;
@@ -48,16 +48,16 @@ struct Perturbation {
     double largestDisplacement() const;      // metres along any axis, over all scales
     double largestExtinctionFactor() const;  // at least 1, without unit
 };
-// Returns how far a scale's noise has moved, metres, less whole repeats: exact however late it is. time:
-// seconds.
+// Returns how far a scale's noise has moved, in metres, modulo its repeat, so that it stays exact at any
+// time. time: seconds.
 glm::dvec3 noiseOffset(const NoiseScale& scale, double time);
-// Returns where a scale reads the noise, in texels: (world - noiseOffset) * kSize / size.
+// Returns the place where a scale reads the noise, in texels: (world - noiseOffset) * kSize / size.
 glm::dvec3 noiseTexel(const NoiseScale& scale, const glm::dvec3& world, double time);
-// Returns what is added to the place at which data are read, metres: the sum over all scales, each read at
-// `world` itself.
+// Returns the displacement, in metres, of the place at which data are read: the sum over all scales, each
+// read at `world` itself.
 glm::dvec3 displacementAt(const Perturbation& perturbation, const NoiseVolume& noise, const glm::dvec3& world,
                           double time);
-// Changes properties: factors are 1 + the sum over all scales, read at `world` itself (not displaced).
+// Multiplies properties by 1 + the sum of the noise over all scales, read at `world` itself (not displaced).
 void perturb(const Perturbation& perturbation, const NoiseVolume& noise, const glm::dvec3& world, double time,
              OpticalProperties& properties);
 // Throws Error for too many scales, sizes not above 0, numbers that are not finite.

@@ -1,7 +1,7 @@
-// How much of the light that goes one way is sent another way, by the cosine of the angle between the two
-// (Kniss et al. 2003, section 3.2): 1 is straight on, -1 straight back. Unlike the paper's, the tables are
-// scaled: the mean over the sphere is 1 in each colour (4 pi times a normalised phase function), so that 1
-// everywhere is the isotropic one and the model's direct light is single scattering exactly.
+// The share of light travelling in one direction that is scattered into another, by the cosine of the angle
+// between them (Kniss et al. 2003, section 3.2): 1 is straight on, -1 straight back. Unlike the paper's, the
+// tables are scaled: the mean over the sphere is 1 in each colour (4 pi times a normalised phase function),
+// so that 1 everywhere is the isotropic one and the model's direct light is exactly single scattering.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -17,7 +17,7 @@ public:
     static constexpr int kEntries = 1024;  // intervals; evenly spaced in the angle, linear between
 
     PhaseFunction();  // 1 for every angle
-    // Throws Error, in the name of `source`, unless every |g| <= 0.999.
+    // Throws Error, naming `source`, unless every |g| <= 0.999.
     static PhaseFunction henyeyGreenstein(const glm::vec3& g, const std::string& source = "phase function");
     // Angle in degrees (0: straight on), and the weight of each colour; strictly increasing from 0 to 180,
     // weights finite and >= 0, not all 0; scaled here to the mean 1. Throws Error.
@@ -28,13 +28,14 @@ public:
     static PhaseFunction table(const std::vector<Point>& points, const std::string& source);
 
     bool isotropic() const { return mIsotropic; }
-    glm::vec3 at(float cosine) const;  // by lookup; cosines beyond -1..1 count as the ends
-    // Returns the mean cosine g of each colour, by the table.
+    glm::vec3 at(float cosine) const;  // by lookup in the table; cosines are clamped to -1..1
+    // Returns the mean cosine g of each colour, computed from the table.
     glm::vec3 meanCosine() const;
     // kEntries + 1 weights; entry i stands for the angle i * pi / kEntries.
     const std::vector<glm::vec3>& entries() const { return mEntries; }
 
-    // Returns the cosine of a new direction of a path by one colour's table (0 red .. 2 blue), u in [0, 1).
+    // Returns the cosine for a new direction of a path from the table of one colour (0 red .. 2 blue), u in
+    // [0, 1).
     float sampleCosine(int channel, float u) const;
 
 private:
@@ -55,8 +56,8 @@ std::span<const PhasePreset> phasePresets();
 std::string phasePresetNames();  // "a, b, c"
 
 // Returns "none", "hg G" or "hg G_RED G_GREEN G_BLUE", a preset's function, or a file's: lines "angle_deg red
-// green blue". Throws Error: for what is in a file with the file's name, else in the name of `asked`, where
-// the text is from.
+// green blue". Throws Error: about a file's content with the file's name, else naming `asked`, the origin of
+// the text.
 PhaseFunction findPhaseFunction(const std::string& text, const std::string& asked = "phase function");
 
 }  // namespace stereonav

@@ -13,8 +13,8 @@ namespace stereonav {
 
 constexpr double kMostInField = 1000;  // the largest value
 
-// Returns size^3 values of a cube from its corner `origin` on, `width` metres wide. valueAt: value at a place
-// in metres, called by several threads; cut to 0..kMostInField.
+// Returns size^3 values in a cube `width` metres wide, with its low corner at `origin`. valueAt: returns the
+// value at a place in metres; called by several threads; results are clamped to 0..kMostInField.
 template <typename Value>
 std::shared_ptr<GreyVolume> sampledField(int size, double width, const glm::dvec3& origin, Value valueAt) {
     VolumeFrame frame;

@@ -102,7 +102,8 @@ private:
         return p.glow + sent * static_cast<float>(transmittance(mMedium, back, 0, light.distance, random));
     }
 
-    // A new direction; `carried` is weighted for having taken it.
+    // Returns a new direction of the path. carried: multiplied by each colour's phase function over the
+    // density with which the direction was chosen.
     glm::dvec3 scattered(const glm::dvec3& direction, glm::vec3& carried, PathRandom& random) const {
         const double turn = kTurn * random.uniform();
         if (mLook.phase.isotropic()) return turnedAway(direction, 1 - 2 * random.uniform(), turn);
@@ -117,7 +118,8 @@ private:
         return turnedAway(direction, cosine, turn);
     }
 
-    // Russian roulette: what carries little goes on by chance, with more.
+    // Russian roulette: a path that carries little light ends by chance, or goes on with more light, so that
+    // the mean stays.
     static bool survives(glm::vec3& carried, int scatters, PathRandom& random) {
         const float largest = largestOf(carried);
         if (!(largest > 0)) return false;
@@ -134,8 +136,8 @@ private:
     bool mOnlyForward;
 };
 
-// Sums of a pixel's samples. The background's share has its own, less noisy estimate than the paths that
-// escape.
+// Sums over a pixel's samples. `seen`, the share of the background, sums estimated transmittances: they are
+// less noisy than counting the paths that escape.
 struct PixelSums {
     glm::dvec3 light{0.0}, squares{0.0};
     double seen = 0;

@@ -1,6 +1,6 @@
-// Bounds of a medium's extinction in each cell of a coarse grid: the majorants and minorants of delta
-// tracking, and how a ray walks them (digital differential analyser of Amanatides and Woo 1987). Empty cells
-// cost a step, homogeneous ones no reading of the medium.
+// Bounds of a medium's extinction in each cell of a coarse grid, the majorants and minorants of delta
+// tracking, and the walk of a ray through the grid (Amanatides and Woo 1987). Empty cells cost one step;
+// homogeneous ones need no reading of the medium.
 #pragma once
 
 #include <algorithm>
@@ -18,10 +18,11 @@ struct ExtinctionRange {
     float least = 0, most = 0;  // 1/m
 };
 
-// Cells over a medium, and the extinctions between which it lies in each.
+// A grid of cells over a medium, with the least and largest extinction in each.
 struct ExtinctionBounds {
-    glm::ivec3 size{0};            // cells; 0: the medium is empty
-    glm::dvec3 extent{0.0};        // the medium's size in cells: at most `size`, the last ones may be cut
+    glm::ivec3 size{0};  // cells; 0: the medium is empty
+    // The medium's size in cells: at most `size`, since the last cells may be cut off.
+    glm::dvec3 extent{0.0};
     glm::dvec3 origin{0.0};        // world, metres: the low corner of cell (0, 0, 0)
     glm::dmat3 cellsFromWay{1.0};  // cell coordinates = this * (world - origin)
     std::vector<ExtinctionRange> cells;
@@ -33,8 +34,8 @@ struct ExtinctionBounds {
     const ExtinctionRange& at(const glm::ivec3& c) const { return cells[index(c)]; }
 };
 
-// Makes bounds over every point of the medium at that time, seconds. Cells follow the voxels of a grid, or
-// the world's axes for layers.
+// Makes bounds that hold at every point of the medium at that time, seconds. Cells follow the voxels of a
+// grid, or the world's axes for layers.
 ExtinctionBounds makeExtinctionBounds(const Medium& medium, double time);
 
 struct WorldRay {
@@ -58,7 +59,7 @@ private:
     double nearestFace() const { return std::min({mNext.x, mNext.y, mNext.z}); }
 
     const ExtinctionBounds& mBounds;
-    glm::dvec3 mWay{0.0};               // cells a metre
+    glm::dvec3 mWay{0.0};               // cells per metre of the ray
     glm::dvec3 mNext{0.0}, mEach{0.0};  // metres to the next face across each axis, and between faces
     glm::ivec3 mCell{0};
     double mBegin = 0, mEnd = 0, mLast = 0;

@@ -1,4 +1,4 @@
-// Free flight and transmittance through a medium between known bounds of its extinction: no slices, no bias.
+// Free flight and transmittance through a medium with known bounds of its extinction, without slices or bias.
 #pragma once
 
 #include <cstdint>
@@ -46,8 +46,8 @@ struct MediumCollision {
     OpticalProperties properties;
 };
 
-// Returns where light that travels along the ray from `first` metres on is next met by the medium; nothing
-// where it leaves. Delta tracking (Woodcock et al. 1965) with a majorant a cell.
+// Returns the next collision with the medium of light that travels along the ray from `first` metres on;
+// empty where it leaves the medium. Delta tracking (Woodcock et al. 1965) with a majorant for each cell.
 inline std::optional<MediumCollision> freeFlight(const TrackedMedium& medium, const WorldRay& ray,
                                                  double first, PathRandom& random) {
     double depth = random.opticalDepth();
@@ -67,9 +67,10 @@ inline std::optional<MediumCollision> freeFlight(const TrackedMedium& medium, co
     return std::nullopt;
 }
 
-// Returns an estimate without bias of exp(-integral of extinction) between two distances, metres, in [0, 1]
-// but for roulette: residual ratio tracking (Novak et al. 2014) with the least extinction of each cell as its
-// control, so that homogeneous cells are exact. Below kRouletteBelow it is continued by chance.
+// Returns an unbiased estimate of exp(-integral of extinction) between two distances in metres; it lies in
+// [0, 1] except after roulette. Residual ratio tracking (Novak et al. 2014) with the least extinction of each
+// cell as its control, so that homogeneous cells are exact. Below kRouletteBelow roulette decides whether it
+// goes on.
 inline double transmittance(const TrackedMedium& medium, const WorldRay& ray, double first, double last,
                             PathRandom& random) {
     constexpr double kRouletteBelow = 0.01, kNothing = 1e-30;

@@ -1,4 +1,4 @@
-// Trilinear reading lies between the least and the greatest of the texels around it.
+// Bounds the noise: an interpolated value lies between the least and the greatest of the texels around it.
 #include "engine/medium/paths/delta_tracking_noise.h"
 
 #include <algorithm>
@@ -10,7 +10,8 @@ namespace stereonav {
 namespace {
 
 constexpr int kSize = NoiseVolume::kSize;
-constexpr int kMostTexels = 10;  // along an axis; above, the range of all is hardly wider
+// Texels along an axis; for larger boxes the full range is a bound that is hardly wider.
+constexpr int kMostTexels = 10;
 
 struct TexelRange {
     glm::dvec4 low{1.0}, high{-1.0};
@@ -27,7 +28,7 @@ TexelRange rangeBetween(const NoiseVolume& noise, const glm::dvec3& low, const g
     const glm::dvec3 first = glm::floor(low), count = glm::floor(high) + 2.0 - first;
     TexelRange range;
     if (!(count.x <= kMostTexels && count.y <= kMostTexels && count.z <= kMostTexels)) {
-        std::swap(range.low, range.high);  // -1 to 1
+        std::swap(range.low, range.high);  // the full range: -1 to 1
         return range;
     }
     constexpr double kPeriod = kSize;

@@ -1,5 +1,5 @@
-// How far the perturbation may move and change what is read within a box of the world, at one moment: the
-// noise's texels there bound it, closer than its greatest amplitude.
+// Bounds of the perturbation within a box of the world at one moment: displacement, and factor on extinction.
+// They come from the noise's texels there and are tighter than its amplitude.
 #pragma once
 
 #include <vector>

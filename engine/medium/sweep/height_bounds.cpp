@@ -8,9 +8,9 @@
 namespace stereonav {
 namespace {
 
-constexpr double kSamplesOff = 0.01;      // by which places are off at most, in floats
+constexpr double kSamplesOff = 0.01;      // samples: bound of rounding errors of places in floats
 constexpr double kFootprintsOff = 1.001;  // factor
-constexpr double kHeightsOff = 2e-6;      // share of how far the layer reaches
+constexpr double kHeightsOff = 2e-6;      // rounding error as a share of the layer's vertical reach
 
 constexpr float kNoHeight = std::numeric_limits<float>::infinity();
 

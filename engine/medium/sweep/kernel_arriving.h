@@ -1,5 +1,5 @@
-// The light that arrives at packets of places: from the light's buffer, a lamp's cone and falloff, what a
-// surface makes of it. Included by kernels only.
+// The light that arrives at packets of places: from the light's buffer and a lamp's cone and falloff, and how
+// much of it a surface sends on. Included by kernels only.
 #pragma once
 
 #include "engine/medium/sweep/kernel_medium.h"
@@ -10,8 +10,8 @@ STEREONAV_INLINE F dotWith(const V3& v, const float (&a)[3]) {
     return mulAdd(v.x, F(a[0]), mulAdd(v.y, F(a[1]), v.z * F(a[2])));
 }
 
-// Light that the buffer holds at continuous coordinates, bilinearly, 0 to 1; outside, what the ring around it
-// does.
+// Light in the buffer at continuous coordinates, bilinear, 0 to 1; outside the buffer that of the ring around
+// it.
 struct Buffered {
     F direct, indirect[3];
 };
@@ -51,12 +51,12 @@ STEREONAV_INLINE Buffered readBuffer(const SweepLight& light, int inChunk, F u, 
     return b;
 }
 
-// The light's way at places, and what share of it would arrive were nothing between.
+// The light's direction at places, and the share of it that would arrive through empty space.
 struct Arriving {
     V3 way;           // unit
-    F share, length;  // 0 to 1, by the falloff; metres of way for one along the axis
+    F share, length;  // 0 to 1, by the falloff; metres along the ray per metre along the axis
     F u, v;           // place in the buffer, texels
-    M lit;            // past the light
+    M lit;            // places past the lamp; all for parallel light
     M inCone;         // within a lamp's cone, where direct light is
 };
 // Returns a lamp's light; along: metres along the axis at which the places lie.
@@ -76,7 +76,7 @@ struct Arriving {
     a.length = distance / max(past, F(1e-4f) * distance);
     return a;
 }
-// Returns parallel light, which arrives everywhere alike.
+// Returns parallel light, which is the same everywhere.
 STEREONAV_INLINE Arriving sunAt(const SweepLight& light, const V3& place, M m) {
     const V3 way{F(light.forward[0]), F(light.forward[1]), F(light.forward[2])};
     return {way,
@@ -88,7 +88,8 @@ STEREONAV_INLINE Arriving sunAt(const SweepLight& light, const V3& place, M m) {
             m};
 }
 
-// Returns Blinn-Phong's share of the light, both sides alike; normal: any length; way, toEye: unit.
+// Returns the share of the light by Blinn-Phong, the same on both sides; normal: any length; way, toEye:
+// unit.
 STEREONAV_INLINE F blinnPhong(const SweepLook& look, const V3& normal, const V3& way, const V3& toEye) {
     const F zero(0.0f), tiny(1e-30f);
     const F square = dot(normal, normal);

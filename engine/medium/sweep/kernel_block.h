@@ -1,7 +1,7 @@
-// Values and central differences of a packet whose rays lie close together: what is around their cells is
-// loaded once, row by row, subtracted there, and looked up in registers. With pixels smaller than a voxel the
-// lanes' sixteen gathers would load the same words over and over. AVX-512 alone: its permutes reach 64 words.
-// Included by kernels only.
+// Values and central differences for a packet whose rays lie close together: the words around their cells are
+// loaded once, row by row, subtracted there, and looked up in registers. Where pixels are smaller than a
+// voxel, the lanes' sixteen gathers would load the same words many times. AVX-512 only: its permutes reach 64
+// words. Included by kernels only.
 #pragma once
 
 #include "engine/medium/sweep/sweep_kernel_types.h"
@@ -21,8 +21,8 @@ STEREONAV_INLINE __m512i rowsAt(const std::int16_t* p, std::int64_t stride, int 
     return rows;
 }
 
-// Trilinear in three planes of four rows of eight words; words: of the rows below and above a place in the
-// first two planes, two neighbours each.
+// Trilinear interpolation in three planes of four rows of eight words. words: those of the rows below and
+// above a place in the first two planes, two neighbours each.
 struct BlockPlace {
     I words[2], weights;
     F fy, fz;
@@ -35,14 +35,14 @@ STEREONAV_INLINE F inBlock(const __m512i (&planes)[3], const BlockPlace& at) {
     return lerp(lerp(pair(0, 0), pair(0, 1), at.fy), lerp(pair(1, 0), pair(1, 1), at.fy), at.fz);
 }
 
-// Returns the least number of lanes m, no more than `most`.
+// Returns the least value among lanes m, at most `most`.
 STEREONAV_INLINE int leastOf(I a, M m, int most) {
     const int least = _mm512_mask_reduce_min_epi32(m.v, a.v);
     return least < most ? least : most;
 }
 
-// Does the same as innerDifferences for lanes m whose cells lie within two along each axis; false: they do
-// not, and nothing was done. The grid's values differ by less than 2^15.
+// Does the same as innerDifferences() for lanes m whose cells lie within two along each axis. Returns false,
+// having done nothing, where they do not. The grid's values must differ by less than 2^15.
 STEREONAV_INLINE bool blockDifferences(const SweepGrid& grid, const V3& v, I x, I y, I z, M m, V3& d) {
     if (!grid.blocks) return false;
     const I one(1);
@@ -83,8 +83,8 @@ STEREONAV_INLINE bool blockDifferences(const SweepGrid& grid, const V3& v, I x, 
     return true;
 }
 
-// Finds trilinear values for lanes m whose cells lie within seven, three and two along x, y and z; false:
-// they do not, and nothing was done.
+// Finds trilinear values for lanes m whose cells lie within seven, three and two along x, y and z. Returns
+// false, having done nothing, where they do not.
 STEREONAV_INLINE bool blockValue(const SweepGrid& grid, const V3& v, I x, I y, I z, M m, F& value) {
     if (!grid.large) return false;
     const int x0 = leastOf(x, m, grid.lastCell[0] - 6), y0 = leastOf(y, m, grid.lastCell[1] - 2),
@@ -120,8 +120,8 @@ STEREONAV_INLINE WordBlock wordsAt(const std::uint32_t* p, std::int64_t stride) 
     rows = _mm512_inserti32x4(rows, row(2), 2);
     return {_mm512_inserti32x4(rows, row(3), 3)};
 }
-// Finds texels (i, j) of the light that eyes read, for lanes m, and their neighbours to the right and below:
-// where all lie in four by four. index: in the block.
+// Finds texels (i, j) of the light that eyes read, with their neighbours to the right and below, for lanes m;
+// returns false unless all lie within four by four. index: in the block.
 STEREONAV_INLINE bool lightBlock(const SweepLight& light, I i, I j, M m, std::int64_t& word, I& index) {
     const int i0 = leastOf(i, m, light.width - 1), j0 = leastOf(j, m, light.height - 2);
     const I oi = i - I(i0), oj = j - I(j0), most(2);

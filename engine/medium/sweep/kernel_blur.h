@@ -1,4 +1,4 @@
-// How scattered light is spread while a tile of the light's buffer passes a slab (V8, V9 and V11 of
+// Spreads scattered light while a tile of the light's buffer passes a slab (V8, V9 and V11 of
 // docs/volume_light.md). Included by kernels only.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Texels' rays in the middle of a slab.
+// The texels' rays in the middle of a slab.
 struct TexelPlaces {
     V3 place;
     V3 way;     // way along the ray per metre along the sweep's axis
@@ -72,7 +72,7 @@ STEREONAV_INLINE I logicalRight(I a) {
 STEREONAV_INLINE I wholeNumber(std::uint32_t bitsOf) {
     return I(static_cast<int>(bitsOf));
 }
-// The turn of the taps on a circle, radians, by a hash of texel and slab: tapTurn() of
+// Returns the rotation of the taps on a circle, radians, by a hash of texel and slab: tapTurn() of
 // tests/oracle/sweep_formulas.h.
 STEREONAV_INLINE F turnOf(I x, I y, int slab) {
     I h = (x * wholeNumber(0x8da6b343u)) ^ (y * wholeNumber(0xd8163841u)) ^
@@ -83,7 +83,7 @@ STEREONAV_INLINE F turnOf(I x, I y, int slab) {
     return toFloat(logicalRight<8>(h)) * F(1.57079633f / 16777216);
 }
 
-// Returns what a plane of light holds at continuous coordinates, bilinearly.
+// Returns a plane of light at continuous coordinates, bilinear.
 STEREONAV_INLINE F readPlane(const SweepLight& light, const float* plane, F u, F v, M m) {
     const F half(0.5f), least(-1.0f), one(1.0f);
     const F x = clamp(u - half, least, F(static_cast<float>(light.width)));
@@ -95,7 +95,7 @@ STEREONAV_INLINE F readPlane(const SweepLight& light, const float* plane, F u, F
     return lerp(lerp(above.first, above.second, s), lerp(below.first, below.second, s), t);
 }
 
-// How much later, metres, the texels to the right and below meet a slab that leans (V11): tapLags() of
+// Delay in metres with which the texels to the right and below meet a slab that leans (V11): tapLags() of
 // tests/oracle.
 struct Lags {
     F right, below;
@@ -118,7 +118,7 @@ STEREONAV_INLINE Lags lagsOf(const SweepLight& light, float middle, F x, F y) {
 struct TexelRow {
     std::int64_t index;  // index of the first texel in a plane
     F x, y;              // centres
-    F offsetSquare;      // square of the blur's offset, in texels
+    F offsetSquare;      // square of the blur's offset, texels
     I column, line;
     int slab;
     Lags lags;  // where slabs lean
@@ -128,7 +128,7 @@ struct TexelRow {
 STEREONAV_INLINE F leveled(F light, F depth, F later) {
     return mulAdd(light, clamp(depth * later, F(-1.0f), F(1.0f)), light);
 }
-// Returns the depth of the texel that a place lies in; beyond the edge there is none.
+// Returns the depth of the texel that contains a place; 0 beyond the edge.
 STEREONAV_INLINE F depthAt(const SweepLight& light, const float* depths, F u, F v, M m) {
     const F least(-1.0f);
     const I i = floorToInt(clamp(u, least, F(static_cast<float>(light.width)))),

@@ -1,7 +1,7 @@
-// The light's pass of grids alone, where a tile's texels are alike: packets go down the tile row by row and
-// keep the rows above, here and below in registers, and what is the same for all texels is found once a tile.
-// The same numbers as kernel_pass.h's passTexels, which lamps, farther taps and leaning slabs take. Included
-// by kernels only.
+// The light's pass through grids without layers or noise, where a tile's texels are alike: packets go down
+// the tile row by row and keep the rows above, here and below in registers, and values that are the same for
+// all texels are found once per tile. Results equal those of passTexels() in kernel_pass.h, which is used for
+// lamps, farther taps and leaning slabs. Included by kernels only.
 #pragma once
 
 #include "engine/medium/sweep/kernel_blur.h"
@@ -25,12 +25,12 @@ STEREONAV_INLINE void packIndirect(std::uint32_t* first, std::int64_t plane, con
     store(first + plane, inFifteenBits(indirect[1]) | shiftLeft<16>(inFifteenBits(indirect[2])), lanes);
 }
 
-// Returns light after an optical depth; 0 where less than kNothing is left.
+// Returns the light after an optical depth; 0 where less than kNothing is left.
 STEREONAV_INLINE F weakened(F light, F depth) {
     const F left = light * decayOf(depth).passes;
     return select(left < F(kNothing), F(0.0f), left);
 }
-// Weakens three colours of lanes m in the same way; asked once whether any is thick.
+// Weakens three colours of lanes m in the same way; tests once whether any depth is large.
 STEREONAV_INLINE void weakenAll(F (&light)[3], const F (&depth)[3], M m) {
     const F limit(0.5f), zero(0.0f);
     F passes[3];
@@ -45,13 +45,13 @@ STEREONAV_INLINE void weakenAll(F (&light)[3], const F (&depth)[3], M m) {
     }
 }
 
-// Returns where a column of the table is, for places from 0 on.
+// Returns the column of the table for places from 0 on.
 STEREONAV_INLINE Column columnAt(F place) {
     const I entry = min(truncateToInt(place), I(SweepTable::kColumns - 2));
     return {entry, place - toFloat(entry), I(0), F(0.0f)};
 }
 
-// Texels of a row that a packet has met, row by row down a tile.
+// A packet's texels in the rows of a tile, from top to bottom.
 struct ColumnRows {
     const float* from[3];  // light before the slab
     float* to[3];          // light after the slab
@@ -68,8 +68,8 @@ struct ColumnRows {
             here[k] = loadF(from[k]);
         }
     }
-    // Spreads the row to its neighbours, and goes on to the next row; `here` is then the next row's. share: 0
-    // to 1, quarter: a fourth of it.
+    // Spreads the row to its neighbours and advances, so that `here` becomes the next row. share: 0 to 1;
+    // quarter: a fourth of it.
     STEREONAV_INLINE void spread(F share, F quarter, F (&spread)[3]) {
         for (int k = 0; k < 3; ++k) {
             const F below = loadF(from[k] + stride);
@@ -88,12 +88,12 @@ struct ColumnRows {
     }
 };
 
-// Returns whether passEvenTile passes the tile: parallel light, taps at the four neighbours.
+// Returns whether passEvenTile() can pass the tile: parallel light, with taps at the four neighbours.
 STEREONAV_INLINE bool passesEvenly(const SweepLight& light, const LightPass& pass) {
     const float offset = light.blur / (light.perX > 1e-30f ? light.perX : 1e-30f);
     return light.parallel && pass.thickness * light.length * offset * offset <= 4.0f / 3;
 }
-// Passes a tile; returns whether scattered light of it differs from 1 afterwards.
+// Passes a tile; returns whether its scattered light differs from 1 afterwards.
 inline bool passEvenTile(const SweepScene& scene, const LightPass& pass, const LightTile& tile) {
     const SweepLight& light = scene.light;
     const F way = F(pass.thickness) * F(light.length), one(1.0f), zero(0.0f);

@@ -1,5 +1,5 @@
-// A tile of an eye's pixels seen through a chunk of slabs: each packet of rays walks the slabs and keeps what
-// it gathers in registers (V7 of docs/volume_light.md). Included by kernels only.
+// A tile of an eye's pixels seen through a chunk of slabs: each packet of rays goes through the slabs and
+// keeps in registers what it gathers (V7 of docs/volume_light.md). Included by kernels only.
 #pragma once
 
 #include "engine/medium/sweep/kernel_shading.h"
@@ -7,11 +7,11 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-constexpr float kLeastLeft = 1.0f / 1024;  // share of the light: with less left a ray ends
-constexpr float kNothing = 1e-20f;         // below it numbers become 0 before they get denormal and slow
+constexpr float kLeastLeft = 1.0f / 1024;  // share of the light: a ray with less left ends
+constexpr float kNothing = 1e-20f;         // smaller numbers become 0 before they get denormal and slow
 constexpr int kEmission = 0, kSurface = 1, kDirect = 2, kIndirect = 3;
 
-// Light that rays have gathered, linear RGB; transmittance of what they passed; and view depth, metres.
+// Light that rays have gathered, linear RGB; transmittance so far; view depth, metres.
 struct Gathered {
     F light[3], left, depth;
 };
@@ -28,7 +28,7 @@ STEREONAV_INLINE void storeGathered(const Gathered& g, float* to) {
 }
 
 template <int kModel, bool kGridAlone>
-// Rays of 4 columns and kLanes / 4 rows of pixels, and how they see a slab.
+// Rays of 4 columns and kLanes / 4 rows of pixels, and their view of a slab.
 struct EyePacket {
     const SweepScene& scene;
     const SweepEye& eye;
@@ -51,7 +51,8 @@ struct EyePacket {
             if (s.light.parallel) phase = phaseAt(s.look, dotWith(toEye, s.light.forward), rays.valid);
     }
 
-    // Returns what a slab sends to the eye, for lanes m; x: its optical depth along the rays.
+    // Returns the light that a slab sends to the eye, for lanes m; x: the slab's optical depth along the
+    // rays.
     STEREONAV_INLINE Colors scattered(const Properties& p, int n, const V3& place,
                                       const SurfaceAlone& surface, F x, const Decay& own, M m) const {
         const SweepLight& light = scene.light;
@@ -93,15 +94,15 @@ struct EyePacket {
     }
 
     STEREONAV_INLINE F depthAt(int n) const { return mulAdd(F(chunk.middle[n]), rays.perDepth, rays.depth); }
-    // Looks at slab n of the chunk, for lanes m; start: view depth before which nothing is.
+    // Samples slab n of the chunk, for lanes m; start: view depth before which nothing is.
     STEREONAV_INLINE Sighting look(int n, M m, F start, const PacketShading& shading) const {
         const F t(chunk.middle[n]), zero(0.0f);
         const F depth = depthAt(n);
-        // A depth that is handed in was found by other slices: it counts from a slab before.
+        // The given start was found with other slices, so that it holds from one slab earlier on.
         m = m & (depth > zero) & (depth + abs(rays.perDepth) * F(chunk.thickness[n]) >= start);
         Sighting s = nothingSeen(depth, m);
         Properties p;
-        V3 place, there;  // there: among the voxels, or displaced
+        V3 place, there;  // there: voxel coordinates, or the displaced place
         SurfaceAlone surface{{zero, zero, zero}, zero, false};
         const SweepTable& table = scene.grid.table;
         if constexpr (kGridAlone) {
@@ -146,7 +147,7 @@ struct EyePacket {
         for (int k = 0; k < 3; ++k) s.sent.c[k] = mulAdd(p.glow[k], s.opacity, s.sent.c[k]);
         return s;
     }
-    // Adds what a slab shows to what was gathered.
+    // Adds a slab's light to what was gathered.
     STEREONAV_INLINE void collect(const Sighting& s, Gathered& g) const {
         const F zero(0.0f), tiny(kNothing);
         if (eye.forward) {
@@ -163,7 +164,7 @@ struct EyePacket {
     }
 };
 
-// Sees `slabs` of a tile along a packet. Returns the lanes that go on.
+// Follows a packet's rays through the given slabs of a tile. Returns the lanes that go on.
 template <int kModel, bool kGridAlone>
 STEREONAV_INLINE M seeSlabs(const EyePacket<kModel, kGridAlone>& packet, const EyeTile& tile,
                             std::uint32_t slabs, const SharedReader& reader, const SharedPlace& place,

@@ -7,10 +7,10 @@ namespace stereonav::STEREONAV_ISA {
 
 constexpr float kLongest = 1e4f;  // 1 / kLeastCosine
 
-// Rays by the distance along the axis from the chunk's reference, metres: place = at + t way.
+// Rays as functions of the distance t along the axis from the chunk's reference, metres: place = at + t way.
 struct EyeRays {
     V3 at, way;
-    F length;           // the length of way
+    F length;           // length of `way`
     F depth, perDepth;  // view depth = depth + t perDepth
     M valid;
 

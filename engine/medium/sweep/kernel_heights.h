@@ -1,5 +1,5 @@
-// Packets of heights of a layer (HeightLayer::heightAt in float). What lanes have in common is found once: a
-// level of the mip, its size, whether heights change at all. Included by kernels only.
+// Heights of a layer for packets (HeightLayer::heightAt in float). What the lanes have in common is found
+// once: the mip level, its size, whether heights change at all. Included by kernels only.
 #pragma once
 
 #include "engine/medium/sweep/sweep_kernel_types.h"
@@ -7,8 +7,8 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Returns metres above the layer's base; NaN where unknown. u, v: samples of level 0. Lanes may be of
-// different levels, and of four samples those with weight 0 do not count.
+// Returns metres above the layer's base; NaN where unknown. u, v: samples of level 0. Lanes may have
+// different levels; samples with weight 0 are ignored.
 [[gnu::noinline]] inline F heightInAny(const SweepLayer& layer, F u, F v, I level, M m) {
     const F zero(0.0f), one(1.0f), half(0.5f);
     const F perSize = asFloat(shiftLeft<23>(I(127) - level));
@@ -27,8 +27,8 @@ namespace stereonav::STEREONAV_ISA {
     }
     return sum;
 }
-// Returns the same for lanes of one level without holes: neighbours along x are one load. In a level one
-// sample wide the second of them is another number, with weight 0.
+// Returns the same for lanes with one level without holes: neighbours along x come from one load. In a level
+// one sample wide the second of them is an unrelated number with weight 0.
 STEREONAV_INLINE F heightIn(const SweepLayer& layer, F u, F v, int level, M m) {
     const F zero(0.0f), half(0.5f);
     const int width = static_cast<int>(layer.width[level]), height = static_cast<int>(layer.height[level]);
@@ -49,7 +49,7 @@ STEREONAV_INLINE int firstOf(I a, M m) {
     store(lanes, a);
     return lanes[__builtin_ctz(bits(m))];
 }
-// Returns heights between the levels that suit the footprint, for lanes m, of which there are some. size: the
+// Returns heights interpolated between the levels for the footprint, for lanes m, at least one. size:
 // footprint in samples.
 [[gnu::noinline]] inline F heightOfFootprint(const SweepLayer& layer, F u, F v, F size, M m) {
     const F zero(0.0f), one(1.0f), coarsest(static_cast<float>(layer.levels - 1));

@@ -1,19 +1,20 @@
-// A tile of the light's buffer passes a slab (V8 of docs/volume_light.md): first what is there is packed for
-// the eyes, then scattered light is spread and both are weakened. In grids, direct light passes a chunk of
-// slabs at once and leaves behind where in the table it was: slab after slab is too far apart in memory.
-// Included by kernels only.
+// Passes a tile of the light's buffer through a slab (V8 of docs/volume_light.md): the light before the slab
+// is packed for the eyes, then scattered light is spread, and both are weakened. In grids, direct light
+// passes a chunk of slabs at once and stores its columns in the table, since memory for slab after slab would
+// be too far apart. Included by kernels only.
 #pragma once
 
 #include "engine/medium/sweep/kernel_columns.h"
 
 namespace stereonav::STEREONAV_ISA {
 
-// Keeps direct light of a row, 0 to 1, for the eyes.
+// Stores direct light of a row, 0 to 1, for the eyes.
 STEREONAV_INLINE void packDirect(const SweepLight& light, int inChunk, int x, int y, F direct, M lanes) {
     store(packedAt(light, inChunk, x, y), inFifteenBits(direct), lanes);
 }
 
-// Spreads a row of scattered light, where nothing is too. way: metres; size: metres across a texel.
+// Spreads a row of scattered light; used also where the slab is empty. way: metres; size: metres across a
+// texel.
 template <bool kLeans>
 STEREONAV_INLINE void spreadRow(const SweepLight& light, const LightPass& pass, int x, TexelRow& row, F way,
                                 F size, M crossed, F (&indirect)[3]) {
@@ -28,7 +29,7 @@ STEREONAV_INLINE void spreadRow(const SweepLight& light, const LightPass& pass, 
                    indirect[k]);
 }
 
-// Patches of 4 x kLanes / 4 texels: what lies near in the buffer lies near in the grid.
+// Patches of 4 x kLanes / 4 texels: texels that are near in the buffer are near in the grid.
 constexpr int kPatchRows = kLanes / 4;
 struct Patch {
     int x, y, width, height;  // texels of it that are in the buffer
@@ -49,11 +50,11 @@ STEREONAV_INLINE F loadPatch(const float* from, std::int64_t stride) {
     return loadF(numbers);
 }
 
-// Texels' rays among the voxels: voxel + t way at t from a plane on.
+// The texels' rays in voxel coordinates: voxel + t way, at t from a plane on.
 struct PatchRays {
     V3 voxel, way;
-    F length;  // TexelPlaces'
-    M valid;   // past a lamp
+    F length;  // TexelPlaces::length
+    M valid;   // past the lamp
 };
 STEREONAV_INLINE PatchRays patchRays(const SweepScene& scene, float plane, F x, F y) {
     const SweepLight& light = scene.light;
@@ -67,8 +68,8 @@ STEREONAV_INLINE PatchRays patchRays(const SweepScene& scene, float plane, F x, 
     return rays;
 }
 
-// A patch through the slabs of a chunk: direct light, which needs no neighbours, and where in the table it
-// was.
+// Takes a patch through the slabs of a chunk: direct light, which needs no neighbours, and the columns of the
+// table that it met.
 STEREONAV_INLINE void findTexels(const SweepScene& scene, const LightColumns& at, const Patch& patch) {
     const SweepLight& light = scene.light;
     const SweepTable& table = scene.grid.table;
@@ -122,8 +123,8 @@ inline void findColumns(const SweepScene& scene, const LightColumns& at) {
         }
 }
 
-// Finds the optical depths of a metre along the axis for scattered light. Without columns direct light passes
-// here too. Returns the lanes where something is.
+// Finds the optical depths per metre along the axis for scattered light. Without stored columns direct light
+// passes here too. Returns the lanes where the medium is not empty.
 template <bool kIndirect, bool kGridAlone>
 STEREONAV_INLINE M passedThere(const SweepScene& scene, const LightTile& tile, const TexelPlaces& at, int x,
                                int y, F way, M crossed, Properties& p) {
@@ -152,7 +153,7 @@ STEREONAV_INLINE TexelRow rowOf(const SweepLight& light, int x, int y) {
     row.line = I(y);
     return row;
 }
-// Where slabs lean: tau_i of the slab, found before scattered light passes it. Direct light passes here then.
+// Where slabs lean: finds tau_i of the slab before scattered light passes it. Direct light passes here too.
 template <bool kGridAlone>
 STEREONAV_INLINE void findDepths(const SweepScene& scene, const LightPass& pass, const LightTile& tile, int x,
                                  int y, bool sample) {
@@ -183,7 +184,7 @@ void findTileDepths(const SweepScene& scene, const LightPass& pass, const LightT
     }
 }
 
-// Finds the optical depths for scattered light of a packet. Returns the lanes where something is.
+// Finds the optical depths for scattered light of a packet. Returns the lanes where the medium is not empty.
 template <bool kIndirect, bool kGridAlone, bool kLeans>
 STEREONAV_INLINE M depthsThere(const SweepScene& scene, const LightPass& pass, const LightTile& tile,
                                const TexelPlaces& at, int x, int y, F way, M crossed, const F (&indirect)[3],
@@ -193,7 +194,7 @@ STEREONAV_INLINE M depthsThere(const SweepScene& scene, const LightPass& pass, c
         for (int k = 0; k < 3; ++k) p.indirect[k] = loadF(pass.depths[k] + index);
         return crossed & (p.indirect[0] + p.indirect[1] + p.indirect[2] > F(0.0f));
     } else {
-        if constexpr (!kGridAlone) {  // where no light is left nothing weakens it
+        if constexpr (!kGridAlone) {  // lanes without light need not be weakened
             M lit =
                 loadF(scene.light.direct + static_cast<std::int64_t>(y) * scene.light.stride + x) > F(0.0f);
             if constexpr (kIndirect)
@@ -205,7 +206,7 @@ STEREONAV_INLINE M depthsThere(const SweepScene& scene, const LightPass& pass, c
     }
 }
 
-// A packet of texels from (x, y) on; gives the lanes whose scattered light differs from 1.
+// Passes a packet of texels from (x, y) on; returns the lanes whose scattered light differs from 1.
 template <bool kIndirect, bool kGridAlone, bool kLeans>
 STEREONAV_INLINE M passTexels(const SweepScene& scene, const LightPass& pass, const LightTile& tile, int x,
                               int y, bool sample) {

@@ -1,7 +1,7 @@
-// Surfaces of a grid alone, shaded at 4 x 4 places of a patch of pixels and between them (f_s of V3 of
-// docs/volume_light.md), where the places lie close enough together; else at each sample. A place counts by
-// its gradient's length, so that those beside a surface, where there is hardly any, do not darken it.
-// Included by kernels only.
+// Surfaces in a grid without layers or noise, shaded at 4 x 4 places of a patch of pixels and interpolated
+// between them (f_s of V3 of docs/volume_light.md) where the places lie close enough together; else at each
+// sample. Places are weighted by the length of their gradient, so that places beside a surface, where it is
+// near 0, do not darken it. Included by kernels only.
 #pragma once
 
 #include "engine/medium/sweep/kernel_arriving.h"
@@ -10,29 +10,29 @@
 
 namespace stereonav::STEREONAV_ISA {
 
-// Places of a patch, half a tile, 16 x 8 pixels, or one of its two halves: they lie at the middles of its
-// outermost pixels and evenly between.
+// Places of a patch, which is half a tile, 16 x 8 pixels, or one of its two halves: at the centres of its
+// outermost pixels, and evenly between.
 struct ShadingPatch {
     static constexpr int kSide = 4, kPlaces = 16, kPackets = kPlaces / kLanes, kHeight = EyeTile::kHalf;
     EyeRays rays[kPackets];
     V3 toEye[kPackets];
 };
-// A slab's shades at the places of a patch.
+// Shades of a slab at the places of a patch.
 struct ShadedPlaces {
     float length[ShadingPatch::kPlaces];   // the gradient's length
-    float weighed[ShadingPatch::kPlaces];  // that length times what Blinn-Phong makes of it
+    float weighed[ShadingPatch::kPlaces];  // that length times the shade by Blinn-Phong
 };
 
-// Places of the half of a tile that is being walked, found when the first sample of a slab asks for them.
+// Shades for the half of a tile that is being walked, computed when the first sample of a slab needs them.
 class TileShading {
 public:
     STEREONAV_INLINE TileShading(const SweepScene& scene, const SweepEye& eye, const SweepChunk& chunk,
                                  const EyeTile& tile)
         : mScene(scene), mEye(eye), mChunk(chunk), mTile(tile) {}
 
-    // Finds the gradient's length and what Blinn-Phong makes of it in slab n of the chunk, for lanes m of the
-    // packet at (x, y) of the tile; false: the places are too far apart, or only some have a gradient:
-    // Blinn-Phong jumps between them.
+    // Finds the gradient's length and the shade by Blinn-Phong in slab n of the chunk, for lanes m of the
+    // packet at (x, y) of the tile. Returns false where the places are too far apart, or where only some have
+    // a gradient, since Blinn-Phong jumps between them.
     STEREONAV_INLINE bool at(int n, int x, int y, M m, F& length, F& shade) {
         const int width = widthFor(n);
         if (width == 0) return false;
@@ -50,7 +50,8 @@ public:
         const I column = min(truncateToInt(u), I(2)), row = min(truncateToInt(v), I(2));
         const F one(1.0f), s = min(u - toFloat(column), one), t = min(v - toFloat(row), one);
         const I place = shiftLeft<2>(row) + column;
-        // Sums of what is not negative: differences would leave roundings, to be divided by next to nothing.
+        // Only sums of numbers that are not negative: differences would leave rounding errors, which would
+        // then be divided by small numbers.
         const F left = one - s, above = one - t;
         const F weights[4] = {left * above, s * above, left * t, s * t};
         struct AtCorners {
@@ -81,7 +82,7 @@ private:
         mRays = mShaded[0] = mShaded[1] = 0;
     }
 
-    // Returns the pixels across of the patch whose places lie close enough together in slab n; 0: none do.
+    // Returns the width in pixels of the patch whose places lie close enough together in slab n; 0: none.
     STEREONAV_INLINE int widthFor(int n) {
         if (!mMeasured) measure();
         const double away = mChunk.middle[n] + (mChunk.reference - mEye.start);
@@ -90,8 +91,8 @@ private:
         return mLargestStep[1] <= most ? EyeTile::kHalf : 0;
     }
 
-    // Measures how far apart places lie at the tile's middle: the squares, in voxels, a metre along the axis
-    // from the eye.
+    // Measures the distances between places at the tile's middle: squares, in voxels, per metre along the
+    // axis from the eye.
     [[gnu::noinline]] void measure() {
         mMeasured = true;
         constexpr double kMiddle = EyeTile::kSide / 2;
@@ -138,7 +139,7 @@ private:
         return patch;
     }
 
-    // Places beyond the grid's faces are taken at them.
+    // Clamps places beyond the grid's faces to the faces.
     [[gnu::noinline]] void shadePlaces(int n, int width, int number, ShadedPlaces& to) {
         const ShadingPatch& patch = patchOf(width, number);
         const SweepGrid& grid = mScene.grid;

@@ -1,6 +1,6 @@
-// Entries of a table that a packet's lanes read close together are loaded once and looked up in registers:
-// the same numbers as gathered. Neighbouring rays mostly meet neighbouring values. AVX-512 alone: its
-// permutes reach 32 entries. Included by kernels only.
+// Reads entries of a table that lie close together for a packet's lanes: they are loaded once and looked up
+// in registers, with the same results as gathers. Neighbouring rays mostly meet neighbouring values. AVX-512
+// only: its permutes reach 32 entries. Included by kernels only.
 #pragma once
 
 #include "engine/medium/sweep/kernel_block.h"
@@ -12,12 +12,12 @@ namespace stereonav::STEREONAV_ISA {
 
 class TableWindow {
 public:
-    // Loads entries around `entry` of lanes m.
+    // Loads the entries around `entry` of lanes m.
     STEREONAV_INLINE TableWindow(I entry, M m)
         : mFirst(leastOf(entry, m, SweepTable::kColumns - kEntries)), mOffset(entry - I(mFirst)) {
         mHolds = !any(m & ~within(mOffset, I(kEntries - 2)));
     }
-    // Returns whether the window holds all that those lanes read: entries and their next ones.
+    // Returns whether the window holds all entries that those lanes read, with the next ones.
     STEREONAV_INLINE bool holds() const { return mHolds; }
 
     STEREONAV_INLINE F between(const float* member, F share) const {
@@ -48,7 +48,7 @@ public:
 
 #endif
 
-// Where a packet's lanes m read a table: through a window, or each on its own.
+// Positions at which a packet's lanes m read a table: through a window, or by gathers.
 struct TablePlaces {
     Column at;
     M m;
@@ -56,12 +56,12 @@ struct TablePlaces {
 
     STEREONAV_INLINE TablePlaces(const Column& column, M lanes)
         : at(column), m(lanes), window(column.entry, lanes) {}
-    // Keeps some of these lanes, which may lie closer together.
+    // Keeps some of these lanes, whose entries may lie closer together.
     STEREONAV_INLINE void leave(M lanes) {
         m = lanes;
         if (!window.holds()) window = TableWindow(at.entry, lanes);
     }
-    // Calls use(read); the choice between window and gathering is made once for all that it reads.
+    // Calls use(read); chooses once between window and gathers for all its reads.
     template <typename Use>
     STEREONAV_INLINE void read(const Use& use) const {
         if (window.holds())

@@ -1,4 +1,4 @@
-// A medium with all that showing it needs, from options or a scene of another kind.
+// A medium with everything needed to show it, made from options or from another kind of scene.
 #pragma once
 
 #include <functional>
@@ -14,31 +14,31 @@
 
 namespace stereonav {
 
-// A scene, immutable but for the look, which changes between frames.
+// A scene, immutable except for the look, which changes between frames.
 struct MediumScene {
     Medium medium;
     MediumLook look;
     SweepSetting sweep;
-    // Returns linear RGB of what lies behind, by a unit world direction; empty: look.background.
+    // Returns the linear RGB of the background in a unit world direction; empty: look.background.
     std::function<glm::vec3(const glm::dvec3& direction)> sky;
 
-    // The medium with the surface weight 1 everywhere: what the surface model (eq. 2) shades.
+    // Returns the medium with surface weight 1 everywhere, which the surface model (eq. 2) shades.
     std::function<Medium()> makeSurface;
 
     std::string transfer, phase = "none", noise = "none";  // by name, for `info`
     std::vector<std::string> notes;
-    ToneCurve tone;  // from light, of the medium and of what lies behind, to the picture
+    ToneCurve tone;  // tone curve from the light of medium and background to the picture
 
     bool animated() const {
         for (const NoiseScale& scale : medium.perturbation().scales)
             if (scale.velocity != glm::dvec3(0.0)) return true;
         return false;
     }
-    // Sets where parallel light comes from, radians: clockwise from north, above the horizon.
+    // Sets the direction of parallel light, radians: clockwise from north, above the horizon.
     void turnLight(double azimuth, double elevation);
 };
 
-// Return the same functions, but for the surface weight, which is 1.
+// Return the same functions with surface weight 1.
 MediumTransfer allSurface(const MediumTransfer& transfer);
 Medium allSurface(const Medium& layers);  // layers: without a grid
 

@@ -1,5 +1,4 @@
-// A medium and how it is looked at, in the form that the kernels read. Keeps what does not change from frame
-// to frame.
+// A medium and its look in the form that the kernels read. Keeps data that do not change from frame to frame.
 #pragma once
 
 #include <vector>
@@ -13,10 +12,10 @@ namespace stereonav {
 
 class SweepData {
 public:
-    // Throws Error where a grid has more voxels than 32-bit numbers count.
+    // Throws Error where a grid has more voxels than a 32-bit number can count.
     explicit SweepData(const Medium& medium);
 
-    // Returns all that kernels read but the light's buffers.
+    // Returns everything that kernels read, except the light's buffers.
     SweepScene sceneFor(const MediumLook& look, const SweepSetting& setting, const SweepGeometry& geometry,
                         double time);
     std::size_t heldBytes() const;
@@ -36,7 +35,7 @@ private:
     void setLook(SweepLook& to, const MediumLook& look, const glm::dvec3& anchor);
 
     const Medium& mMedium;
-    double mBase = 0;  // world z that heights are relative to
+    double mBase = 0;  // world z that stored heights are relative to
     Table mGridTable;
     bool mNarrow = false;  // differences of values fit 16 bits
     std::vector<Table> mLayerTables;

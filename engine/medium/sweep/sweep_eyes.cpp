@@ -1,5 +1,5 @@
-// Each tile walks a chunk of slabs with what it has gathered in registers, but for those where the medium's
-// cells are empty, and until no ray of it goes on.
+// Each tile of pixels passes a chunk of slabs with its gathered light in registers. Slabs where the medium's
+// cells are empty are skipped; a tile ends when none of its rays goes on.
 #include "engine/medium/sweep/sweep_eyes.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kSide = EyeTile::kSide;
 constexpr std::size_t kTileNumbers = std::size_t{EyeTile::kMembers} * kSide * kSide;
-constexpr std::size_t kLine = 64;  // bytes; what is kept begins with one
+constexpr std::size_t kLine = 64;  // bytes of a cache line, on which shared rows begin
 
 float* alignedStart(std::vector<float>& numbers) {
     void* start = numbers.data();
@@ -24,8 +24,8 @@ float* alignedStart(std::vector<float>& numbers) {
     return static_cast<float*>(std::align(kLine, kLine, start, space));
 }
 
-// How many tiles of a row the first eye has to be ahead: the second eye's pixels find their places at most
-// `farthest` columns to the right, between two pixels.
+// Returns the number of tiles in a row that the first eye has to be ahead: the second eye's pixels read at
+// most `farthest` columns farther right, between two pixels.
 int tilesBehind(float farthest, int across) {
     const double tiles = std::floor((kSide + 1.0 + static_cast<double>(farthest)) / kSide);
     return static_cast<int>(std::clamp(tiles, 0.0, static_cast<double>(across)));
@@ -72,7 +72,7 @@ void SweepEyes::setBeams(std::size_t eye) {
     });
 }
 
-// Finds the chunk's slabs where a tile may meet something; gives how many samples they are.
+// Finds the chunk's slabs where a tile may meet something; returns the number of samples in them.
 long long SweepEyes::findSlabs(Eye& eye, int tile, const Walk& walk) const {
     long long met = 0;
     for (std::size_t n = 4 * static_cast<std::size_t>(tile), end = n + 4; n < end; ++n) {
@@ -114,7 +114,7 @@ long long SweepEyes::seeRow(int row, const Walk& walk) {
     Eye &first = mEyes[0], &second = mEyes[1];
     const int begin = row * first.across, end = begin + first.across;
     long long samples = 0;
-    std::uint32_t wanted[2] = {0, 0};  // by the second eye, of the upper and the lower half
+    std::uint32_t wanted[2] = {0, 0};  // slabs that the second eye reads in the upper and in the lower half
     for (int n = begin; n < end; ++n) {
         if (second.done[n]) continue;
         samples += findSlabs(second, n, walk);
@@ -152,13 +152,14 @@ long long SweepEyes::seeRow(int row, const Walk& walk) {
     return samples;
 }
 
-// Returns whether a tile of a row that is shared is asked: the first eye says where nothing is, too.
+// Returns whether a tile of a shared row has to be sampled: always for the first eye, which also marks empty
+// slabs for the second.
 bool SweepEyes::isSeen(std::size_t eye, int n) const {
     const std::uint32_t* slabs = mEyes[eye].slabs.data() + 4 * static_cast<std::size_t>(n);
     return eye == 0 || (!mEyes[eye].done[n] && (slabs[0] | slabs[1] | slabs[2] | slabs[3]) != 0);
 }
 
-// The rows of a task of one tile.
+// Samples one tile's half of the task's rows.
 void SweepEyes::seeHalf(std::size_t eye, int n, const Walk& walk, RowTask& task) {
     Eye& e = mEyes[eye];
     if (task.row * kSide + task.firstRow >= e.seen.height || !isSeen(eye, n)) return;
@@ -171,7 +172,7 @@ void SweepEyes::seeHalf(std::size_t eye, int n, const Walk& walk, RowTask& task)
     if (mKernels.seeTile(walk.scene, e.seen, walk.chunk, tile)) goesOn = 1;
 }
 
-// Rows to work in: as many are held as tasks run at once.
+// Returns memory for shared rows: there are as many blocks as tasks that run at the same time.
 std::unique_ptr<std::vector<float>> SweepEyes::takeRows() {
     std::unique_ptr<std::vector<float>> rows;
     {

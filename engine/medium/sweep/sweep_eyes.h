@@ -1,6 +1,6 @@
-// The eyes of a sweep on the CPU: pixels in tiles, what their rays have gathered so far, and where each
-// tile's rays may meet something. Where two eyes share what they see (sweep_sharing.h) a row of tiles is seen
-// by the first eye, then by the second, half a tile's rows at a time: what is kept between them stays in the
+// The eyes of a sweep on the CPU: tiles of pixels, what their rays have gathered so far, and the slabs where
+// each tile's rays may meet something. Where two eyes share samples (sweep_sharing.h), a row of tiles is seen
+// by the first eye, then by the second, half a tile's rows at a time, so that the shared samples stay in the
 // cache. Keeps its buffers between frames.
 #pragma once
 
@@ -22,15 +22,15 @@ namespace stereonav {
 
 class SweepEyes {
 public:
-    // space and kernels must outlive the object.
+    // space and kernels must outlive this object.
     SweepEyes(const SweepSpace& space, const SweepKernels& kernels) : mSpace(space), mKernels(kernels) {}
 
     // Forgets what was gathered. geometry must outlive the frame. starts: see MediumSweep::render.
     void start(const SweepGeometry& geometry, const SweepSharing& sharing,
                std::span<const Plane<float>> starts);
-    // Sees `count` slabs from `first` on. Returns how many samples tiles looked at.
+    // Follows the rays through `count` slabs from `first` on. Returns the number of samples taken.
     long long seeChunk(const SweepScene& scene, const SweepChunk& chunk, int first, int count);
-    // Tells `reach` the tiles of which no ray goes on: they read no light any more.
+    // Tells `reach` which tiles have no ray left that goes on: they read no more light.
     void dropPassed(SweepReach& reach) const;
     void readPicture(std::size_t eye, MediumPicture& picture) const;
     std::size_t heldBytes() const;
@@ -41,14 +41,15 @@ private:
         int across = 0, down = 0;
         std::vector<float> states;  // like EyeTile::state
         std::vector<std::uint8_t> fresh, done;
-        std::vector<SweepBeam> beams;      // beams of the quarters of each tile
-        std::vector<std::uint32_t> slabs;  // slabs of a chunk, as bits: where quarters may meet something
+        std::vector<SweepBeam> beams;  // beams of the quarters of each tile
+        // By slab of a chunk, as bits: where the quarters may meet something.
+        std::vector<std::uint32_t> slabs;
         SweepEye seen;
 
         void start(const RayFan& fan);
         int tiles() const { return across * down; }
     };
-    // Slabs that are seen now, and where those are that are shared.
+    // The slabs that are seen now, and the places of shared samples.
     struct Walk {
         const SweepScene& scene;
         const SweepChunk& chunk;
@@ -61,7 +62,7 @@ private:
     EyeTile tileOf(std::size_t eye, int tile) const;
     long long seeTile(std::size_t eye, int tile, const Walk& walk);
     long long seeRow(int row, const Walk& walk);
-    // A row of tiles that is shared.
+    // A row of tiles that shares samples.
     struct RowTask {
         int row = 0;
         SharedRows rows;
@@ -81,7 +82,8 @@ private:
     SweepSharing mSharing;
     std::vector<Eye> mEyes;
     std::mutex mRowsLock;
-    std::vector<std::unique_ptr<std::vector<float>>> mRows;  // shared: one for each task that runs at once
+    // Shared samples: one buffer for each task that runs at the same time.
+    std::vector<std::unique_ptr<std::vector<float>>> mRows;
 };
 
 }  // namespace stereonav

@@ -74,8 +74,8 @@ double halfAngleOf(std::span<const EyeView> eyes, const glm::dvec3& middle) {
     return widest;
 }
 
-// How far the axis leans from the view towards the light: radians. For a lamp whose cone does not leave room
-// for all, the eyes' rays go first; the middle of the light keeps what a parallel light would have.
+// Returns the lean of the axis from the view towards the light, radians. Where a lamp's cone is too wide for
+// all rays, the eyes' rays have priority; the lean stays at least that for parallel light.
 double leanOf(double beta, double lightHalf, double eyeHalf) {
     const double wanted = 0.5 * (beta + lightHalf - eyeHalf);
     const double parallel = 0.5 * (beta - eyeHalf);

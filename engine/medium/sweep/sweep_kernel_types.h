@@ -187,7 +187,7 @@ struct EyeTile {
 };
 
 struct SweepScene {
-    // No layers, no noise, and a table that is one-dimensional, but for the surface weight: the short way.
+    // The fast path: no layers, no noise, and a table that is one-dimensional except for the surface weight.
     bool gridAlone = false;
     // Voxels between the places at which surfaces of a grid alone are shaded, at most; 0: at each sample.
     float shadingWidth = 0;

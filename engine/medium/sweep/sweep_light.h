@@ -1,6 +1,6 @@
-// The light's buffer of a sweep on the CPU: planes in floats that pass slab after slab, and for the eyes what
-// was there before each slab of a chunk. Tiles are left alone where nothing was met yet, or nothing is met
-// any more near them.
+// The light's buffer of a sweep on the CPU: planes of floats that pass slab after slab, and for the eyes the
+// light before each slab of a chunk. Tiles are skipped while nothing was met in or near them, or when nothing
+// more will be met.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,16 @@ namespace stereonav {
 
 class SweepLightBuffers {
 public:
-    // Begins with all light; sets the pointers of scene.light. space: null: nothing is left out. Returns how
-    // many slabs the eyes' light can be kept for, 1 or more. Throws Error where memory is short.
+    // Begins with unweakened light; sets the pointers of scene.light. space: null: nothing is left out.
+    // Returns the number of slabs for which the eyes' light can be stored, 1 or more. Throws Error where
+    // memory is short.
     int start(SweepScene& scene, const SweepGeometry& geometry, const SweepSpace* space);
-    // Prepares for the slabs of a chunk. reach: what eyes may still read, chunks as here; null: all. Returns
-    // texels looked at.
+    // Prepares for the slabs of a chunk. reach: which light eyes may still read, with the same chunks; null:
+    // all. Returns the number of texels sampled.
     long long beginChunk(const SweepScene& scene, const SweepGeometry& geometry, int first, int count,
                          const SweepKernels& kernels, SweepReach* reach = nullptr);
-    // Passes a slab, the `inChunk`-th that is kept. Returns texels looked at.
+    // Passes a slab, whose light is stored as number `inChunk` of the chunk. Returns the number of texels
+    // sampled.
     long long pass(const SweepScene& scene, const SweepGeometry& geometry, int slab, int inChunk,
                    const SweepKernels& kernels);
     std::size_t heldBytes() const;
@@ -47,20 +49,22 @@ private:
     int tiles() const { return mAcross * mDown; }
 
     int mAcross = 0, mDown = 0;
-    double mAskedFor = 0;             // bytes that were there
-    std::vector<float> mPlanes;       // direct, then twice three of scattered light
-    std::vector<float> mDepths;       // three planes as those: tau_i, where slabs lean
-    std::vector<std::uint8_t> mDeep;  // tiles: may have some of it that is not 0
+    double mAskedFor = 0;             // bytes for which memory was checked already
+    std::vector<float> mPlanes;       // direct light, then two sets of three planes of scattered light
+    std::vector<float> mDepths;       // three planes like those: tau_i, where slabs lean
+    std::vector<std::uint8_t> mDeep;  // by tile: tau_i may differ from 0
     bool mLeans = false;
     std::vector<std::uint32_t> mPacked;
     std::vector<float> mColumns;  // by tile: a chunk's slabs
     int mPackedWidth = 0, mPackedHeight = 0, mChunk = 0;
     bool mSwapped = false;
-    std::vector<float> mStart;               // see scatteredAtStart
-    bool mRingSet = false;                   // around mPacked, to others than 1
-    std::vector<std::uint8_t> mStrips;       // by slab and tile: LightTile::strips; empty: all of all
-    std::vector<int> mLast, mRead, mNeeded;  // by tile: last slab met, read, needed
-    std::vector<std::uint8_t> mTouched;      // tiles: scattered light may differ from 1
+    std::vector<float> mStart;  // see scatteredAtStart
+    bool mRingSet = false;      // the ring around mPacked was set to values other than 1
+    // By slab and tile: LightTile::strips; empty: all strips of all tiles.
+    std::vector<std::uint8_t> mStrips;
+    // By tile: last slab in which something was met; is read; is needed.
+    std::vector<int> mLast, mRead, mNeeded;
+    std::vector<std::uint8_t> mTouched;  // tiles: scattered light may differ from 1
     std::vector<LightTile> mTiles;
     std::vector<std::uint8_t> mChanged;
 };

@@ -1,5 +1,6 @@
-// Which of the light's texels some eye may still read: light that none will read stays where it is. Tiles of
-// pixels are seen in the light's buffer, chunk of slabs by chunk, until no ray of theirs goes on.
+// Which texels of the light some eye may still read: light that no eye will read is not computed any more.
+// Tiles of pixels are projected into the light's buffer, chunk of slabs by chunk, until none of their rays
+// goes on.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +14,23 @@ namespace stereonav {
 class SweepReach {
 public:
     // Begins with tiles `eyeSide` pixels wide, tiles of light `lightSide` texels wide, and chunks of `chunk`
-    // slabs. space: null: nothing is left out. Where too much would have to be remembered all light counts as
+    // slabs. space: null: nothing is left out. Where this would take too much memory, all light counts as
     // read.
     void start(const SweepGeometry& geometry, const SweepSpace* space, int chunk, int eyeSide, int lightSide);
     bool known() const { return !mRects.empty(); }
-    // Notes that a tile of an eye reads no more for itself. With two eyes the first may sample for the second
-    // along the same row of tiles: there its tiles count until none of the second's reads on. Tiles are
-    // numbered row by row.
+    // Notes that a tile of an eye needs no more light of its own. With two eyes, the first may take samples
+    // for the second along the same row of tiles: there its tiles count until no tile of the second reads on.
+    // Tiles are numbered row by row.
     void drop(std::size_t eye, int tile);
-    // Begins a chunk, before it is passed; chunks follow each other.
+    // Begins a chunk, before the light passes it; called for each chunk in turn.
     void begin(int chunk);
-    // Returns the last slab from that chunk on in which a tile of light may be read; below its first: none.
+    // Returns the last slab, in this chunk or later, in which a tile of light may be read; smaller than the
+    // chunk's first slab: none.
     int lastRead(int lightTile) const { return (mLast[lightTile] + 1) * mChunk - 1; }
     std::size_t heldBytes() const;
 
 private:
-    // Tiles of light, from the first to the last; first behind last: none.
+    // A rectangle of tiles of light, first to last; first behind last: empty.
     struct Rect {
         std::uint8_t x0 = 1, y0 = 1, x1 = 0, y1 = 0;
     };
@@ -43,10 +45,10 @@ private:
     int mChunk = 1, mChunks = 0, mSide = 1, mAcross = 0, mDown = 0;
     std::vector<int> mFirstTile;        // number of each eye's first tile among all
     std::vector<Rect> mRects;           // by eyes' tile and chunk
-    std::vector<std::uint8_t> mGone;    // eyes' tiles that read no more
-    std::vector<std::uint32_t> mCount;  // by chunk and tile of light: how many tiles of eyes read it
-    int mPaired = 0;                    // tiles in a row of both eyes; 0: not two alike
-    std::vector<int> mEnd;              // by eyes' tile: the chunk behind the last one in which it reads
+    std::vector<std::uint8_t> mGone;    // eyes' tiles that need no more light
+    std::vector<std::uint32_t> mCount;  // by chunk and tile of light: number of eyes' tiles that read it
+    int mPaired = 0;                    // tiles in a row of both eyes; 0: there are no two equal eyes
+    std::vector<int> mEnd;              // by eyes' tile: one past the last chunk in which it reads light
     std::vector<int> mLast;             // by tile of light: the last chunk in which it is read
 };
 

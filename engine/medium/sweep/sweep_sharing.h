@@ -1,6 +1,7 @@
-// What two eyes side by side have in common: in a slab, the part of a plane across the sweep's axis, the left
-// eye sees along a row of its pixels what the right eye sees in the same row, shifted. Where pixels are fine
-// enough beside the medium the right eye reads what the left one saw there.
+// Shares samples between two eyes that lie side by side. In a slab, the part of a plane across the sweep's
+// axis, the right eye sees in a row of pixels what the left eye sees in the same row, shifted by the
+// parallax. In slabs where pixels are fine compared with the medium, the right eye reads what the left eye
+// stored.
 #pragma once
 
 #include "engine/medium/model/medium.h"
@@ -9,21 +10,21 @@
 
 namespace stereonav {
 
-// Returns the width of what is told apart in a medium: the least of a voxel, a texel of noise that does
-// something, a sample of a height layer, its taper or a texel of its colours. Metres; 0 where a layer has
-// sharp faces, infinite where nothing is.
+// Returns the width in metres of a medium's finest detail: the least of its voxels, the texels of noise that
+// has an effect, and the sample spacing, taper and colour texels of its height layers. 0 where a layer has
+// sharp faces (no taper); infinite for a medium without any of these.
 double finestDetail(const Medium& medium);
 
 class SweepSharing {
 public:
     SweepSharing() = default;  // nothing is shared
-    // widestPixel: metres; in slabs where pixels are wider nothing is shared. Nothing at all but between two
-    // eyes with the same axes and size of picture, which lie beside each other along their rows.
+    // widestPixel: metres; slabs in which a pixel is wider are not shared. Shares nothing unless there are
+    // two eyes with the same axes and picture size, beside each other along their rows.
     SweepSharing(const SweepGeometry& geometry, const WorldBox& box, double widestPixel);
 
     bool any() const { return mAny; }
-    // Returns which slabs of a chunk are shared, as bits, and where the second eye finds in them what the
-    // first saw.
+    // Returns the shared ones among the first `count` slabs of a chunk, as bits. rows: set to where the
+    // second eye finds in each of them what the first eye saw.
     std::uint32_t slabsOf(const SweepChunk& chunk, int count, SharedRows& rows) const;
 
 private:
@@ -31,11 +32,12 @@ private:
 
     bool mAny = false;
     bool mForward = true;
-    double mSeparation = 0;               // metres between the eyes along `right`
-    double mStart = 0, mAxisRight = 0;    // metres: the second eye along the axis; right . axis
+    double mSeparation = 0;  // metres between the eyes along `right`
+    // Metres: the second eye's place along the axis; cosine between `right` and the axis.
+    double mStart = 0, mAxisRight = 0;
     double mCosines[4] = {};              // axis . rays of depth 1 through the picture's corners
     double mNearest = 0, mFarthest = 0;   // metres: depths of the medium's box
-    double mPixel = 0, mWidestPixel = 0;  // at depth 1; metres
+    double mPixel = 0, mWidestPixel = 0;  // width of a pixel at depth 1; widest pixel that is shared, metres
     float mColumn = 0;                    // SharedRows::column, pixels
     int mWidth = 0;
 };

@@ -1,6 +1,5 @@
-// Where a medium may not be empty: a coarse grid of cells over it, or the bounds of layers' heights, asked
-// for boxes. What sweeps leave out is decided here; a box that is said to be empty is empty, displacements
-// counted.
+// Finds the parts of a medium that are certainly empty, from a coarse grid of cells over it, or from bounds
+// of layers' heights. Sweeps skip what it reports as empty; displacements are included.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +12,17 @@
 
 namespace stereonav {
 
-// The rays of a block of a buffer's pixels among the cells of a SweepSpace: at t along the axis they lie in
-// the box origin + s way -+ (spread + |s| perWay), s = t - start.
+// A bound of the rays of a block of pixels, in cells of a SweepSpace: at t along the axis they lie in the box
+// origin + s way -+ (spread + |s| perWay), s = t - start.
 struct SweepBeam {
     glm::dvec3 origin{0.0}, way{0.0}, spread{0.0}, perWay{0.0};  // in cells
     double start = 0;                                            // metres along the axis
-    int side = 0;        // the rays are where s has this sign; 0: everywhere
-    bool known = false;  // false: some ray hardly crosses the slabs; it may be anywhere
-    // Footprints there, metres: the largest of `least` and of both constant + gradient . place.
+    int side = 0;        // sign of s for which the rays exist; 0: both
+    bool known = false;  // false: some ray is nearly parallel to the slabs, and the beam may be anywhere
+    // Footprints of samples there, metres: the largest of `least` and two linear functions of the place,
+    // constant + gradient . place.
     struct Footprint {
-        glm::dvec3 gradient{0.0};  // a metre of place
+        glm::dvec3 gradient{0.0};  // per metre of the place
         double constant = 0;       // metres
     };
     double least = 0;  // metres
@@ -34,8 +34,8 @@ public:
     SweepSpace() = default;
     explicit SweepSpace(const Medium& medium);
 
-    // Turn places and directions of the world into cells; with layers alone into metres from the bounds'
-    // corner.
+    // Convert places and directions in the world into cells; without a grid, into metres from the corner of
+    // the bounds.
     glm::dvec3 cellFromWorld(const glm::dvec3& world) const { return mTurn * (world - mOrigin); }
     glm::dvec3 cellDirection(const glm::dvec3& world) const { return mTurn * world; }
     // Returns the beam of a block of pixels. forward: the fan's rays go to larger t.
@@ -44,17 +44,17 @@ public:
     // Returns the beam of the light, which must be known wherever an eye samples the medium, with the eye's
     // footprint too.
     SweepBeam lightBeamOf(const SweepGeometry& geometry, double x0, double y0, double x1, double y1) const;
-    // Returns bits of those of up to 32 planes, at ascending t, where a beam may meet something.
+    // Returns, as bits, those of up to 32 planes, at ascending t, on which a beam may meet something.
     std::uint32_t planesMet(const SweepBeam& beam, const double* t, int count) const;
-    // Returns whether a beam may meet something between two planes on its rays' side.
+    // Returns whether a beam may meet something between two planes, on the side where its rays are.
     bool mayMeet(const SweepBeam& beam, double t0, double t1) const {
         return !beam.known || fillingOf(beam, t0, t1) != Filling::Empty;
     }
     std::size_t heldBytes() const;
 
 private:
-    // Whether anything may be in the box (each low <= high); full: in each cell of a box wholly among the
-    // cells.
+    // Whether something may be in the box (each low <= high); Full: in each cell of a box that lies
+    // completely within the cells.
     enum class Filling { Empty, Partly, Full };
     Filling fillingOf(const glm::dvec3& low, const glm::dvec3& high) const;
     Filling fillingOf(const SweepBeam& beam, double t0, double t1) const;
@@ -73,7 +73,7 @@ private:
     glm::dvec3 mOrigin{0.0};  // world, metres
     glm::ivec3 mSize{0};
     std::vector<std::uint8_t> mFull;
-    std::vector<std::int32_t> mSums;  // numbers of full cells before (x, y, z), (size + 1)^3
+    std::vector<std::int32_t> mSums;  // number of full cells before (x, y, z), (size + 1)^3
     std::vector<HeightBounds> mLayers;
     WorldBox mBounds;
 };

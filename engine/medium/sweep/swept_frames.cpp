@@ -14,10 +14,10 @@
 
 namespace stereonav {
 
-// The right eye as the splat of depths sees it: one tile, swept from the depths that it is given.
+// The right eye as a renderer for the warp by splats: one tile, swept from the depths that the warp gives.
 class SweptFrames::RightRays final : public EyeRenderer {
 public:
-    // nearest: metres along the view, before which nothing is expected where the left eye does not look.
+    // nearest: view depth in metres before which nothing is expected outside the left eye's picture.
     RightRays(SweptFrames& renderer, double time, double nearest)
         : mRenderer(renderer), mTime(time), mNearest(nearest) {}
 
@@ -25,7 +25,7 @@ public:
     void renderTile(const EyeView& view, int, EyeImage& image) const override {
         mRenderer.sweepOne(view, mTime, {}, image);
     }
-    // Rays are swept by the picture.
+    // A sweep makes whole pictures, not single rays.
     void renderPixels(const EyeView& view, PixelRect, std::span<const PixelIndex>,
                       EyeImage& image) const override {
         renderTile(view, 0, image);
@@ -47,8 +47,8 @@ private:
     double mTime, mNearest;
 };
 
-// Beyond the edge of what the left eye sees nothing is taken to be nearer than what it sees, but for a
-// margin. Unlike the rays of a scene with surfaces a medium can not be asked what is there.
+// Returns the view depth before which nothing is expected beyond the edge of the left eye's picture: the
+// nearest depth in it, less a margin. A medium can not be asked for more, unlike a scene with surfaces.
 double nearestExpected(const EyeImage& left) {
     constexpr float kMargin = 0.9f;
     float nearest = kMissDepth;

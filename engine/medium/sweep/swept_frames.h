@@ -1,4 +1,4 @@
-// Frames of media, by sweeps on the processor or by what is set in its place.
+// Frames of media, from sweeps on the CPU or by a function that replaces them.
 #pragma once
 
 #include <array>
@@ -26,8 +26,7 @@ struct SweepTask {
     double time;             // seconds
     std::span<MediumPicture> pictures;
 };
-// A function that sweeps elsewhere, or calls cpu(), which does it here; true: what the pictures hold was made
-// elsewhere.
+// Sweeps elsewhere and returns true, or calls cpu(), which sweeps here, and returns false.
 using SweepChooser = std::function<bool(const SweepTask& task, const std::function<void()>& cpu)>;
 
 // Methods of SweptFrames.
@@ -37,15 +36,15 @@ constexpr std::string_view kOwnSamplesMethod =
     "own-samples";  // the same, but that each eye takes samples of its own
 constexpr std::string_view kTwoSweepsMethod =
     "two-sweeps";  // one for each eye: what the others are measured against
-// The left eye's depths splatted to the right, whose rays start there (W12 of docs/ledger.md).
-// FrameTimings::warped: the splat, the sweep after it, and the rays of which no start was known.
+// Splats the left eye's depths to the right eye, whose rays start there (W12 of docs/ledger.md).
+// FrameTimings::warped has the splat, the sweep after it, and the rays without a known start.
 constexpr std::string_view kDepthSplatMethod = "depthsplat";
 constexpr std::array<std::string_view, 4> kSweepMethods{kSweepMethod, kOwnSamplesMethod, kTwoSweepsMethod,
                                                         kDepthSplatMethod};
 
 class SweptFrames final : public FrameMaker, public SlicedFrames {
 public:
-    // scene must outlive this; its look is read at each frame.
+    // scene must outlive this object; its look is read for each frame.
     explicit SweptFrames(const MediumScene& scene, SimdTarget simd = SimdTarget::Auto);
 
     std::span<const std::string_view> methods() const override { return kSweepMethods; }
@@ -54,11 +53,10 @@ public:
     std::string_view whatMethodsMake() const override { return "both eyes"; }
     void make(const StereoViews& views, double time, const FrameWay& way, EyePair& frame) override;
     void makeOne(const EyeView& view, double time, EyePair& frame) override;
-    // Lists what sweeps read and write, and their pictures before they are packed.
+    // Lists the memory of sweeps, and of their pictures before they are packed.
     std::vector<HeldBytes> held() const override;
 
-    // Sets who is asked at each sweep from now on, but for those of the depth splat, whose rays start in
-    // depths.
+    // Sets the function that chooses where the coming sweeps run, except sweeps after a splat of depths.
     void setSweep(SweepChooser chooser) { mChooser = std::move(chooser); }
     bool sweptElsewhere() const { return mElsewhere; }  // the last one
 

@@ -101,7 +101,7 @@ Plane<std::uint8_t> edgeMask(const Plane<std::uint8_t>& holeMask, const Plane<fl
                              double parallaxScale, int radius) {
     const int width = viewDepth.width(), height = viewDepth.height();
     cv::Mat marked(height, width, CV_8U, cv::Scalar(0));
-    // A miss has no parallax; nothing known (0) counts as one.
+    // Pixels without a hit, and unknown ones (0), count as parallax 0.
     const auto parallax = [&](int x, int y) {
         const float z = viewDepth.at(x, y);
         return z > 0.0f ? parallaxScale / z : 0.0;

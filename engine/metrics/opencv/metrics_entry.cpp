@@ -1,4 +1,4 @@
-// What the module stereonav_metrics shows the program.
+// The interface of the module stereonav_metrics to the program.
 #include "engine/base/module.h"
 #include "engine/metrics/metrics_module.h"
 

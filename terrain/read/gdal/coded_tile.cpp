@@ -81,7 +81,7 @@ void eachStep(const Codes& codes, const Take& take) {
         }
 }
 
-// How a byte goes along with the next lower one, over steps in which it changes.
+// Statistics of how a byte changes together with the next lower one.
 class CarryTally {
 public:
     // Changes of both.

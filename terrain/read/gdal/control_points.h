@@ -1,5 +1,4 @@
-// Rasters that are placed by ground control points instead of a transform: what GDAL's polynomials make of
-// them.
+// Rasters that are placed by ground control points instead of a transform, with GDAL's polynomials.
 #pragma once
 
 #include <gdal_priv.h>
@@ -12,12 +11,12 @@
 
 namespace stereonav {
 
-// Places the raster by its control points, which it must have. Points that lie on a straight grid to a
-// twentieth of a sample, and three to five points, give a transform; six or more a polynomial of the second
-// order both ways (Georeference::points) where it does not fold over itself. Both are least squares: errors
-// of single points even out, and a polynomial of low order stays tame beyond the outermost, where a thin
-// plate follows each point and its error. They are what GDAL's own warper takes where it is not told
-// otherwise. Throws Error for fewer than three points, for points on one line or without a reference system.
+// Places the raster by its control points, which it must have. Points that lie on an affine grid to a
+// twentieth of a sample, and three to five points, give a transform; six or more give a polynomial of second
+// order in both directions (Georeference::points), if it does not fold over itself. Both are least-squares
+// fits: errors of single points even out, and a polynomial of low order stays moderate beyond the outermost
+// points, while a thin plate would follow each point and its error. They are also the default of GDAL's
+// warper. Throws Error for fewer than three points, for points on one line or without a reference system.
 void placeByControlPoints(GDALDataset& dataset, const std::filesystem::path& file, Georeference& place);
 
 // Maps a raster's pixels to its reference coordinates and back, by its transform or its control points. For
@@ -33,14 +32,14 @@ public:
     // raster must outlive the object. Throws Error that names no file where the points give no polynomial.
     explicit PixelPlacement(const Georeference& raster);
     glm::dvec2 fromPixel(const glm::dvec2& pixel) const;
-    // Where control points place the raster this is a fit of its own, not quite the other's inverse.
+    // Where control points place the raster, this is a separate fit and not the exact inverse of fromPixel().
     glm::dvec2 toPixel(const glm::dvec2& reference) const;
 
 private:
     glm::dvec2 through(const glm::dvec2& place, bool back) const;
 
     const Georeference& mRaster;
-    Transformer mTransformer;  // nullptr: the transform counts
+    Transformer mTransformer;  // nullptr: the transform is used
 };
 
 }  // namespace stereonav

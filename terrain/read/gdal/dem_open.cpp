@@ -58,14 +58,14 @@ void checkCanBeMixed(const FolderFile& file) {
                 "convert them to metres, for example with gdal_translate -unscale");
 }
 
-// Doubles where floats do not hold what some file has stored.
+// Returns whether floats can not hold the numbers that a file stores in this type.
 bool needsDoubles(GDALDataType type) {
     return type != GDT_Byte && type != GDT_UInt16 && type != GDT_Int16 && type != GDT_Float32;
 }
 
-// The file's band in floats, which says what stands for missing samples also where the file leaves it to
-// custom: what mixes files looks at what they say alone. In memory, a few hundred bytes, until the program
-// ends.
+// Makes a virtual raster of the file's band in floats, with a nodata value even where the file leaves that to
+// custom: combining files considers only nodata values that are named. It is in memory, takes a few hundred
+// bytes, and stays until the program ends.
 std::string wrapped(const FolderFile& file, GDALDataset& dataset, const char* type) {
     static std::atomic<int> count = 0;
     std::string name = fmt::format("{}{}.vrt", kOwnVirtualRasters, count++);
@@ -87,8 +87,8 @@ std::string wrapped(const FolderFile& file, GDALDataset& dataset, const char* ty
     return name;
 }
 
-// Once files are mixed nothing tells a -9999 that stands for a missing sample from a height, so it is said
-// before.
+// Returns whether an unnamed -9999 stands for missing samples. Decided before files are mixed, since
+// afterwards it can not be told from a height.
 bool customaryIsMissing(const std::vector<FolderFile>& files, const GdalMessages& messages) {
     const bool unnamed =
         std::any_of(files.begin(), files.end(), [](const FolderFile& file) { return !file.band.nodata; });
@@ -112,7 +112,7 @@ bool lookLikeDegrees(const std::vector<FilePlan*>& plans) {
     });
 }
 
-// Returns the files, checked to go together, and laid on one side of 180 degrees.
+// Returns the files of one ground: checked to fit together, and moved to one side of 180 degrees.
 FolderChoice filesOfOneGround(const std::filesystem::path& folder, const GdalMessages& messages) {
     const std::vector<std::filesystem::path> all = elevationFilesIn(folder);
     if (all.empty()) throwMisfit(folder, "", "expected elevation files, found a folder without any", kAdvice);
@@ -129,7 +129,8 @@ FolderChoice filesOfOneGround(const std::filesystem::path& folder, const GdalMes
     return choice;
 }
 
-// Gives the mixed dataset what the numbers of all files mean: a virtual raster leaves it out.
+// Copies scale, offset, unit and names of the files' bands to the mixed dataset, since a virtual raster
+// leaves them out.
 void meanAsTheFiles(GDALDataset& made, const FolderFile& file, const GdalMessages& messages) {
     const GdalDataset dataset = openRaster(file.file, messages, kExpected, kAdvice);
     GDALRasterBand& from = *dataset->GetRasterBand(file.band.number);

@@ -1,4 +1,4 @@
-// Opens what an elevation model is named by: its file, or a folder of files that are one ground.
+// Opens an elevation model by name: a file, or a folder of files that form one ground.
 #pragma once
 
 #include <filesystem>
@@ -12,31 +12,32 @@ namespace stereonav {
 // An elevation model that is open.
 struct OpenedDem {
     GdalDataset dataset;
-    std::vector<std::filesystem::path> files;  // files of a folder that are its ground
-    std::vector<std::string> notes;            // what was guessed, for a person
+    std::vector<std::filesystem::path> files;  // files of a folder that form its ground
+    std::vector<std::string> notes;            // guesses, for the user
 };
 
-// A virtual raster over a folder's elevation files (elevation_folder.h), but for what is no heights
-// (folder_choice.h). They have one reference system, stand north up, and mean their numbers alike; where they
-// lie on both sides of 180 degrees they are one ground. The finest samples count; files that are coarser, or
-// not on the grid of the first, are resampled (bilinear). Where files overlap the one whose name comes last
-// counts, but for its missing samples; where there is none samples are missing. Missing is what each file
-// says, or its type's custom, or a -9999 that it does not name, where all heights lie far above that
-// (HeightSamples::findCustomary(); where files overlap or are resampled by some samples of each:
-// hasDeepGround()). Of netCDF files of several variables the one that is called heights. Throws Error that
-// names the file that does not fit.
+// Opens an elevation model. For a folder it is a virtual raster over its elevation files
+// (elevation_folder.h), without those that are no heights (folder_choice.h). They must have one reference
+// system, stand north up, and mean their numbers alike; files on both sides of 180 degrees form one ground.
+// The finest samples are used; files that are coarser, or not on the grid of the first, are resampled
+// (bilinear). Where files overlap, the one whose name comes last is used, except for its missing samples;
+// where there is no file, samples are missing. Missing values are those that each file names, or customary
+// for its type, or an unnamed -9999 that lies far below all heights (HeightSamples::findCustomary(); where
+// files overlap or are resampled, tested on some samples of each: hasDeepGround()). In netCDF files with
+// several variables, the one named for heights is used. Throws Error that names the file that does not fit.
 OpenedDem openDem(const std::filesystem::path& place, const GdalMessages& messages);
 
-// Returns the dataset with at most `most` samples, at least 2 each way, as a virtual raster over it: one
-// sample of each few, or of its overviews where it has them. It must be closed before `whole`. Returns null
-// where all are no more than that, and where rows are found by reading all before them (text). Throws Error.
+// Returns the dataset thinned to at most `most` samples, at least 2 in each direction, as a virtual raster
+// over it: one of every few samples, or from its overviews where it has them. It must be closed before
+// `whole`. Returns null where it has no more samples than that, and for text files, in which rows are found
+// only by reading all before them. Throws Error.
 GdalDataset thinnedDem(GDALDataset& whole, long long most, const std::filesystem::path& place);
 
-// Returns whether rows of the file are found by reading all before them.
+// Returns whether the file is a text file, in which rows are found only by reading all before them.
 bool isTextGrid(GDALDataset& dataset);
 
-// The first file of such a folder that can not be read to its end; "" where there is none, or it is no
-// folder.
+// Returns the first file of such a folder that can not be read to its end; "" where there is none, or the
+// path is no folder.
 std::filesystem::path damagedFileIn(const std::filesystem::path& folder);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// Where an elevation raster lies and how its samples get to a grid in metres; see the header.
+// The place of an elevation raster, and the conversion of its samples to a grid in metres; see the header.
 #include "terrain/read/gdal/dem_placement.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Elevation samples on another grid. The third part of readDem().
+// Resamples elevation samples to another grid. The third part of readDem().
 #pragma once
 
 #include <filesystem>
@@ -14,14 +14,14 @@ struct ResampledDem {
     long long outside = 0;       // number of heights beyond the source's outer samples
 };
 
-// Samples of `source`, in its row order, at the pixels of `target`. Missing where the nearest sample is
-// missing, so that holes keep their size. What holds for each height, whatever the ground: - it lies between
-// the lowest and the highest of the four source samples around it; - each summit and each pit of the source
-// (no higher, or no lower, sample among its eight neighbours) that lies on   the target has a sample of just
-// its height, at most one source sample away along rows and columns: the   nearest one, unless that is a
-// summit or pit already. This needs a target that is not coarser than the   source; where it is, what is not
-// held is the lesser of what meets in one sample. Throws Error that names `file` where there is no way
-// between the reference systems; Cancelled.
+// Resamples `source`, in its row order, to the pixels of `target`. A pixel is missing where the nearest
+// sample is missing, so that holes keep their size. Guarantees, for any ground:
+// - each height lies between the lowest and the highest of the four source samples around it;
+// - each summit and pit of the source (no higher, or no lower, sample among its eight neighbours) on the
+//   target keeps its exact height in a sample at most one source sample away along rows and columns: the
+//   nearest one, unless that is a summit or pit already. This needs a target that is not coarser than the
+//   source; on a coarser one, of several that fall on one sample the lesser are lost.
+// Throws Error that names `file` where there is no conversion between the reference systems; Cancelled.
 ResampledDem resampleDem(const std::vector<float>& samples, const Georeference& source,
                          const Georeference& target, const std::filesystem::path& file, Progress& progress);
 

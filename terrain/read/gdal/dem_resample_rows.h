@@ -1,5 +1,5 @@
-// Elevation samples on another grid, a run of its rows at a time: resampleDem() for ground larger than
-// memory, but for the summits and pits that it puts back.
+// Resamples elevation samples to another grid in runs of rows: resampleDem() for ground larger than memory,
+// without the restored summits and pits.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,17 @@
 
 namespace stereonav {
 
-// To one thread.
+// For one thread.
 class ResampledRows {
 public:
-    // Samples of a window of the source, in its row order.
+    // Reads the samples of a window of the source, in its row order.
     using ReadWindow = std::function<void(const SampleWindow& window, float* samples)>;
     // Throws Error as resampleDem() does.
     ResampledRows(const Georeference& source, const Georeference& target, const std::filesystem::path& file,
                   ReadWindow read);
 
-    // Rows of the target from first on, counted from its own first. Throws what reading throws, Cancelled.
+    // Resamples rows of the target from `first` on, counted from its first row. Throws the exceptions of
+    // reading, Cancelled.
     void read(int first, int rows, float* heights);
 
 private:

@@ -132,7 +132,8 @@ public:
     std::uint64_t identity() const override {
         const GdalMessages messages;
         Hash hash;
-        // How a folder's files are mixed counts too, and which, where some are left aside.
+        // The treatment of -9999 in mixed files is part of the identity, and so is the list of files, where
+        // some are omitted.
         if (!mFiles.empty()) hash.add(std::string_view("-9999 is not mixed"));
         if (!mFiles.empty() && mFiles.size() < elevationFilesIn(mFile).size())
             for (const std::filesystem::path& file : mFiles) hash.add(std::string_view(file.native()));

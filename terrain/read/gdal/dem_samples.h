@@ -1,5 +1,5 @@
-// The samples of an elevation raster as stored: missing values found, units and scale applied. The first part
-// of readDem() and of DemRows; the others place them on a grid in metres.
+// The samples of an elevation raster as stored, with missing values found, and unit and scale applied. The
+// first part of readDem() and of DemRows; the others place them on a grid in metres.
 #pragma once
 
 #include <filesystem>
@@ -13,14 +13,14 @@
 
 namespace stereonav {
 
-// A part of a raster, in its own samples: columns from x, rows from y.
+// A part of a raster, in its own pixels: columns from x, rows from y.
 struct SampleWindow {
     int x = 0, y = 0, width = 0, height = 0;
     long long samples() const { return static_cast<long long>(width) * height; }
 };
 
-// The band of heights, a window at a time, in the raster's own row order. To one thread. What it reads is
-// counted for what only all samples tell.
+// The band of heights, read in windows, in the raster's own row order. For one thread. Samples that are read
+// are counted for decisions that need all of them.
 class HeightSamples {
 public:
     // dataset must outlive the object. Throws Error when the raster holds no elevations.
@@ -31,24 +31,24 @@ public:
     const std::string& missing() const { return mMissing; }
     int width() const { return mWidth; }
     int height() const { return mHeight; }
-    // Samples of the blocks that the file has, along each side.
+    // Return the size of the file's blocks in samples.
     int blockWidth() const { return mBlockWidth; }
     int blockHeight() const { return mBlockHeight; }
 
     // Reads the heights of a window within the raster: metres, NaN where missing. Throws Error for a file
     // that is cut off.
     void read(const SampleWindow& window, GdalMessages& messages, float* heights);
-    // Reads as read() does, but leaves the samples out of the counts.
+    // Reads like read(), but does not count the samples.
     void readUncounted(const SampleWindow& window, GdalMessages& messages, float* heights);
 
-    // Returns whether -9999 alone far below all other ground was found in a file that names no value for
-    // missing samples: then it is one, and from here on missing where it is read. That is how it stays.
+    // Returns whether the file names no value for missing samples, but has -9999 far below all other ground.
+    // Then that value counts as missing from now on.
     bool findCustomary();
-    // For heights that were read before.
+    // Sets such samples to NaN in heights that were read before.
     void dropCustomary(float* heights, std::size_t count) const;
 
-    // Called after all was read. Throws Error for relief that floats would turn to steps: it would be other
-    // ground.
+    // To be called after all samples were read. Throws Error for relief that single precision would turn into
+    // steps.
     void checkPrecision() const;
     const HeightTally& tally() const { return mTally; }
     bool allMissing() const;
@@ -70,19 +70,18 @@ private:
 struct DemSamples {
     std::vector<float>
         heights;  // metres times the vertical scale, in the raster's own row order, NaN where missing
-    // Guesses about things that the file does not say, in words for a person; "" where there is nothing to
-    // say.
+    // Guesses about what the file does not say, in words for the user; "" where there was nothing to guess.
     std::string band;     // the band that is read, of several
-    std::string unit;     // unit of the heights, where they are not plain metres
+    std::string unit;     // unit of the heights, where it is not plain metres
     std::string missing;  // what marks missing samples
 };
 
-// Throws Error when the raster holds no elevations, can not be read, or its heights times the vertical scale
-// are beyond what floats hold (height_limits.h); Cancelled.
+// Reads all samples. Throws Error when the raster holds no elevations, can not be read, or its heights times
+// the vertical scale are out of range for floats (height_limits.h); Cancelled.
 DemSamples readSamples(GDALDataset& dataset, GdalMessages& messages, const std::filesystem::path& file,
                        double verticalScale, Progress& progress);
 
-// Throws Error: all of the `samples` samples are missing. missing: how that is marked.
+// Throws Error that all of the `samples` samples are missing. missing: what marks them.
 [[noreturn]] void throwAllMissing(const std::filesystem::path& file, long long samples,
                                   const std::string& missing);
 

@@ -1,5 +1,5 @@
-// Which files of a folder are its heights. Producers send counts of scenes, masks and errors with them, and
-// people keep slope, hillshade and photographs beside them.
+// Chooses the files of a folder that are heights. Producers add counts of scenes, masks and errors, and users
+// keep slope, hillshade and photographs beside them.
 #pragma once
 
 #include <ogr_spatialref.h>
@@ -18,7 +18,7 @@ namespace stereonav {
 // A file of a folder, by its header.
 struct FolderFile {
     std::filesystem::path file;
-    std::unique_ptr<OGRSpatialReference> system;  // null: it names none
+    std::unique_ptr<OGRSpatialReference> system;  // null: it names no reference system
     bool placed = false, northUp = false;
     FilePlan plan;
     HeightBand band;
@@ -26,15 +26,15 @@ struct FolderFile {
 };
 
 struct FolderChoice {
-    std::vector<FolderFile> files;   // one and more, in the order of their names
-    std::vector<std::string> notes;  // what was left aside and why, one line each
+    std::vector<FolderFile> files;   // at least one, in the order of their names
+    std::vector<std::string> notes;  // omitted files and reasons, one line each
 };
 
-// files: one and more. What is no heights by itself is left aside: pictures, other units. Of two files of
-// which one covers the other, and whose numbers are not the same ground's, the likelier heights are taken: by
-// unit, type, range, steps from sample to sample, the value for missing samples, and name. So is left aside
-// what is named as these others are. Where none is likelier all stay, and it is said. Samples are read of
-// such files alone. Throws Error where a file is no raster, or none holds heights.
+// files: at least one. Omits files that can not be heights: pictures, and other units. Where one of two files
+// covers the other, but their numbers are not those of one ground, the more likely heights are taken: by
+// unit, type, range, steps from sample to sample, the value for missing samples, and name. Files named like
+// the omitted ones are omitted as well. Where none is more likely all stay, with a note. Samples are read
+// only of such files. Throws Error where a file is no raster, or none holds heights.
 FolderChoice chooseHeights(const std::vector<std::filesystem::path>& files, const GdalMessages& messages);
 
 }  // namespace stereonav

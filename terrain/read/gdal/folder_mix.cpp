@@ -79,7 +79,7 @@ bool filesAreMixed(const std::vector<FilePlan>& plans) {
 
 bool hasDeepGround(GDALDataset& dataset, const HeightBand& band) {
     constexpr int kSide = 64;
-    constexpr double kNoHeight = -1e7;  // what lies lower is missing
+    constexpr double kNoHeight = -1e7;  // metres: lower numbers count as missing
     const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
     const int columns = std::min(width, kSide), rows = std::min(height, kSide);
     std::vector<double> some(static_cast<std::size_t>(columns) * rows);

@@ -1,5 +1,5 @@
-// The door to GDAL: its drivers registered once, its messages caught instead of printed, its handles
-// closed. Used by the readers of elevation models and ground images; no header outside names GDAL.
+// The only interface to GDAL: registers its drivers once, catches its messages instead of printing them, and
+// closes its handles. Used by the readers of elevation models and ground images; no other header names GDAL.
 #pragma once
 
 #include <gdal_priv.h>
@@ -14,11 +14,11 @@
 
 namespace stereonav {
 
-// Bytes of blocks of files that GDAL keeps, unless the user says otherwise (GDAL_CACHEMAX); at most a quarter
-// of the memory that can be had. Files are read in runs of rows: a row of blocks is enough.
+// Bytes of decoded blocks that GDAL keeps, unless the user sets GDAL_CACHEMAX; at most a quarter of the
+// available memory. Files are read in runs of rows, for which a row of blocks is enough.
 constexpr int kGdalBlocks = 64 << 20;
 
-// While it lives, GDAL's messages of this thread are kept here and nothing is printed.
+// While such an object lives, GDAL's messages of this thread are kept in it and nothing is printed.
 class GdalMessages {
 public:
     GdalMessages();
@@ -27,9 +27,9 @@ public:
     GdalMessages& operator=(const GdalMessages&) = delete;
 
     bool hasError() const { return !mFirstError.empty(); }
-    // " (what went wrong)", without the file's own name; "" when there was no error.
+    // Returns " (what went wrong)", without the file's own name; "" when there was no error.
     std::string reason(const std::filesystem::path& file) const;
-    // Where something that the file names was refused (guarded_drivers.h): throws Error that says so.
+    // Throws Error where access to something that the file names was refused (guarded_drivers.h).
     void throwIfRefused(const std::filesystem::path& file) const;
     void clear() { mFirstError.clear(), mRefused.clear(); }
 
@@ -43,36 +43,36 @@ struct CloseDataset {
 };
 using GdalDataset = std::unique_ptr<GDALDataset, CloseDataset>;
 
-// Throws Error unless it is a file with content on this machine.
+// Throws Error unless the path is a file with content on this machine.
 void checkFileForGdal(const std::filesystem::path& file, const std::string& advice);
 
-// The name that GDAL is given: whole, so that no driver takes it for words of its own.
+// Returns the name for GDAL: an absolute path, so that no driver takes it for its own syntax.
 std::string nameForGdal(const std::filesystem::path& file);
 
-// A raster this program can read, checked to be a file with content. `expected` completes the
-// sentence "expected ..." and `advice` says what to give instead. notes: gets what a person should know of
-// it, a line each. Throws Error.
+// Opens a raster that this program can read, after checking that it is a file with content. `expected`
+// completes the sentence "expected ..." and `advice` says what to give instead. notes: receives remarks for
+// the user, a line each. Throws Error.
 GdalDataset openRaster(const std::filesystem::path& file, const GdalMessages& messages,
                        const std::string& expected, const std::string& advice,
                        std::vector<std::string>* notes = nullptr);
 
-// Where the raster lies, by its transform or its control points; `known` is set to whether the file says so
-// (else a unit a pixel, no system). The system is that of the plan, without heights. Throws Error for control
-// points that place nothing.
+// Returns the raster's place, by its transform or its control points. known: set to whether the file has one
+// (else a unit per pixel, without a system). The system is that of the plan, without heights. Throws Error
+// for control points that do not determine a place.
 Georeference georeferenceOf(GDALDataset& dataset, const std::filesystem::path& file, bool& known);
 
 // Returns the system as WKT 2, on one line; "" for none.
 std::string wktOf(const OGRSpatialReference& system);
-// Returns the WKT without the system of heights that a compound one has.
+// Returns the WKT without the vertical system of a compound one.
 std::string planWkt(const OGRSpatialReference& system);
 
-// Samples that a raster may have: a side, and in all.
+// Largest number of samples of a raster: per side, and in total.
 struct RasterLimits {
     long long side = 0, samples = 0;
 };
-// Limits of what is read at once: 1 GiB of heights; as much again for the pyramid and colour.
+// Limits for rasters that are read at once: 1 GiB of heights, and as much again for pyramid and colour.
 constexpr RasterLimits kReadAtOnce = {kMostDemSide, kMostDemSamples};
-// Limits of what is read a run of rows at a time.
+// Limits for rasters that are read in runs of rows.
 constexpr RasterLimits kReadByRows = {1ll << 20, 1ll << 40};
 
 // Throws Error unless both sides are 1 or more, and within the limits.

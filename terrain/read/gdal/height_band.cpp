@@ -23,7 +23,7 @@ std::string unitOf(GDALRasterBand& band) {
     return band.GetUnitType() ? band.GetUnitType() : "";
 }
 
-// Returns the name of the band that speaks of heights; "" where none does.
+// Returns the band's description or name, if its words are about heights; "" where none is.
 std::string nameOfHeights(GDALRasterBand& band) {
     if (const char* text = band.GetDescription(); text && speaksOfHeights(text)) return text;
     for (const char* key : {"standard_name", "long_name", "NETCDF_VARNAME", "NAME", "DESCRIPTION"})
@@ -84,7 +84,8 @@ struct HeightAxis {
     std::string unit;  // name of the unit
 };
 
-// Compound systems, systems of three axes, and those of heights alone: the last axis that goes up or down.
+// Returns the last axis of a reference system that points up or down: compound systems, systems of three axes
+// and vertical ones have such an axis.
 std::optional<HeightAxis> heightAxisOf(const OGRSpatialReference& system) {
     for (int n = system.GetAxesCount() - 1; n >= 0; --n) {
         OGRAxisOrientation way = OAO_Other;
@@ -101,7 +102,7 @@ std::optional<HeightAxis> heightAxisOf(const OGRSpatialReference& system) {
     return std::nullopt;
 }
 
-// Depths where the band itself says so, by the words of the CF conventions.
+// Returns true where the band's metadata say, in the words of the CF conventions, that it holds depths.
 bool bandCountsDown(GDALRasterBand& band) {
     const char* const positive = band.GetMetadataItem("positive");
     if (positive) return EQUAL(positive, "down");

@@ -1,4 +1,4 @@
-// Which band of a raster holds the heights, and what its numbers mean.
+// The band of a raster that holds the heights, and the meaning of its numbers.
 #pragma once
 
 #include <gdal_priv.h>
@@ -18,19 +18,19 @@ struct HeightBand {
     std::string chosen;  // "band 2 of 3: its description is \"elevation\""; "" where there is only one
 
     double scale = 1, offset = 0;  // metres = stored * scale + offset
-    std::string unit;              // "" for metres that need no word, else which unit and who says so
+    std::string unit;              // "" for plain metres, else the unit and its source
 
     std::optional<double> nodata;  // stored
     std::string missing;           // what marks missing samples, in words
     bool singlePrecision = false;  // stored as float: nodata is compared after rounding
     bool signedBytes = false;      // bytes above 127 are below 0 (GDAL's PIXELTYPE=SIGNEDBYTE)
-    bool masked = false;           // a mask or an alpha band says which samples there are
+    bool masked = false;           // a mask or an alpha band marks the missing samples
 
-    // Metres; NaN where missing.
+    // Returns metres; NaN where missing.
     double metres(double stored) const;
 };
 
-// A raster whose numbers are something else than heights.
+// The error for a raster whose numbers are not heights.
 class NoHeights : public Error {
 public:
     // why: "a picture", "its unit is \"degree\"".
@@ -43,11 +43,11 @@ private:
     std::string mWhy;
 };
 
-// The band of heights. Of several it is the one whose description or names speak of heights; else the only
-// one with a unit of length; else the first. A colour table, or three bands and more of whole numbers without
-// such a word, are a picture. Heights are in the band's unit, else in that of the vertical reference system,
-// else in metres; where band or system count downward they are turned over. Throws Error that names `file`,
-// NoHeights among them.
+// Returns the band of heights. Of several bands it is the one whose description or names are about heights;
+// else the only one with a unit of length; else the first. Rasters with a colour table, or with three or more
+// bands of whole numbers without such names, are pictures. Heights are in the band's unit, else in that of
+// the vertical reference system, else in metres; where band or system count downward they change their sign.
+// Throws Error that names `file`, such as NoHeights.
 HeightBand heightBandOf(GDALDataset& dataset, const std::filesystem::path& file);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// Stored numbers of a band of heights to metres, and what is to be known of all of them.
+// Converts stored numbers of a band of heights to metres, and collects statistics over all of them.
 #pragma once
 
 #include <gdal_priv.h>
@@ -13,23 +13,22 @@ namespace stereonav {
 
 // The value that often stands for missing samples where a file names none.
 constexpr double kCustomaryMissing = -9999;
-// How far all heights lie above it where they do.
+// Distance in metres by which all heights must lie above it, if it stands for missing samples.
 constexpr double kFarBelowAll_m = 1000;
 
-// A tally of the heights that are there, in metres. Counting some of them twice changes no answer that is
-// drawn from it.
+// Statistics of the known heights, in metres. Counting some of them twice changes no decision.
 struct HeightTally {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    double rounded = 0;        // the most that a float lost
+    double rounded = 0;        // largest rounding error of a float
     bool customary = false;    // whether the customary value is among them
-    double lowestOther = low;  // without it
+    double lowestOther = low;  // lowest height other than the customary value
 
     bool anyKnown() const { return low <= high; }
     void count(double metres, float kept);
 };
 
-// Converts heights in the type that they are stored in where that is as good as double precision: int16 and
-// float32 without scale, offset and mask, which most files are.
+// Converts heights in their stored type where that is as exact as double precision: int16 and float32 without
+// scale, offset and mask, which most files have.
 class HeightConversion {
 public:
     HeightConversion(GDALDataType stored, const HeightBand& band);
@@ -37,8 +36,8 @@ public:
     GDALDataType type() const { return mType; }
     std::size_t bytes() const;  // bytes of a stored number
 
-    // count numbers of type(); mask: 0 where a sample is missing, null where the band has none. NaN where
-    // missing.
+    // Converts `count` numbers of type(). mask: 0 where a sample is missing, null where the band has none.
+    // Writes NaN where missing.
     void convert(const void* stored, const unsigned char* mask, std::size_t count, float* heights,
                  HeightTally& tally) const;
 
@@ -50,7 +49,7 @@ private:
 
     HeightBand mBand;
     GDALDataType mType;
-    int mMissingShort = 0;  // no int16 where none is missing
+    int mMissingShort = 0;  // a value out of the range of int16 where none is missing
     float mMissingFloat = std::numeric_limits<float>::quiet_NaN();
 };
 

@@ -1,4 +1,4 @@
-// How likely a raster's numbers are heights, and whether two rasters have the same ground.
+// Estimates how likely a raster's numbers are heights, and whether two rasters show the same ground.
 #pragma once
 
 #include <string>
@@ -8,17 +8,17 @@
 
 namespace stereonav {
 
-// Evidence for heights (above 0) and against them, added up, and the strongest word against them.
+// The sum of evidence for (above 0) and against heights, and the strongest argument against.
 struct HeightEvidence {
     double score = 0;
     std::string against;  // "its name", "bytes"
-    double rough = 0;     // mean step from sample to sample, as a share of how far they spread; 0: not known
+    double rough = 0;     // mean step from sample to sample, as a share of their spread; 0: not known
 };
-// dataset: of the file. Reads some of its samples.
+// Returns the evidence. dataset: of the file; some of its samples are read.
 HeightEvidence evidenceOf(GDALDataset& dataset, const FolderFile& file);
 
-// Returns whether both have samples at the same places, and these are not heights of one ground: neither near
-// each other nor the same relief with another zero. By 32 x 32 places at most.
+// Returns whether both rasters have samples at the same places that can not be heights of one ground: neither
+// close to each other nor the same relief with another zero. Tests at most 32 x 32 places.
 bool isOtherGround(GDALDataset& a, const FolderFile& fileA, GDALDataset& b, const FolderFile& fileB);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// The unit of heights, as GDAL's drivers, other programs and people write it.
+// Reads the unit of heights as GDAL's drivers, other programs and people write it.
 #pragma once
 
 #include <optional>
@@ -7,13 +7,13 @@
 namespace stereonav {
 
 struct HeightUnit {
-    double metres = 1;  // in one of it
+    double metres = 1;  // metres per unit
     bool down = false;  // counted downward, from the sea or the ground: "m below sea level"
 };
 
-// A name of a unit of length, or "" for metres, and after it in words what heights are counted from: "m MSL",
-// "feet (NAVD88)", "meters above mean sea level". Returns nothing for other units, and for those that are
-// made of one of length: "m/s", "m2", "m per km".
+// Reads the name of a unit of length, or "" for metres, which words about the reference of heights may
+// follow: "m MSL", "feet (NAVD88)", "meters above mean sea level". Empty for other units, and for compounds:
+// "m/s", "m2", "m per km".
 std::optional<HeightUnit> heightUnitOf(std::string_view text);
 
 }  // namespace stereonav

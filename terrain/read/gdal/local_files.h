@@ -1,4 +1,4 @@
-// GDAL asks no address and waits for no pipe, however a file spells what it names.
+// Keeps GDAL from reading network addresses, pipes and devices, however a file names them.
 #pragma once
 
 #include <cpl_error.h>
@@ -7,15 +7,15 @@
 
 namespace stereonav {
 
-// The number of errors that are the program's own refusals: their text is a whole line.
+// The number of errors that are refusals by this program; their text is a whole line.
 constexpr CPLErrorNum kRefused = 4200;
 
-// Has GDAL fail with that line.
+// Raises this line as an error in GDAL.
 void refuseToGdal(const std::string& line);
 
-// For the whole process, before anything is opened: all file systems but those of local files, memory and
-// archives refuse, requests over the network do, and pipes and devices are not there. What the user's
-// environment says of it no longer counts.
+// Applies to the whole process, to be called before anything is opened: all file systems except local files,
+// memory and archives refuse access, network requests are refused, and pipes and devices do not exist for
+// GDAL. Settings in the user's environment no longer have an effect on that.
 void keepGdalToLocalFiles();
 
 }  // namespace stereonav

@@ -1,5 +1,5 @@
-// Whether a classic netCDF file is whole: its library takes what is cut off for zeros, without a word, and
-// takes the memory that a header asks for, however damaged it is.
+// Checks whether a classic netCDF file is complete: its library reads missing parts as zeros, without an
+// error, and takes as much memory as a header asks for, even a damaged one.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace stereonav {
 
-// Bytes that the file has to have, by its header ("CDF" 1, 2 or 5), more than any file has where the header
-// is damaged; none where it is no such file.
+// Returns the bytes that the file must have by its header ("CDF" 1, 2 or 5); where the header is damaged,
+// more than any file has; empty for other files.
 std::optional<std::uint64_t> classicNetCdfSize(const std::filesystem::path& file);
 
 }  // namespace stereonav

@@ -1,4 +1,4 @@
-// Arguments as GDAL's programs take them.
+// Arguments in the form of GDAL's programs.
 #pragma once
 
 #include <cpl_string.h>

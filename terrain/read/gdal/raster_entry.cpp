@@ -1,4 +1,4 @@
-// What the module stereonav_gdal shows the program.
+// The interface of the module stereonav_gdal to the program.
 #include "engine/base/module.h"
 #include "terrain/read/raster_file.h"
 

@@ -1,5 +1,5 @@
-// Reference systems may name files: grids of datum shifts, tables of definitions. PROJ opens whatever path
-// such a name is.
+// Reference systems may name files: grids of datum shifts, tables of definitions. PROJ opens any path that
+// stands there.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +12,18 @@ struct CPLXMLNode;
 namespace stereonav {
 
 // Returns the first path that a definition (WKT, PROJ string) names as one of its files; "" where it names
-// none, or only grids by their bare names, which PROJ looks up among its own.
+// none, or only names of grids without a folder, which PROJ looks up in its own data.
 std::string pathInReference(std::string_view definition);
 
 // Throws Error that names `file` where the system names a path. Null: does nothing.
 void checkReference(const OGRSpatialReference* system, const std::string& file);
 
-// Checks, as checkReference() does, one element or attribute of a virtual raster or of metadata beside a
-// raster, whose text is a definition; a path in the place of a definition is refused too.
+// Does the check of checkReference() on one element or attribute, of a virtual raster or of metadata beside a
+// raster, whose text is a definition; a path in place of a definition is refused too.
 void checkReferenceText(const CPLXMLNode& node, const std::string& file);
 
-// Checks the systems in what lies beside a raster and is read as it is opened: <raster>.aux.xml, a .prj file,
-// an ENVI header.
+// Checks the reference systems in files that are read with a raster: <raster>.aux.xml, a .prj file, an ENVI
+// header.
 void checkReferencesBeside(const std::string& file);
 
 // Checks each member "crs" of a GeoJSON file, however deep. Does nothing with other files and damaged ones.

@@ -1,4 +1,4 @@
-// Elevation samples between the source's own: cubic, kept within the samples around.
+// Interpolates elevation samples: cubic, limited to the range of the samples around.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,8 @@ inline std::array<double, 4> cubicWeights(double u) {
             (0.5 * u - 0.5) * u * u};
 }
 
-// Samples read between: cubic where all sixteen around are known, else bilinear over the known ones of four.
+// Reads between samples: cubic where all sixteen around are known, else bilinear over the known ones of the
+// four nearest.
 class SampleReader {
 public:
     // samples: of a window of the raster, whose sizes are width and height.
@@ -29,14 +30,14 @@ public:
         return mSamples[static_cast<std::size_t>(j - mWindow.y) * mWindow.width + (i - mWindow.x)];
     }
 
-    // Returns whether there is ground: up to half a sample beyond the outer ones.
+    // Returns whether there is ground: up to half a sample beyond the outermost samples.
     bool inside(const glm::dvec2& pixel) const {
         constexpr double kSlack = 0.51;
         const double x = pixel.x - 0.5, y = pixel.y - 0.5;
         return x >= -kSlack && y >= -kSlack && x <= mWidth - 1 + kSlack && y <= mHeight - 1 + kSlack;
     }
 
-    // Returns the window that between() may ask for at places inside, x and y from low to high.
+    // Returns the window of samples that between() may read for places with x and y from low to high.
     SampleWindow around(const glm::dvec2& low, const glm::dvec2& high) const {
         const auto first = [](double x, int count) {
             return std::max(static_cast<int>(std::clamp(x - 0.5, 0.0, count - 2.0)) - 1, 0);
@@ -48,7 +49,7 @@ public:
         return {x, y, last(high.x, mWidth) - x + 1, last(high.y, mHeight) - y + 1};
     }
 
-    // Returns the value at a place inside.
+    // Returns the interpolated value at a place for which inside() is true.
     float between(const glm::dvec2& pixel) const {
         const double x = std::clamp(pixel.x - 0.5, 0.0, mWidth - 1.0);
         const double y = std::clamp(pixel.y - 0.5, 0.0, mHeight - 1.0);
@@ -61,8 +62,8 @@ public:
     }
 
 private:
-    // A cubic swings over beside a cliff, and over between two samples of a summit: heights that the file
-    // does not have. NaN where one of the sixteen is missing.
+    // Returns the cubic interpolation; NaN where one of the sixteen is missing. It overshoots beside cliffs
+    // and between two samples of a summit, to heights that the file does not have.
     double cubicAt(int i, int j, double u, double v) const {
         if (i < 1 || j < 1 || i + 2 >= mWidth || j + 2 >= mHeight)
             return std::numeric_limits<double>::quiet_NaN();
