@@ -278,6 +278,7 @@ std::uint64_t colonCacheKey(std::uint64_t study, const ColonOptions& options) {
     for (const glm::dvec3& seed : s.seeds) hash.add(seed.x).add(seed.y).add(seed.z);
     addChoices(s.choices, hash);
     if (s.leavesFluid) hash.add("fluid is left");
+    if (s.maskSmoothing != 0.0) hash.add("mask smoothed").add(s.maskSmoothing.value_or(-1));
     const CentrelineSetting& line = options.centreline;
     hash.add(line.spacing).add(static_cast<std::int64_t>(line.reversed));
     // Only where it is another one than usual, so that keys of before stay.

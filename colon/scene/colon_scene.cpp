@@ -204,6 +204,8 @@ ColonScene sceneOf(FoundColon found, const ColonOptions& options, Progress& prog
     scene.format = std::move(found.format);
     scene.studyFrame = found.studyFrame;
     scene.notes = std::move(found.notes);
+    if (found.ofMask)
+        scene.maskSmoothed = smoothedLength(options.segmentation.maskSmoothing, found.studyFrame);
     scene.lumen = std::move(found.lumen);
     scene.valuesFound = found.values;
     scene.notes.insert(scene.notes.end(), scene.lumen.notes.begin(), scene.lumen.notes.end());
@@ -227,7 +229,7 @@ ColonScene surfaceOf(Study study, const ColonOptions& options, const std::string
     study.mask = {};
     const VolumeFrame whole = grey.frame;
     if (options.up) turnUp(grey.frame, *options.up);
-    ColonScene scene = isosurfaceScene(std::move(grey), options, progress, study.directed);
+    ColonScene scene = isosurfaceScene(std::move(grey), options, progress, {study.directed, study.isMask});
     if (options.up) scene.up = options.up;
     if (options.up) scene.notes.push_back("turned: what points to " + nameOf(*options.up) + " is up");
     scene.format = study.format;
@@ -281,6 +283,7 @@ ColonScene sharing(const ColonScene& scene) {
     same.polyps = scene.polyps;
     same.counts = scene.counts;
     same.kinds = scene.kinds;
+    same.maskSmoothed = scene.maskSmoothed;
     same.up = scene.up;
     same.startPose = scene.startPose;
     same.path = scene.path;
@@ -306,6 +309,28 @@ void changeWall(ColonScene& scene, const ColonOptions& options, Progress& progre
     if (!same) scene.volume.cells = wallCells(scene, progress);
     scene.warning = warningOf(scene, options);
     progress.report(1, kChanging);
+}
+
+// Keys of what may be kept of a study. What is found in grey values does not depend on how masks are
+// smoothed, and only what was kept tells which of both a study is.
+struct ColonKeys {
+    std::uint64_t grey = 0, mask = 0;
+    std::uint64_t of(const FoundColon& found) const { return found.ofMask ? mask : grey; }
+};
+ColonKeys keysOf(std::uint64_t study, const ColonOptions& options) {
+    ColonOptions ofGrey = options;
+    ofGrey.segmentation.maskSmoothing = 0;
+    return {colonCacheKey(study, ofGrey), colonCacheKey(study, options)};
+}
+
+// damaged: whether an entry was found that is.
+std::optional<FoundColon> keptColon(const ColonKeys& keys, bool& damaged) {
+    std::optional<FoundColon> kept = readColonCache(keys.mask, damaged);
+    if (kept || keys.grey == keys.mask) return kept;
+    bool greyDamaged = false;
+    kept = readColonCache(keys.grey, greyDamaged);
+    damaged |= greyDamaged;
+    return kept && kept->ofMask ? std::nullopt : std::move(kept);
 }
 
 // key: the study's, as far as it is asked for.
@@ -356,15 +381,16 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
     const bool builtIn = options.study.empty();
     const std::string name = nameOf(options);
     bool damaged = false;
-    std::uint64_t key = 0, studysKey = 0;
+    std::uint64_t studysKey = 0;
+    ColonKeys keys;
     if (!options.isosurface && builtIn) refuseTurned(options);
     if (!options.isosurface && options.cache && !options.up) {
         studysKey = builtIn ? builtInColonKey(options.builtIn) : studyKey(options.study, options.reading);
-        key = colonCacheKey(studysKey, options);
-        if (std::optional<FoundColon> kept = readColonCache(key, damaged)) {
+        keys = keysOf(studysKey, options);
+        if (std::optional<FoundColon> kept = keptColon(keys, damaged)) {
             const bool reads = options.keepsStudy && !kept->ofMask;
             Progress making(progress, 0, reads ? 0.5 : 1), reading(progress, 0.5, 1);
-            if (!builtIn) noteSource(colonCacheFile(key), options.study);
+            if (!builtIn) noteSource(colonCacheFile(keys.of(*kept)), options.study);
             ColonScene scene = sceneOf(std::move(*kept), options, making);
             scene.name = name;
             if (reads) scene.study = readOrMake(options, 0, scene.polyps, reading).grey;
@@ -392,8 +418,8 @@ ColonScene loadColon(const ColonOptions& options, Progress& progress) {
     Progress finding(progress, 0.5, 0.9), making(progress, 0.9, 1);
     FoundColon found = inTheNameOf(options, [&] { return findColon(study, options, finding); });
     found.polyps = std::move(polyps);
-    if (options.cache && writeColonCache(key, found) && !builtIn)
-        noteSource(colonCacheFile(key), options.study);
+    if (options.cache && writeColonCache(keys.of(found), found) && !builtIn)
+        noteSource(colonCacheFile(keys.of(found)), options.study);
     ColonScene scene = sceneOf(std::move(found), options, making);
     scene.name = name;
     scene.study = std::move(study.grey);  // nothing of a mask

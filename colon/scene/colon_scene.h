@@ -71,6 +71,9 @@ struct ColonScene {
     // else null.
     std::shared_ptr<const ValueCounts> counts;
     ValueKinds kinds;
+    // Metres along the wall over which a mask was smoothed, 0: not at all; nothing where the study is no
+    // mask.
+    std::optional<double> maskSmoothed;
     std::optional<UpAxis> up;  // axis of the file that was turned up, by an option or guessed
     std::string warning;       // what has to be said to who sees a picture of it; "": nothing
 

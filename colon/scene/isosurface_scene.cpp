@@ -18,6 +18,8 @@
 
 #include "colon/scene/guessed_up.h"
 #include "colon/scene/transfer_presets.h"
+#include "colon/segmentation/lumen_surface.h"
+#include "colon/segmentation/mask_smoothing.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/base/parallel.h"
@@ -133,6 +135,45 @@ GreyVolume padded(GreyVolume grey) {
         grey.values.release(perSlice * k, perSlice);
     });
     return out;
+}
+
+// The mask with such a layer of its smaller value, and its wall without stairs: values rise towards the
+// inside.
+GreyVolume smoothedMask(GreyVolume grey, double length, Progress& progress) {
+    VolumeFrame frame = grey.frame;
+    frame.origin = grey.frame.worldFromVoxel(glm::dvec3(-1));
+    frame.size += 2;
+    const Range16 range = storedRangeOf(grey);
+    const VoxelRuns inside = collectRuns(frame.size, [&](int j, int k, std::vector<VoxelRun>& runs) {
+        const glm::ivec3 size = grey.frame.size;
+        if (j == 0 || k == 0 || j > size.y || k > size.z) return;
+        const std::int16_t* row = &grey.values[grey.frame.index(0, j - 1, k - 1)];
+        for (int i = 0, end = 0; i < size.x; i = end + 1) {
+            end = i;
+            while (end < size.x && row[end] > range.lowest) ++end;
+            if (end > i) runs.push_back({i + 1, end + 1});
+        }
+    });
+    const double lowest = valueOf(grey, range.lowest), highest = valueOf(grey, range.highest);
+    grey = {};
+    GreyVolume out(frame);
+    smoothWall(inside, length, out, progress);
+    const std::size_t perSlice = static_cast<std::size_t>(frame.size.x) * frame.size.y;
+    parallelFor(frame.size.z, [&](int k) {
+        std::int16_t* values = &out.at(0, 0, k);
+        for (std::size_t n = 0; n < perSlice; ++n)  // memory that was never written stays so
+            if (values[n] != kMaskOutside) values[n] = static_cast<std::int16_t>(kMaskOutside - values[n]);
+    });
+    out.scale = (highest - lowest) / (kMaskOutside - kMaskInside);
+    out.offset = lowest;
+    return out;
+}
+
+// The isovalue of a mask's wall.
+IsovalueChoice middleOfMask(const GreyVolume& grey) {
+    const Range16 range = storedRangeOf(grey);
+    return {0.5 * (valueOf(grey, range.lowest) + valueOf(grey, range.highest)),
+            "half way between the two values of a mask"};
 }
 
 struct Ball {
@@ -322,21 +363,25 @@ double surfaceWorking(double voxels) {
     return kByBlocks * voxels + kBlock;
 }
 
-ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress, bool directed) {
+ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress,
+                           const VolumeOrigin& origin) {
     ColonScene scene;
+    if (origin.mask) scene.maskSmoothed = smoothedLength(options.segmentation.maskSmoothing, grey.frame);
+    const double smoothed = scene.maskSmoothed.value_or(0);
     if (options.chosen.values) lookAtValues(grey, scene);
     const bool chooses = scene.counts && !options.chosen.baked;
     double isovalue = 0;
     if (options.isovalue) {
         isovalue = *options.isovalue;
     } else {
-        const IsovalueChoice choice =
-            chooses ? isovalueFor(*scene.counts, scene.kinds) : chooseIsovalue(grey);
+        const IsovalueChoice choice = smoothed > 0 ? middleOfMask(grey)
+                                      : chooses    ? isovalueFor(*scene.counts, scene.kinds)
+                                                   : chooseIsovalue(grey);
         isovalue = choice.isovalue;
         scene.notes.push_back(fmt::format("isovalue {:g} chosen: {}{}", choice.isovalue, choice.why,
                                           chooses ? "; --isovalue gives another" : ""));
     }
-    if (chooses && !options.up && !directed) turnAsGuessed(grey, isovalue, scene);
+    if (chooses && !options.up && !origin.directed) turnAsGuessed(grey, isovalue, scene);
     VolumeLook& look = scene.volume.look;
     look.falloff = 0;
     look.surface = {0.62f, 0.57f, 0.48f};
@@ -348,8 +393,10 @@ ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progres
     if (!scene.warning.empty()) scene.notes.push_back(scene.warning);
     checkMemory("the surface of a volume", surfaceWorking(static_cast<double>(grey.frame.count())),
                 "crop the volume or make it coarser");
-    scene.volume.field = padded(std::move(grey));
-    scene.volume.cells = cellsAt(scene.volume.field, isovalue, look.transfer, progress);
+    Progress smoothing(progress, 0, 0.5), casting(progress, smoothed > 0 ? 0.5 : 0, 1);
+    scene.volume.field =
+        smoothed > 0 ? smoothedMask(std::move(grey), smoothed, smoothing) : padded(std::move(grey));
+    scene.volume.cells = cellsAt(scene.volume.field, isovalue, look.transfer, casting);
     if (!options.chosen.view || !placeByView(scene, options.chosen)) placeViewer(scene);
     scene.clearance = options.clearance > 0 ? options.clearance : 0.01 * scene.extent;
     return scene;

@@ -23,11 +23,18 @@ IsovalueChoice chooseIsovalue(const GreyVolume& grey);
 // cell that holds surface is not included: that is checked once these cells are counted.
 double surfaceWorking(double voxels);
 
-// Makes the scene. directed: whether the file says how its axes lie; else the way up may be guessed
-// (ColonOptions::chosen). Throws Error when nothing or all of the volume reaches the isovalue, and where
-// memory does not suffice; Cancelled.
+// What is known of a volume beside its values.
+struct VolumeOrigin {
+    bool directed =
+        true;  // the file says how its axes lie; else the way up may be guessed (ColonOptions::chosen)
+    bool mask = false;  // values are 0 and one other
+};
+
+// Makes the scene; a mask is smoothed if the options say so, with its own two values far from the wall.
+// Throws Error when nothing or all of the volume reaches the isovalue, and where memory does not suffice;
+// Cancelled.
 ColonScene isosurfaceScene(GreyVolume grey, const ColonOptions& options, Progress& progress,
-                           bool directed = true);
+                           const VolumeOrigin& origin = {});
 
 // Sets another isovalue (in units of the volume's values; none: keeps the present one) and the transfer
 // function of the options. scene: made by isosurfaceScene(); nobody may render it meanwhile. Does nothing

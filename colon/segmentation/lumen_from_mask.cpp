@@ -6,6 +6,7 @@
 
 #include "colon/segmentation/lumen_pieces.h"
 #include "colon/segmentation/lumen_surface.h"
+#include "colon/segmentation/mask_smoothing.h"
 #include "colon/segmentation/segmentation.h"
 #include "engine/base/error.h"
 
@@ -119,7 +120,11 @@ LumenField lumenFromMask(const MaskVolume& mask, const SegmentationSetting& sett
     lumen.isovalue = kMaskWall;
     setSegments(cut, orderOf(cut, all, crop.frame), lumen);
     Progress smoothing(progress, 0.3, 1);
-    smoothMask(cut.runs, MaskSmoothing{}, lumen.field, smoothing);
+    const double length = smoothedLength(setting.maskSmoothing, crop.frame);
+    if (length > 0)
+        smoothWall(cut.runs, length, lumen.field, smoothing);
+    else
+        smoothMask(cut.runs, WideSmoothing{}, lumen.field, smoothing);
     progress.report(1, "found the lumen");
     return lumen;
 }

@@ -72,7 +72,7 @@ Box borderOf(const std::vector<float>& signs, const Box& box) {
 // Smooths tiles of the lumen's surface one after the other, on one thread.
 class TileSmoother {
 public:
-    TileSmoother(const VoxelRuns& inside, const MaskSmoothing& setting, GreyVolume& field)
+    TileSmoother(const VoxelRuns& inside, const WideSmoothing& setting, GreyVolume& field)
         : mInside(inside),
           mField(field),
           mSmoother(sigmaIn(field.frame, setting.sigma)),
@@ -151,7 +151,7 @@ private:
 
 }  // namespace
 
-void smoothMask(const VoxelRuns& inside, const MaskSmoothing& setting, GreyVolume& field,
+void smoothMask(const VoxelRuns& inside, const WideSmoothing& setting, GreyVolume& field,
                 Progress& progress) {
     const glm::ivec3 size = inside.size, tiles = (size + (kTile - 1)) / kTile;
     ProgressSteps rows(progress, static_cast<std::size_t>(tiles.y) * tiles.z, "smoothing the wall");

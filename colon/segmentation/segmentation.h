@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "colon/segmentation/mask_smoothing.h"
 #include "engine/base/progress.h"
 #include "engine/volume/components.h"
 #include "engine/volume/piece_choices.h"
@@ -20,6 +21,7 @@ struct SegmentationSetting {
     std::vector<glm::dvec3> seeds;  // world, metres: pieces that hold one are the colon; empty: chosen
     PieceChoices choices;           // pieces of air and pools that are, or are not, the colon's all the same
     bool leavesFluid = false;       // tagged fluid stays: its surface is wall, the lumen is air alone
+    MaskSmoothing maskSmoothing = 0;  // a ready mask's wall; 0: by a wide kernel (lumen_surface.h)
 };
 
 // A piece of the lumen, in order from rectum to caecum.
@@ -57,7 +59,8 @@ std::optional<LumenField> restoreLumen(const GreyVolume& study, MaskVolume lumen
                                        const SegmentationSetting& setting);
 
 // Makes the lumen of a ready mask: `field` is the mask smoothed so that the wall shows no stairs, scaled to
-// HU-like numbers. Of the setting seeds alone count. Throws Error on an empty or full mask; Cancelled.
+// HU-like numbers. Of the setting seeds, choices and smoothing count. Throws Error on an empty or full mask;
+// Cancelled.
 LumenField lumenFromMask(const MaskVolume& mask, const SegmentationSetting& setting, Progress& progress);
 
 }  // namespace stereonav

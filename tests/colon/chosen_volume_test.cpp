@@ -60,7 +60,7 @@ ColonOptions looked() {
 }
 ColonScene sceneOf(const GreyVolume& grey, const ColonOptions& options, bool directed = true) {
     Progress progress;
-    return isosurfaceScene(grey.share(), options, progress, directed);
+    return isosurfaceScene(grey.share(), options, progress, {directed});
 }
 
 TEST(ChosenIsovalue, IsBoneFrom200To300AndElseSkin) {
