@@ -10,6 +10,8 @@ namespace {
 
 constexpr CommandSet kReading = command::kShowing | command::kOfColon | command::kBake;
 
+constexpr NumberRange kMaskSmoothingRange = within(0, 100, "mm");
+
 OptionRule unlessColonIsLookedFor() {
     return {[](const Asked& asked) { return asked.has("isosurface"); },
             "does not go with --isosurface, which looks for no colon", kLeaveOneOut};
@@ -98,6 +100,18 @@ std::vector<Option> studyOptions() {
          .panel = OptionPanel::Study,
          .take = [](OptionTargets& to,
                     const OptionValue& value) { to.scene->volume.fluid = fluidFromName(value.text); }},
+        {.key = "mask-smoothing",
+         .value = numberValue(kMaskSmoothingRange),
+         .help = "length along a mask's wall over which its bends are averaged, by millimetres; the wall "
+                 "moves by "
+                 "half a voxel; 0: not at all",
+         .advice = "leave it out for two voxels",
+         .group = kStudyGroup,
+         .fallback = "with --look auto two voxels of the coarsest spacing, else 0",
+         .commands = kShowing | kBake,
+         .scenes = kStudy,
+         .panel = OptionPanel::Study,
+         .take = into<&SceneOptions::volume, &VolumeOptions::maskSmoothing_mm>},
         {.key = "resample",
          .value = flagValue(),
          .help = "mend missing, uneven or tilted slices",

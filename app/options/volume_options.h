@@ -22,10 +22,11 @@ struct VolumeOptions {
     bool resample = false;    // resample uneven or tilted slices
     bool isosurface = false;  // show the surface from outside, without looking for a colon
     std::optional<double> isovalue;
-    std::string transfer;           // file or name of a transfer function; "": none
-    std::optional<double> opacity;  // share of light that a translucent wall takes per mm, in (0, 1]
-    bool backwards = false;         // fly from the caecum
-    std::optional<UpAxis> up;       // axis of the file that points up; empty: z
+    std::string transfer;                    // file or name of a transfer function; "": none
+    std::optional<double> opacity;           // share of light that a translucent wall takes per mm, in (0, 1]
+    std::optional<double> maskSmoothing_mm;  // along a mask's wall; empty: by chosenLook
+    bool backwards = false;                  // fly from the caecum
+    std::optional<UpAxis> up;                // axis of the file that points up; empty: z
     Shading shading = Shading::Lamp;
     std::optional<double> exposure;                      // factor on baked light; empty: by the light's mean
     std::optional<double> ambient_mm;                    // radius of ambient occlusion; empty: none

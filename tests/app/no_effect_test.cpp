@@ -28,6 +28,7 @@ TEST_F(NoEffect, AMeshIsOfTheGroundAlone) {
                                 {"--label", "1"},
                                 {"--seed", "1,2,3"},
                                 {"--resample"},
+                                {"--mask-smoothing", "1"},
                                 {"--isosurface"},
                                 {"--isovalue", "3"},
                                 {"--transfer", "wall_95"},
@@ -72,6 +73,12 @@ TEST_F(NoEffect, ASeriesIsChosenInAFolderOfSlices) {
         }
     }
     expectUseless({"render", ball(), "--isosurface", "--out", "a.png"}, {"--series", "1"}, {"ball.nrrd"});
+}
+
+TEST_F(NoEffect, GreyValuesAreNotSmoothedAsAMask) {
+    for (const char* length : {"0", "2"})
+        expectUseless({"render", ball(), "--isosurface", "--out", "a.png"}, {"--mask-smoothing", length},
+                      {"needs a mask", "leave it out"});
 }
 
 TEST_F(NoEffect, WhereNoColonIsLookedForThereAreNoSeedsAndNoWayBack) {

@@ -130,6 +130,7 @@ TEST_F(VolumeBadInput, OptionsOfAnotherKindOfScene) {
     for (const std::vector<std::string>& option : {std::vector<std::string>{"--series", "2"},
                                                    {"--label", "1"},
                                                    {"--seed", "1,2,3"},
+                                                   {"--mask-smoothing", "1"},
                                                    {"--resample"},
                                                    {"--isosurface"},
                                                    {"--isovalue", "3"},

@@ -135,7 +135,8 @@ BakedLight loadBakedLight(const std::filesystem::path& file, const ColonScene& s
                     "make one with stereonav bake");
     Progress comparing(progress, 0.3, 0.7);
     if (read->identity.content != contentOf(scene, comparing))
-        throw Error(file.string(), "", "is the light of another volume", "bake this one");
+        throw Error(file.string(), "", "is the light of another volume",
+                    scene.maskSmoothed ? "bake this one, with the same --mask-smoothing" : "bake this one");
     BakedLight light;
     light.kind = read->sums.shape().kind;
     light.error = read->sums.error();

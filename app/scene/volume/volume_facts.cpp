@@ -81,6 +81,12 @@ double isovalueOf(const ColonScene& colon) {
     return colon.volume.cells.isovalue * colon.volume.field.scale + colon.volume.field.offset;
 }
 
+// metres: over which a mask was smoothed.
+std::string maskText(double metres) {
+    return metres > 0 ? fmt::format("smoothed over {:.3g} mm of its wall", kMm * metres)
+                      : "not smoothed: --mask-smoothing 0";
+}
+
 std::vector<Facts> segmentFacts(const ColonScene& colon, bool inside) {
     std::vector<Facts> segments;
     for (const LumenSegment& segment : colon.lumen.segments) {
@@ -141,6 +147,9 @@ Facts factsOfVolume(const Scene& scene) {
     // Values of a colon are those of its box, without fluid; a mask's are smoothed.
     list.text("values", fmt::format("{:.6g} .. {:.6g}{}, surface at {:.6g}", range.lowest, range.highest,
                                     inside ? " in the lumen's box" : "", isovalue));
+    if (colon.maskSmoothed)
+        list.both("mask_smoothing_mm", kMm * *colon.maskSmoothed, "mask", maskText(*colon.maskSmoothed),
+                  "mm");
     list.both("translucent", !opaque, "wall", opaque ? "opaque" : "translucent");
     // Adds a fact only where the lumen is a colon's.
     const auto ofColon = [&](const char* key, FactValue value, const char* label, std::string words,

@@ -5,11 +5,14 @@
 #include "app/scene/volume/ambient.h"
 #include "app/scene/volume/light.h"
 #include "app/scene/volume/paint.h"
+#include "engine/base/error.h"
 #include "engine/math/constants.h"
 #include "terrain/raster/elevation_folder.h"
 
 namespace stereonav {
 namespace {
+
+constexpr double kMmPerMetre = 1000;
 
 bool castsShadows(Shading shading) {
     return shading == Shading::LambertShadows || shading == Shading::PhongShadows;
@@ -23,6 +26,28 @@ void checkShading(const VolumeOptions& volume, const VolumeSide& side) {
             "--shading",
             std::string(nameOf(volume.shading)) + " expects a volume seen from outside, this one is a colon",
             "add --isosurface, or use lambert or phong");
+}
+
+// Light is baked for the wall as it was then: usually for --look plain, which does not smooth masks.
+bool isAsBaked(const SceneOptions& options) {
+    return options.light.kind == LightChoice::Kind::File && !options.volume.maskSmoothing_mm;
+}
+
+MaskSmoothing maskSmoothingOf(const SceneOptions& options) {
+    if (options.volume.maskSmoothing_mm) return *options.volume.maskSmoothing_mm / kMmPerMetre;
+    return options.chosenLook && !isAsBaked(options) ? MaskSmoothing() : MaskSmoothing(0);
+}
+
+void expectMask(const SceneOptions& options, const ColonScene& colon) {
+    if (options.volume.maskSmoothing_mm && !colon.maskSmoothed)
+        throw Error("--mask-smoothing", "", "needs a mask, this study has grey values", "leave it out");
+}
+
+// Adds a note where a mask is not smoothed because its light is baked.
+void noteMaskOfBake(const SceneOptions& options, ColonScene& colon) {
+    if (options.chosenLook && isAsBaked(options) && colon.maskSmoothed)
+        colon.notes.emplace_back(
+            "the mask is not smoothed, as bake leaves it; --mask-smoothing in both commands smooths it");
 }
 
 // Adds a note where the folder holds ground as well: that is not opened.
@@ -43,6 +68,7 @@ ColonOptions colonOptionsOf(const SceneOptions& options) {
     colon.reading.resample = volume.resample;
     colon.segmentation.seeds = volume.seeds;
     colon.segmentation.choices = volume.choices;
+    colon.segmentation.maskSmoothing = maskSmoothingOf(options);
     colon.segmentation.leavesFluid = volume.fluid == FluidChoice::Left;
     colon.centreline.reversed = volume.backwards;
     colon.isosurface = volume.isosurface;
@@ -71,6 +97,8 @@ LitVolume litVolumeOf(const SceneOptions& options, Progress& progress, bool keep
     VolumeLighting& light = made.light;
     checkShading(options.volume, made.world->side());
     noteGround(options, colon.notes);
+    expectMask(options, colon);
+    noteMaskOfBake(options, colon);
     light.sky = applyVolumeLight(options, colon, lighting);
     applyAmbient(options.volume, nullptr, colon, occluding);
     light.modulateSigma = applyModulation(options.volume, nullptr, std::nullopt, colon, modulating);
