@@ -49,14 +49,24 @@ STEREONAV_INLINE Channels channelsOf(const V3& unit) {
     return {fourteenBits(unit.x) | shiftLeft<16>(fourteenBits(unit.z)), fourteenBits(unit.y)};
 }
 
-// Returns two corners of a cell's normals along x; n: which edge, by y + 2 z. word: Places::word.
-STEREONAV_INLINE IPair normalPair(const CellData& cells, I word, int n, M dense, M sparse) {
-    const IPair kept = gatherPair(cells.records + 4 + 2 * n, word, sparse);
-    if (!cells.normals) return kept;
-    const IPair corner = gatherPair(cells.normals + (n & 1 ? kSide : 0) + (n & 2 ? kSide * kSide : 0),
-                                    word & I(kNotDense), dense);
-    return {select(dense, corner.first, kept.first), select(dense, corner.second, kept.second)};
-}
+// The packed normals of a cell's corners: pairs along x, by y + 2 z.
+struct CornerNormals {
+    IPair pairs[4];
+    // word: Places::word.
+    STEREONAV_INLINE CornerNormals(const CellData& cells, I word, M m) {
+        const M dense = cells.normals ? m & isDense(word) : maskFromBits(0);
+        const bool all = !any(dense);
+        const M sparse = andNot(m, dense);
+        for (int n = 0; n < 4; ++n) {
+            pairs[n] = gatherPair(cells.records + 4 + 2 * n, word, sparse);
+            if (all) continue;
+            const IPair corner = gatherPair(cells.normals + (n & 1 ? kSide : 0) + (n & 2 ? kSide * kSide : 0),
+                                            word & I(kNotDense), dense);
+            pairs[n] = {select(dense, corner.first, pairs[n].first),
+                        select(dense, corner.second, pairs[n].second)};
+        }
+    }
+};
 
 // Returns the direction towards smaller values at a place in a cell, unit world; 0 where the values are all
 // the same.
@@ -78,13 +88,13 @@ STEREONAV_INLINE V3 downOf(const CellData& cells, const Corners& c, const V3& p)
 
 // Returns the lanes' normals where the corners do not agree; agree: how far they do, as kAgree has it. A
 // function of its own: seldom needed.
-[[gnu::noinline]] inline V3 normalOfSide(const CellData& cells, I word, const Corners& values,
-                                         const V3& local, const V3& mean, F agree, M dense, M sparse) {
+[[gnu::noinline]] inline V3 normalOfSide(const CellData& cells, const CornerNormals& normals,
+                                         const Corners& values, const V3& local, const V3& mean, F agree) {
     const F zero(0.0f), one(1.0f), small(kLeastOfSlope);
     const V3 down = downOf(cells, values, local);
     V3 sum{down.x * small, down.y * small, down.z * small};
     for (int n = 0; n < 4; ++n) {
-        const IPair ends = normalPair(cells, word, n, dense, sparse);
+        const IPair ends = normals.pairs[n];
         const F edge = (n & 1 ? local.y : one - local.y) * (n & 2 ? local.z : one - local.z);
         for (int end = 0; end < 2; ++end) {
             const V3 corner = directionOf(openChannels(end ? ends.second : ends.first));
@@ -109,17 +119,13 @@ STEREONAV_INLINE V3 downOf(const CellData& cells, const Corners& c, const V3& p)
 // Returns the normal at a place in a cell, 0..1: its corners' normals, mixed. valuesOf(): the values at its
 // corners.
 template <typename ValuesOf>
-STEREONAV_INLINE Channels normalIn(const CellData& cells, I word, const ValuesOf& valuesOf, const V3& local,
-                                   M m) {
-    const M dense = cells.normals ? m & isDense(word) : maskFromBits(0);
-    const M sparse = andNot(m, dense);
+STEREONAV_INLINE Channels normalAmong(const CellData& cells, const CornerNormals& normals,
+                                      const ValuesOf& valuesOf, const V3& local, M m) {
     const I x = weightOf(local.x), y = weightOf(local.y), z = weightOf(local.z), half = weightOf(F(0.5f));
-    const bool all = !any(dense);
     Channels edges[4], even[4];
     for (int n = 0; n < 4; ++n) {
-        const IPair ends =
-            all ? gatherPair(cells.records + 4 + 2 * n, word, m) : normalPair(cells, word, n, dense, sparse);
-        const Channels first = openChannels(ends.first), second = openChannels(ends.second);
+        const Channels first = openChannels(normals.pairs[n].first),
+                       second = openChannels(normals.pairs[n].second);
         edges[n] = mix(first, second, x);
         even[n] = mix(first, second, half);
     }
@@ -129,9 +135,15 @@ STEREONAV_INLINE Channels normalIn(const CellData& cells, I word, const ValuesOf
     const F agree = min(dot(flat, flat), dot(mean, mean));
     const M apart = m & (agree < F(kAgree));
     if (!any(apart)) return mixed;
-    const Channels turned =
-        channelsOf(normalOfSide(cells, word, valuesOf(), local, mean, agree, dense, sparse));
+    const Channels turned = channelsOf(normalOfSide(cells, normals, valuesOf(), local, mean, agree));
     return {select(apart, turned.xz, mixed.xz), select(apart, turned.y, mixed.y)};
+}
+
+// Returns the same of cells whose corners are not read yet. word: Places::word.
+template <typename ValuesOf>
+STEREONAV_INLINE Channels normalIn(const CellData& cells, I word, const ValuesOf& valuesOf, const V3& local,
+                                   M m) {
+    return normalAmong(cells, CornerNormals(cells, word, m), valuesOf, local, m);
 }
 
 }  // namespace stereonav::STEREONAV_ISA

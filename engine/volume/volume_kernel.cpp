@@ -2,7 +2,7 @@
 // around a block of pixels goes first: as long as the free sphere around its axis is wider than the beam, no
 // ray of the block meets anything, so all of them start where the beam ended. Compiled once for each
 // instruction set.
-#include "engine/volume/kernel_composite.h"
+#include "engine/volume/kernel_integral.h"
 
 namespace stereonav::STEREONAV_ISA {
 namespace {
@@ -86,7 +86,8 @@ struct Packet {
         Walk w = view.inside ? startAt(grid, r, max(start, nearest), lanes)
                              : startOutside(grid, r, max(start, nearest), lanes);
         if (data.transfer.extinction) {
-            const Composite sum = compositePacket(data, view, grid, r, w);
+            const Composite sum = data.transfer.integrals ? integratePacket(data, view, grid, r, w)
+                                                          : compositePacket(data, view, grid, r, w);
             return {sum.first, compositeColor(data, sum), I(0), spreadOf(sum)};
         }
         Hits hits = noHits();

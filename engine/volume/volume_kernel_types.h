@@ -8,6 +8,8 @@
 
 namespace stereonav {
 
+struct IntegralData;
+
 // Active cells. Layout as in surface_cells.h: bricks of 16^3 cells; records of 64 bytes, 16 words: 4 of
 // values, 8 normals.
 struct CellData {
@@ -99,6 +101,8 @@ struct TransferData {
     float first = 0, scale = 0;            // volume values; entries a value
     float step = 0;                        // metres of way between samples
     ByteData modulation;                   // factor on the extinction
+    // Integrals over values, which are gathered cell by cell (integral_data.h); null: samples.
+    const IntegralData* integrals = nullptr;
 };
 
 struct VolumeData {

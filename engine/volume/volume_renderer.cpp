@@ -8,11 +8,13 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "engine/base/error.h"
 #include "engine/volume/baked_data.h"
 #include "engine/volume/highlight_bound.h"
+#include "engine/volume/transfer_integrals.h"
 #include "engine/volume/volume_kernel_types.h"
 
 namespace stereonav {
@@ -204,6 +206,7 @@ struct VolumeRenderer::State {
     const VolumeKernels* kernels;
     bool shadeAgain;
     TransferTable transfer;
+    std::optional<TransferIntegrals> integrals;
     VolumeData data;
 
     State(const VolumeScene& scene, const VolumeCasting& casting)
@@ -214,7 +217,11 @@ struct VolumeRenderer::State {
           data{cellDataOf(scene.cells, casting.leaping), lightDataOf(scene.look, scene.cells.frame),
                bakedDataOf(scene.look.baked, scene.cells.frame),
                occlusionDataOf(scene.look, scene.cells.frame), transfer.data} {
-        if (!scene.look.modulation || scene.look.transfer.empty()) return;
+        if (scene.look.transfer.empty()) return;
+        if (casting.integrated)
+            data.transfer.integrals =
+                &integrals.emplace(scene.look.transfer, scene.field, scene.cells.isovalue).data();
+        if (!scene.look.modulation) return;
         data.transfer.modulation =
             byteDataOf(*scene.look.modulation, scene.cells.frame, "opacity modulation");
     }

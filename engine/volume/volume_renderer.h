@@ -15,6 +15,7 @@ struct VolumeCasting {
     bool leaping = true;      // false: cell by cell; the same hits, slower
     bool shadeAgain = true;   // keep normals and shade again for the other eye
     double stepVoxels = 0.5;  // translucent: distance of samples, in the smallest spacing
+    bool integrated = false;  // translucent: what cells hold is integrated over values, and nothing sampled
 };
 
 class VolumeRenderer final : public EyeRenderer {

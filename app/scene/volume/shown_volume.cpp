@@ -96,9 +96,10 @@ std::shared_ptr<const StudyValues> valuesOf(const ColonScene& colon) {
     return values;
 }
 
-VolumeCasting castingFor(SimdTarget target) {
+VolumeCasting castingFor(SimdTarget target, bool chosenLook) {
     VolumeCasting casting;
     casting.target = target;
+    casting.integrated = chosenLook;
     return casting;
 }
 
@@ -119,7 +120,7 @@ ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const Scen
       mMade(made),
       mWorld(std::move(volume.world)),
       mLighting(std::move(volume.light)),
-      mRenderer(mWorld->colon().volume, castingFor(target)),
+      mRenderer(mWorld->colon().volume, castingFor(target, made.chosenLook)),
       mFrames(mRenderer, RightEyeMethod::Cubic) {
     mWorld->setViews(made, *this);
     mWorld->setWall(&mRenderer);
