@@ -9,8 +9,7 @@ namespace {
 // Returns the least light that a place sends, whatever its normal is; 0 with a transfer function, whose
 // colours may be black.
 double leastLight(const VolumeLook& look) {
-    const bool opennessAlone = look.occlusion.openness && !look.baked.light;
-    if (!look.transfer.empty() || opennessAlone) return 0;
+    if (!look.transfer.empty() || look.showsOpenness() || look.showsStudio()) return 0;
     const double albedo = std::min({look.surface.x, look.surface.y, look.surface.z});
     return std::max(0.0, albedo * look.ambient * (1 - std::abs(look.varyingAmbient)));
 }

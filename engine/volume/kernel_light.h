@@ -4,6 +4,7 @@
 #include "engine/volume/kernel_baked.h"
 #include "engine/volume/kernel_bytes.h"
 #include "engine/volume/kernel_normal.h"
+#include "engine/volume/kernel_studio.h"
 
 namespace stereonav::STEREONAV_ISA {
 
@@ -54,6 +55,7 @@ struct Light {
 // lit: share of the lamp that is seen.
 struct Lit {
     F diffuse, highlight;  // linear
+    V3 normal;             // unit
 };
 STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const Rays& r, F t, V3 n, F lit) {
     const auto world = [&](int k) {
@@ -65,16 +67,18 @@ STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const
     const F square = clamp(dot(lamp, lamp), F(1e-20f), F(1e29f));
     const F inverse = approxRsqrt(square);
     const F normalSquare = max(dot(n, n), F(1e-12f));
-    const F cosine = dot(n, lamp) * inverse * approxRsqrt(normalSquare);
+    const F byLength = approxRsqrt(normalSquare);
+    const V3 unit{n.x * byLength, n.y * byLength, n.z * byLength};
+    const F cosine = dot(n, lamp) * inverse * byLength;
     const LightData& light = data.light;
     const F reaches = approxReciprocal(mulAdd(square, F(light.inverseFalloffSquared), F(1.0f)));
-    const F up = n.z * approxRsqrt(normalSquare) * F(light.varyingAmbient);
+    const F up = n.z * byLength * F(light.varyingAmbient);
     const F ambient = mulAdd(F(light.ambient), up, F(light.ambient));
     const F diffuse = mulAdd(F(light.diffuse), max(cosine, F(0.0f)) * lit, ambient) * reaches;
-    if (!(light.specular > 0)) return {diffuse, F(0.0f)};
+    if (!(light.specular > 0)) return {diffuse, F(0.0f), unit};
     // Most of a wall that is seen along a tube: highlight_bound.h.
     const M shines = (cosine > F(0.0f)) & (mulAdd(F(view.lampAway), inverse, cosine) >= F(light.faintCosine));
-    if (!any(shines)) return {diffuse, F(0.0f)};
+    if (!any(shines)) return {diffuse, F(0.0f), unit};
     const F toEye = F(0.0f) - r.perMetre;
     const V3 half{mulAdd(lamp.x, inverse, way.x * toEye), mulAdd(lamp.y, inverse, way.y * toEye),
                   mulAdd(lamp.z, inverse, way.z * toEye)};
@@ -84,7 +88,7 @@ STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const
     const F bounded = clamp(aligned, F(1e-30f), F(1.0f));
     const F power = light.wholeHalf > 0 ? wholePower(bounded, light.wholeHalf)
                                         : exp2(log2(bounded) * F(0.5f * light.shininess));
-    return {diffuse, select(shines, power * F(light.specular) * reaches * lit, F(0.0f))};
+    return {diffuse, select(shines, power * F(light.specular) * reaches * lit, F(0.0f)), unit};
 }
 
 // Returns a packed channel of linear light in one channel.
@@ -110,6 +114,11 @@ STEREONAV_INLINE Falling ofLamp(const Lit& lamp, F share) {
     return {{light, light, light}, lamp.highlight * share};
 }
 
+// Returns whether light is looked up where a surface is.
+STEREONAV_INLINE bool looksUpLight(const VolumeData& data) {
+    return data.baked.texels || data.occlusion.openness.values || data.studio.words;
+}
+
 // Returns k O, and beside it the lamp's direct light (Ruiz et al. 2010, eq. 5): the lamp's own ambient light
 // is left out here. Known everywhere. lampAt as for fallingOn().
 template <typename Lamp>
@@ -121,6 +130,23 @@ STEREONAV_INLINE Falling ofOpenness(const OcclusionData& data, const V3& voxel, 
     return {{light, light, light}, F(data.lampShare) * lamp.highlight};
 }
 
+// Returns light of sky and key light, and the lamp's share (studioLight()). lampAt as for fallingOn().
+template <typename Lamp>
+STEREONAV_INLINE Falling ofStudio(const StudioData& data, const V3& voxel, M m, const Lamp& lampAt) {
+    const Lit lamp = lampAt();
+    const SkySeenBy seen = skySeenBy(data, voxel, lamp.normal, m);
+    const auto along = [&](const float(&to)[3]) {
+        return dot(lamp.normal, V3{F(to[0]), F(to[1]), F(to[2])});
+    };
+    const F up = along(data.up), key = max(along(data.keyFrom), F(0.0f)) * seen.key;
+    const F share = mulAdd(seen.sky, F(data.lampOpen), F(data.lampDeep)), direct = lamp.diffuse * share;
+    const auto channel = [&](int k) {
+        const F sky = mulAdd(up, F(data.skyChange[k]), F(data.skyMean[k]));
+        return mulAdd(seen.sky, sky, mulAdd(key, F(data.key[k]), direct));
+    };
+    return {{channel(0), channel(1), channel(2)}, lamp.highlight * share};
+}
+
 // Returns the light that falls on places at view depths t. lampAt(): litBy of these points, asked for only
 // where the lamp counts: its normals take as many loads as half a lookup of baked light, and its shadows
 // rays. It does where less than `enough` of a lookup is known: 1 asks for what a neighbour may need, who
@@ -129,11 +155,12 @@ template <typename Lamp>
 STEREONAV_INLINE Falling fallingOn(const VolumeData& data, const VolumeView& view, const Rays& r, F t, M m,
                                    float enough, const Lamp& lampAt) {
     const F one(1.0f), zero(0.0f);
-    if (!data.baked.texels && !data.occlusion.openness.values) return ofLamp(lampAt(), one);
+    if (!looksUpLight(data)) return ofLamp(lampAt(), one);
     const auto voxel = [&](int k, F direction) {
         return mulAdd(t, direction, F(view.eye[k])) + F(static_cast<float>(view.base[k]));
     };
     const V3 place{voxel(0, r.direction.x), voxel(1, r.direction.y), voxel(2, r.direction.z)};
+    if (data.studio.words) return ofStudio(data.studio, place, m, lampAt);
     if (!data.baked.texels) return ofOpenness(data.occlusion, place, m, lampAt);
     const BakedLight baked = bakedAt(data.baked, place, m);
     const M known = m & (baked.known > zero);

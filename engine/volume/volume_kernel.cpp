@@ -430,7 +430,7 @@ STEREONAV_INLINE void shadeBlocks(const VolumeData data, const VolumeView view, 
 
 void shadeRow(const VolumeData& data, const VolumeView& view, int y, int x0, int x1,
               const VolumeTarget& target) {
-    if (data.baked.texels || data.occlusion.openness.values)
+    if (looksUpLight(data))
         shadeBlocks<true>(data, view, y, x0, x1, target);
     else
         shadeBlocks<false>(data, view, y, x0, x1, target);

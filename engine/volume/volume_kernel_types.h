@@ -81,6 +81,20 @@ struct OcclusionData {
     float lampShare = 0;  // share of the lamp, 0 to 1
 };
 
+// Light that stands still around an object; see studio_look.h.
+struct StudioData {
+    const std::uint32_t* words = nullptr;    // two a cell; null: none
+    std::int32_t row = 0, slice = 0;         // cells from one to the next along y and z
+    std::int32_t last[3] = {};               // the last cell along each axis, at least 1
+    float offset[3] = {}, perVoxel[3] = {};  // cell = (voxel - offset) * perVoxel
+    float face[3][3] = {};                   // rows: a world normal's part along each axis of the cells
+    float lift = 0;                          // cells
+    float up[3] = {}, keyFrom[3] = {};       // unit world
+    // Light on a face that looks level, and what is added to it on one that looks up; of the key light.
+    float skyMean[3] = {}, skyChange[3] = {}, key[3] = {};
+    float lampDeep = 0, lampOpen = 0;  // share of the lamp, and what is added to it under the whole sky
+};
+
 // The light: linear RGB, and shares of the lamp's light; see volume_look.h.
 struct LightData {
     float albedo[3] = {}, background[3] = {};
@@ -110,6 +124,7 @@ struct VolumeData {
     LightData light;
     BakedData baked;
     OcclusionData occlusion;  // not where light is baked
+    StudioData studio;        // where neither is
     TransferData transfer;    // extinction null: the surface alone
 };
 

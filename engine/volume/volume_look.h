@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "engine/volume/illumination_volume.h"
+#include "engine/volume/studio_look.h"
 #include "engine/volume/transfer_function.h"
 #include "engine/volume/volume.h"
 
@@ -55,10 +56,14 @@ struct VolumeLook {
     float fog = 0;                     // metres in which all but 1/e is lost in the background; 0: no fog
     BakedLook baked;
     AmbientLook occlusion;      // replaces `ambient` and varyingAmbient
+    StudioLook studio;          // the same; not shown beside baked light or openness
     TransferFunction transfer;  // empty: the opaque surface alone
     // Factor on the transfer function's extinction, 0..255 for 0..1, trilinear between the voxels of the
     // scene's field (see engine/light/occlusion/occlusion_modulation.h); null: nothing.
     std::shared_ptr<const Volume<std::uint8_t>> modulation;
+
+    bool showsOpenness() const { return occlusion.openness && !baked.light; }
+    bool showsStudio() const { return studio.seen && !baked.light && !occlusion.openness; }
 };
 
 }  // namespace stereonav

@@ -14,6 +14,7 @@
 #include "engine/base/error.h"
 #include "engine/volume/baked_data.h"
 #include "engine/volume/highlight_bound.h"
+#include "engine/volume/studio_data.h"
 #include "engine/volume/transfer_integrals.h"
 #include "engine/volume/volume_kernel_types.h"
 
@@ -66,10 +67,6 @@ CellData cellDataOf(const SurfaceCells& cells, bool leaping) {
     return d;
 }
 
-bool showsOpenness(const VolumeLook& look) {
-    return look.occlusion.openness && !look.baked.light;
-}
-
 // what: names it where it does not fit.
 ByteData byteDataOf(const Volume<std::uint8_t>& bytes, const VolumeFrame& frame, const char* what) {
     const glm::ivec3 size = frame.size, has = bytes.frame.size;
@@ -83,7 +80,7 @@ ByteData byteDataOf(const Volume<std::uint8_t>& bytes, const VolumeFrame& frame,
 }
 
 OcclusionData occlusionDataOf(const VolumeLook& look, const VolumeFrame& frame) {
-    if (!showsOpenness(look)) return {};
+    if (!look.showsOpenness()) return {};
     const AmbientLook& ambient = look.occlusion;
     return {byteDataOf(*ambient.openness, frame, "ambient occlusion"), ambient.strength / 255,
             ambient.lampShare};
@@ -95,7 +92,7 @@ LightData lightDataOf(const VolumeLook& look, const VolumeFrame& frame) {
         d.albedo[k] = look.surface[k];
         d.background[k] = look.background[k];
     }
-    d.ambient = showsOpenness(look) ? 0 : look.ambient;
+    d.ambient = look.showsOpenness() || look.showsStudio() ? 0 : look.ambient;
     d.diffuse = look.diffuse;
     d.specular = look.specular;
     d.shininess = look.shininess;
@@ -214,9 +211,12 @@ struct VolumeRenderer::State {
           kernels(&kernelsFor(target)),
           shadeAgain(casting.shadeAgain),
           transfer(scene.look.transfer, scene.field, casting.stepVoxels * smallestSpacing(scene.cells.frame)),
-          data{cellDataOf(scene.cells, casting.leaping), lightDataOf(scene.look, scene.cells.frame),
+          data{cellDataOf(scene.cells, casting.leaping),
+               lightDataOf(scene.look, scene.cells.frame),
                bakedDataOf(scene.look.baked, scene.cells.frame),
-               occlusionDataOf(scene.look, scene.cells.frame), transfer.data} {
+               occlusionDataOf(scene.look, scene.cells.frame),
+               studioDataOf(scene.look, scene.cells.frame),
+               transfer.data} {
         if (scene.look.transfer.empty()) return;
         if (casting.integrated)
             data.transfer.integrals =
@@ -338,7 +338,7 @@ ViewDependence VolumeRenderer::viewDependence() const {
     // and rows know the trilinear lookup alone.
     const bool baked = mState->data.baked.texels != nullptr;
     if (baked && look.baked.lookup != IlluminationVolume::Lookup::Trilinear) return ViewDependence::None;
-    const bool changes = look.specular > 0 || baked || showsOpenness(look);
+    const bool changes = look.specular > 0 || baked || look.showsOpenness() || look.showsStudio();
     return mState->shadeAgain && changes && !look.shadows ? ViewDependence::Normal : ViewDependence::None;
 }
 

@@ -60,10 +60,14 @@ glm::dvec3 lightPlain(const VolumeLook& look, const VolumeFrame& frame, const gl
                       const glm::dvec3& normal, const glm::dvec3& head, const glm::dvec3& eye,
                       const glm::dvec3& albedo) {
     const glm::dvec3 position = frame.worldFromVoxel(voxel);
-    if (!look.occlusion.openness || look.baked.light)
-        return shadeBakedPlain(look, position, normal, head, eye, albedo);
     VolumeLook unlit = look;
     unlit.ambient = 0;
+    if (look.showsStudio()) {
+        const SkySeen seen = skySeenAt(*look.studio.seen, frame, voxel, normal);
+        return albedo * studioLight(look.studio, seen, normal, 0) +
+               studioLampShare(look.studio, seen) * shadePlain(unlit, position, normal, head, eye, albedo);
+    }
+    if (!look.showsOpenness()) return shadeBakedPlain(look, position, normal, head, eye, albedo);
     const double open = plainShare(*look.occlusion.openness, voxel);
     return look.occlusion.strength * open * albedo +
            static_cast<double>(look.occlusion.lampShare) *

@@ -186,5 +186,97 @@ TEST(AmbientLook, IsOfTheSameVolumeAndGivesWayToBakedLight) {
     EXPECT_THROW(VolumeRenderer{scene}, Error);
 }
 
+// A grid of 4 x 3 x 5 cells around the ball, each of which sees something else.
+StudioLook randomStudio(unsigned seed) {
+    auto grid = std::make_shared<SkyGrid>();
+    grid->size = {4, 3, 5};
+    grid->first = {1, -3, 0};
+    grid->cellVoxels = {7, 9, 6};
+    grid->words = LazyArray<std::uint32_t>(2 * grid->count());
+    Random random(seed);
+    for (std::size_t n = 0; n < grid->count(); ++n)
+        packSky(0.25 * random.direction(), random.between(0.2, 0.8), random.between(0, 1),
+                grid->words.data() + 2 * n);
+    StudioLook look;
+    look.seen = grid;
+    look.sky = {0.4f, 0.5f, 0.6f};
+    look.ground = {0.3f, 0.2f, 0.1f};
+    look.key = {0.6f, 0.5f, 0.4f};
+    look.up = random.direction();
+    look.keyFrom = random.direction();
+    look.lamp = 0.4f;
+    look.lampDeep = 0.3f;
+    return look;
+}
+
+TEST(StudioLook, SurfacesAreAsThePlainFormHasThem) {
+    VolumeScene scene = ambientBall(false);
+    const VolumeFrame& frame = scene.field.frame;
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        scene.look.studio = randomStudio(seed);
+        const EyeView view = ambientViewOf(frame, {12, -18, 14});
+        for (const SimdTarget target : simdTargets()) {
+            const VolumeRenderer renderer(scene, {target});
+            EXPECT_EQ(renderer.viewDependence(), ViewDependence::Normal);
+            EyeImage image = castAmbient(renderer, view);
+            const int hits = forHits(image, view, frame, [&](int x, int y, const glm::dvec3& voxel) {
+                const glm::dvec3 wanted =
+                    lightPlain(scene.look, frame, voxel, plainNormal(scene.field, voxel), view.head, view.eye,
+                               glm::dvec3(kSurface));
+                ASSERT_LE(channelDifference(image.color.at(x, y), packColor(glm::vec3(wanted))), 5)
+                    << x << " " << y;
+            });
+            EXPECT_GT(hits, 300);
+            const Plane<PackedColor> first = image.color;
+            for (int y = 0; y < kHeight; ++y) {
+                std::fill_n(image.color.row(y), kWidth, PackedColor{0});
+                renderer.shadeAgain(view, y, 0, kWidth, image);
+                for (int x = 0; x < kWidth; ++x)
+                    ASSERT_LE(channelDifference(image.color.at(x, y), first.at(x, y)), 5);
+            }
+        }
+    }
+}
+
+TEST(StudioLook, TranslucentVolumesAreLitWhereverTheyAreSeen) {
+    VolumeScene scene = ambientBall(true);
+    scene.look.specular = 0.3f;
+    scene.look.studio = randomStudio(4);
+    const EyeView view = ambientViewOf(scene.field.frame, {12, -18, 14});
+    for (const SimdTarget target : simdTargets()) {
+        const EyeImage image = castAmbient(VolumeRenderer(scene, {target}), view);
+        long long sum = 0;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const PlainComposite truth =
+                    compositePlain(scene.field, scene.look,
+                                   {view.eye, view.rayDirection(x + 0.5, y + 0.5), 0.0}, view.head, 0.5);
+                const int off = channelDifference(
+                    image.color.at(x, y), packColor(glm::vec3(truth.color) +
+                                                    static_cast<float>(truth.left) * scene.look.background));
+                ASSERT_LE(off, 12) << x << " " << y;
+                sum += off;
+            }
+        EXPECT_LT(sum, kWidth * kHeight);
+    }
+}
+
+TEST(StudioLook, GivesWayToOpennessAndBakedLight) {
+    VolumeScene scene = ambientBall(false);
+    const VolumeFrame& frame = scene.field.frame;
+    const EyeView view = ambientViewOf(frame, {12, -18, 14});
+    scene.look.occlusion.openness = randomBytes(frame, 3);
+    const EyeImage wanted = castAmbient(VolumeRenderer(scene), view);
+    scene.look.studio = randomStudio(5);
+    const EyeImage image = castAmbient(VolumeRenderer(scene), view);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) ASSERT_EQ(image.color.at(x, y), wanted.color.at(x, y));
+    EXPECT_FALSE(scene.look.showsStudio());
+    scene.look.occlusion = {};
+    EXPECT_TRUE(scene.look.showsStudio());
+    scene.look.baked.light = std::make_shared<IlluminationVolume>(texelFrame(frame, 1));
+    EXPECT_FALSE(scene.look.showsStudio());
+}
+
 }  // namespace
 }  // namespace stereonav

@@ -8,6 +8,7 @@
 #include "app/scene/volume/ambient.h"
 #include "app/scene/volume/coverage.h"
 #include "app/scene/volume/light.h"
+#include "app/scene/volume/studio.h"
 #include "app/scene/volume/volume_facts.h"
 #include "app/scene/volume/volume_loading.h"
 #include "app/scene/volume/volume_type.h"
@@ -242,7 +243,8 @@ std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progres
     SceneOptions options = mMade;
     applyChange(change, mFirst, options);
     refuseWhatDoesNotApply(options, volumeType().optionsFor(options.scene) & ~scene_type::kMedia);
-    Progress changing(progress, 0, 0.5), occluding(progress, 0.5, 0.75), modulating(progress, 0.75, 1);
+    Progress changing(progress, 0, 0.5), occluding(progress, 0.5, 0.7), modulating(progress, 0.7, 0.9),
+        standing(progress, 0.9, 1);
     LitVolume made;
     made.world = std::make_unique<VolumeWorld>(
         changedScene(mWorld->colon(), colonOptionsOf(options), changing), options);
@@ -252,6 +254,7 @@ std::shared_ptr<Scene> ShownVolume::changed(const SurfaceChange& change, Progres
     applyAmbient(options.volume, &mMade.volume, colon, occluding);
     made.light.modulateSigma =
         applyModulation(options.volume, &mMade.volume, mLighting.modulateSigma, colon, modulating);
+    applyStudio(options, &mWorld->colon(), colon, standing);
     progress.report(1, "changed");
     const float isovalue = colon.volume.cells.isovalue;
     auto scene =

@@ -28,6 +28,7 @@ std::vector<Held> heldBy(const ColonScene& colon) {
     add("lumen", residentBytes(colon.lumen.lumen.values));
     add("cells", colon.volume.cells.bytesHeld());
     if (const auto& light = colon.volume.look.baked.light) add("illumination", light->bytesHeld());
+    if (const auto& seen = colon.volume.look.studio.seen) add("sky", residentBytes(seen->words));
     return held;
 }
 

@@ -5,6 +5,7 @@
 #include "app/scene/volume/ambient.h"
 #include "app/scene/volume/light.h"
 #include "app/scene/volume/paint.h"
+#include "app/scene/volume/studio.h"
 #include "engine/base/error.h"
 #include "engine/math/constants.h"
 #include "terrain/raster/elevation_folder.h"
@@ -90,8 +91,8 @@ LitVolume litVolumeOf(const SceneOptions& options, Progress& progress, bool keep
     LitVolume made;
     ColonOptions reading = colonOptionsOf(options);
     reading.keepsStudy = keepsStudy;
-    Progress loading(progress, 0, 0.6), lighting(progress, 0.6, 0.7), occluding(progress, 0.7, 0.8),
-        modulating(progress, 0.8, 0.9), choosing(progress, 0.9, 1);
+    Progress loading(progress, 0, 0.6), lighting(progress, 0.6, 0.65), occluding(progress, 0.65, 0.7),
+        modulating(progress, 0.7, 0.8), standing(progress, 0.8, 0.9), choosing(progress, 0.9, 1);
     made.world = std::make_unique<VolumeWorld>(loadColon(reading, loading), options);
     ColonScene& colon = made.world->colon();
     VolumeLighting& light = made.light;
@@ -105,6 +106,7 @@ LitVolume litVolumeOf(const SceneOptions& options, Progress& progress, bool keep
     if (light.modulateSigma)
         colon.notes.push_back(fmt::format("opacity modulated by {}, whole from {:.4g} on",
                                           nameOf(options.volume.modulate), *light.modulateSigma));
+    applyStudio(options, nullptr, colon, standing);
     if (options.light.lazy()) light.lazy = std::make_shared<LazyLight>(options, colon, choosing);
     if (options.light.traced()) light.traced = std::make_shared<TracedLight>(options, colon);
     if (options.volume.isovalue) made.world->side().expectOutside("--isovalue");
