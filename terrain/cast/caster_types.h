@@ -49,19 +49,26 @@ constexpr int kDetailOctaves = 7;
 constexpr float kDetailPixels = 1.5f;
 constexpr float kDarkestDetail = -0.65f, kBrightestDetail = 0.8f;  // limits, as shares of the light
 
-// One octave: a lattice of values, rotated and scaled, over the ground.
+// Weathered relief: words of a map a side, those kept of a row, which ends with its first again, and words to
+// a cell of the lattice. A word has the gradient along x and y in 11 bits each (bits 0 and 11 up), and the
+// tone in 10 bits (bit 22 up); each counts from the middle of its bits.
+constexpr int kReliefSide = 256, kReliefPitch = kReliefSide + 1, kReliefWords = 4;
+
+// One octave: a lattice of values, turned and scaled, over the ground.
 struct DetailOctave {
-    int a = 1, b = 0;              // position on the lattice: (a + b i) (x + y i)
-    float cell = 1;                // side of its cells, in cells of the ground
+    int a = 1, b = 0;              // place on the lattice, or in the map: (a + b i) (x + y i)
+    float cell = 1;                // a side of its cells, in cells of the ground
     float lightX = 0, lightY = 0;  // share of the light for a gradient of 1 along the lattice's axes
+    float tone = 0;                // share of the light for a tone of 1: weathered relief alone
 };
 // Data of GroundDetail, which adds to the shading.
 struct DetailData {
-    const float* values = nullptr;  // values of the lattice, -1 to 1, kDetailPitch a row
-    const float* rough = nullptr;   // at the ground's samples: 0 on level ground, up to 1 on steep ground
-    int roughPitch = 0;             // samples from row to row
-    int octaves = 0;                // 0: no detail
-    float perMetre = 1;             // cells of the ground per metre
+    const float* values = nullptr;          // values of the lattice, -1 to 1, kDetailPitch a row
+    const std::uint32_t* relief = nullptr;  // the map of weathered relief, which takes the place of `values`
+    const float* rough = nullptr;  // at the ground's samples: 0 on level ground, towards 1 on steep ground
+    int roughPitch = 0;            // samples from row to row
+    int octaves = 0;               // 0: no detail
+    float perMetre = 1;            // cells of the ground a metre
     DetailOctave octave[kDetailOctaves];
 };
 

@@ -129,7 +129,49 @@ STEREONAV_INLINE F longerSide(const CasterView& view, F length, F t, F approach)
     return t * max(along, F(view.pixelWidth));
 }
 
-// Returns the same as detailAt() of tests/oracle/plain_detail.h, for the lanes m: kDarkestDetail to
+// Returns how steep the ground is at hits, 0 to 1, as its detail has it.
+STEREONAV_INLINE F roughnessAt(const DetailData& detail, const Hits& hits, M m) {
+    const I index = hits.j * I(detail.roughPitch) + hits.i;
+    const FPair south = gatherPair(detail.rough, index, m);
+    const FPair north = gatherPair(detail.rough + detail.roughPitch, index, m);
+    return lerp(lerp(south.first, south.second, hits.u), lerp(north.first, north.second, hits.u), hits.v);
+}
+
+// Returns weatheredAt() of tests/oracle/plain_detail.h for the lanes m: kDarkestDetail to kBrightestDetail.
+STEREONAV_INLINE F weatheredOf(const DetailData& detail, const Hits& hits, F footprint, M m) {
+    const F inverse = approxReciprocal(max(footprint * F(detail.perMetre), F(1e-9f)));
+    F light(0.0f), tone(0.0f);
+    for (int k = 0; k < detail.octaves; ++k) {
+        const DetailOctave& o = detail.octave[k];
+        const F weight = clamp(F(o.cell / kDetailPixels) * inverse - F(1.0f), F(0.0f), F(1.0f));
+        const M on = m & (weight > F(0.0f));
+        if (!any(on)) break;
+        const F a(static_cast<float>(o.a)), b(static_cast<float>(o.b));
+        const F x = a * hits.u - b * hits.v, y = b * hits.u + a * hits.v;
+        const I wholeX = floorToInt(x), wholeY = floorToInt(y);
+        const F p = x - toFloat(wholeX), q = y - toFloat(wholeY);
+        const I last(kReliefSide - 1);
+        const I column = (I(o.a) * hits.i - I(o.b) * hits.j + wholeX) & last;
+        const I row = I(o.b) * hits.i + I(o.a) * hits.j + wholeY;
+        const IPair south = gatherPair(detail.relief, (row & last) * I(kReliefPitch) + column, on);
+        const IPair north = gatherPair(detail.relief, ((row + I(1)) & last) * I(kReliefPitch) + column, on);
+        const auto between = [&](auto part) {
+            return lerp(lerp(part(south.first), part(south.second), p),
+                        lerp(part(north.first), part(north.second), p), q);
+        };
+        const F alongX = between([](I word) { return toFloat(word & I(0x7FF)); }) - F(1024.0f);
+        const F alongY =
+            between([](I word) { return toFloat(shiftRight<11>(word) & I(0x7FF)); }) - F(1024.0f);
+        const F high = between([](I word) { return toFloat(shiftRight<22>(word) & I(0x3FF)); }) - F(512.0f);
+        light = mulAdd(weight, F(o.lightX) * alongX + F(o.lightY) * alongY, light);
+        tone = mulAdd(weight * F(o.tone), high, tone);
+    }
+    const F rough = roughnessAt(detail, hits, m);
+    const F all = mulAdd(rough, light, min(F(4.0f) * rough, F(1.0f)) * tone);
+    return clamp(all, F(kDarkestDetail), F(kBrightestDetail));
+}
+
+// Returns what detailAt() of tests/oracle/plain_detail.h does, for the lanes m: kDarkestDetail to
 // kBrightestDetail.
 STEREONAV_INLINE F detailOf(const DetailData& detail, const Hits& hits, F footprint, M m) {
     const F inverse = approxReciprocal(max(footprint * F(detail.perMetre), F(1e-9f)));
@@ -159,12 +201,7 @@ STEREONAV_INLINE F detailOf(const DetailData& detail, const Hits& hits, F footpr
         const F alongY = rise(q) * lerp(overWest, overEast, fade(p));
         light = mulAdd(weight, F(o.lightX) * alongX + F(o.lightY) * alongY, light);
     }
-    const I index = hits.j * I(detail.roughPitch) + hits.i;
-    const FPair south = gatherPair(detail.rough, index, m);
-    const FPair north = gatherPair(detail.rough + detail.roughPitch, index, m);
-    const F rough =
-        lerp(lerp(south.first, south.second, hits.u), lerp(north.first, north.second, hits.u), hits.v);
-    return clamp(rough * light, F(kDarkestDetail), F(kBrightestDetail));
+    return clamp(roughnessAt(detail, hits, m) * light, F(kDarkestDetail), F(kBrightestDetail));
 }
 
 // Returns colours whose linear light is 1 + brighter times as strong.
@@ -200,7 +237,8 @@ STEREONAV_INLINE I shadePacket(const CasterScene& scene, const CasterView& view,
             const M near = ground & (footprint * F(scene.detail.perMetre) <
                                      F(scene.detail.octave[0].cell / kDetailPixels));
             if (any(near)) {
-                const F brighter = detailOf(scene.detail, hits, footprint, near);
+                const F brighter = scene.detail.relief ? weatheredOf(scene.detail, hits, footprint, near)
+                                                       : detailOf(scene.detail, hits, footprint, near);
                 color = brightened(color, select(near, brighter, F(0.0f)));
             }
         }

@@ -85,7 +85,9 @@ struct TerrainRenderer::State {
         scene.texture = textureData(terrain.color, terrain.ground.spacing(), filter);
         scene.sky = {terrain.sky.map().row(0), terrain.sky.map().width(), terrain.sky.map().stride()};
         if (terrain.detail) {
-            detail = std::make_unique<GroundDetail>(terrain.ground);
+            detail = std::make_unique<GroundDetail>(terrain.ground, terrain.weathered
+                                                                        ? GroundDetail::Kind::Weathered
+                                                                        : GroundDetail::Kind::Rough);
             scene.detail = detail->forKernels(terrain.look);
         }
         clear = scene;

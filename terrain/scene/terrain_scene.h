@@ -88,9 +88,10 @@ struct TerrainScene {
     double verticalScale = 1;     // factor from the file's heights to the ground's
     ColorTexture color;
     SkyMap sky;
-    bool detail = false;  // shading has detail below the sample spacing (terrain/cast/ground_detail.h)
-    // Largest error of far ground, as a share of a pixel (RingWish::share); 0: none, except that tiled ground
-    // may be off by kTiledShare.
+    bool detail = false;     // shading has detail below the sample spacing (terrain/cast/ground_detail.h)
+    bool weathered = false;  // that detail is GroundDetail::Kind::Weathered
+    // Share of a pixel that far ground may be off (RingWish::share); 0: none is, but tiled ground may be off
+    // by kTiledShare.
     double levelOfDetail = 0;
     static constexpr double kTiledShare = 0.5;
     TerrainLook look;                        // fog, specular, sun

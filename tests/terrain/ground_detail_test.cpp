@@ -17,7 +17,7 @@ namespace stereonav {
 namespace {
 
 // Hills of one grey, 30 m by 24 m a sample; level in the west, as a lake.
-TerrainScene greyHills(bool detail, double sunElevation = 0.6) {
+TerrainScene greyHills(bool detail, double sunElevation = 0.6, bool weathered = false) {
     constexpr int kSide = 48;
     std::vector<float> heights;
     for (int j = 0; j < kSide; ++j)
@@ -33,6 +33,7 @@ TerrainScene greyHills(bool detail, double sunElevation = 0.6) {
     terrain.sky = readSky({}).map;
     terrain.look.sunElevation = sunElevation;
     terrain.detail = detail;
+    terrain.weathered = weathered;
     return terrain;
 }
 
@@ -55,10 +56,11 @@ glm::vec3 rootsOf(PackedColor c) {
 }
 
 // By hits of the plain cell walk, in double precision.
-TEST(GroundDetail, EachSetShadesAsThePlainStatementSays) {
-    const TerrainScene plain = greyHills(false), detailed = greyHills(true);
+void expectAsThePlainStatementSays(GroundDetail::Kind kind) {
+    const bool weathered = kind == GroundDetail::Kind::Weathered;
+    const TerrainScene plain = greyHills(false), detailed = greyHills(true, 0.6, weathered);
     const Heightfield& ground = plain.ground;
-    const GroundDetail detail(ground);
+    const GroundDetail detail(ground, kind);
     const DetailData data = detail.forKernels(plain.look);
     for (const SimdTarget target : simdTargets())
         for (int k = 0; k < 3; ++k) {
@@ -100,6 +102,13 @@ TEST(GroundDetail, EachSetShadesAsThePlainStatementSays) {
         }
 }
 
+TEST(GroundDetail, EachSetShadesAsThePlainStatementSays) {
+    expectAsThePlainStatementSays(GroundDetail::Kind::Rough);
+}
+TEST(GroundDetail, EachSetShadesWeatheredReliefAsThePlainStatementSays) {
+    expectAsThePlainStatementSays(GroundDetail::Kind::Weathered);
+}
+
 TEST(GroundDetail, SetsAgree) {
     const TerrainScene scene = greyHills(true);
     const std::vector<SimdTarget> targets = simdTargets();
@@ -115,23 +124,24 @@ TEST(GroundDetail, SetsAgree) {
 }
 
 TEST(GroundDetail, NothingWhereNoPixelIsFinerThanTheSamplesAndOnLevelGround) {
-    const TerrainScene plain = greyHills(false), detailed = greyHills(true);
+    const TerrainScene plain = greyHills(false);
     const EyeView lake = viewOf({-500, 0, 12}, 4.7, -0.4);
-    for (const EyeView& view : {kViews[3], lake}) {
-        const EyeImage before = cast(plain, view), after = cast(detailed, view);
-        for (int y = 0; y < view.height; ++y)
-            for (int x = 0; x < view.width; ++x) ASSERT_EQ(before.color.at(x, y), after.color.at(x, y));
-    }
+    for (const bool weathered : {false, true})
+        for (const EyeView& view : {kViews[3], lake}) {
+            const EyeImage before = cast(plain, view), after = cast(greyHills(true, 0.6, weathered), view);
+            for (int y = 0; y < view.height; ++y)
+                for (int x = 0; x < view.width; ++x) ASSERT_EQ(before.color.at(x, y), after.color.at(x, y));
+        }
     const TerrainScene night = greyHills(true, -0.5), plainNight = greyHills(false, -0.5);
     const EyeImage dark = cast(night, kViews[0]), before = cast(plainNight, kViews[0]);
     for (int y = 0; y < dark.color.height(); ++y)
         for (int x = 0; x < dark.color.width(); ++x) ASSERT_EQ(dark.color.at(x, y), before.color.at(x, y));
 }
 
-// Light is moved about, not added.
-TEST(GroundDetail, TheMeanStays) {
+// Returns mean and rms of the light that is added on hills, at all octaves.
+std::pair<double, double> addedLight(GroundDetail::Kind kind) {
     const Heightfield ground = greyHills(false).ground;
-    const GroundDetail detail(ground);
+    const GroundDetail detail(ground, kind);
     const DetailData data = detail.forKernels(TerrainLook());
     double sum = 0, squares = 0;
     int count = 0;
@@ -142,15 +152,65 @@ TEST(GroundDetail, TheMeanStays) {
         squares += light * light;
         ++count;
     }
-    EXPECT_NEAR(sum / count, 0, 0.01);
-    EXPECT_GT(std::sqrt(squares / count), 0.05);
-    EXPECT_LT(std::sqrt(squares / count), 0.35);
+    return {sum / count, std::sqrt(squares / count)};
+}
+
+// Light is moved about, not added.
+TEST(GroundDetail, TheMeanStays) {
+    const auto [mean, rms] = addedLight(GroundDetail::Kind::Rough);
+    EXPECT_NEAR(mean, 0, 0.01);
+    EXPECT_GT(rms, 0.05);
+    EXPECT_LT(rms, 0.35);
+    const auto [weatheredMean, weatheredRms] = addedLight(GroundDetail::Kind::Weathered);
+    EXPECT_NEAR(weatheredMean, 0, 0.015);
+    EXPECT_GT(weatheredRms, 0.05);
+    EXPECT_LT(weatheredRms, 0.85 * rms);
+}
+
+// The slopes that are added: measured in the map, and as the class tells them. Finer octaves are flatter.
+TEST(GroundDetail, WeatheredReliefIsModeratelySteep) {
+    const Heightfield ground = greyHills(false).ground;
+    const GroundDetail rough(ground), weathered(ground, GroundDetail::Kind::Weathered);
+    EXPECT_NEAR(rough.rmsSlope(), 0.46, 0.02);
+    EXPECT_LT(weathered.rmsSlope(), 0.5 * rough.rmsSlope());
+    const auto slopesOf = [](const GroundDetail& detail) {
+        // A sun at the horizon in the east, then in the north: the light is the slope along that direction.
+        std::vector<double> rms(kDetailOctaves);
+        for (const double azimuth : {0.5 * M_PI, 0.0}) {
+            TerrainLook look;
+            look.ambient = 0;
+            look.sunAzimuth = azimuth;
+            look.sunElevation = 0.25 * M_PI;  // level ground gets as much light as walls
+            const DetailData data = detail.forKernels(look);
+            for (int k = 0; k < kDetailOctaves; ++k) {
+                double square = 0;
+                for (int n = 0; n < kReliefSide * kReliefSide; ++n) {
+                    const std::uint32_t word = data.relief[n / kReliefSide * kReliefPitch + n % kReliefSide];
+                    const double light = data.octave[k].lightX * (double(word & 0x7FF) - 1024) +
+                                         data.octave[k].lightY * (double(word >> 11 & 0x7FF) - 1024);
+                    square += light * light / (kReliefSide * kReliefSide);
+                }
+                rms[k] += square;
+            }
+        }
+        for (double& r : rms) r = std::sqrt(r);
+        return rms;
+    };
+    const std::vector<double> slopes = slopesOf(weathered);
+    double all = 0;
+    for (int k = 0; k < kDetailOctaves; ++k) {
+        if (k > 0) {
+            EXPECT_LT(slopes[k], 0.9 * slopes[k - 1]);
+        }
+        all += slopes[k] * slopes[k];
+    }
+    EXPECT_NEAR(std::sqrt(all), weathered.rmsSlope(), 0.05 * weathered.rmsSlope());
 }
 
 // Continuous over the borders of cells, and fades without a step.
-TEST(GroundDetail, HasNoSeams) {
+void expectNoSeams(GroundDetail::Kind kind) {
     const Heightfield ground = greyHills(false).ground;
-    const GroundDetail detail(ground);
+    const GroundDetail detail(ground, kind);
     const DetailData data = detail.forKernels(TerrainLook());
     for (int k = 0; k < 200; ++k) {
         const double v = k / 200.0;
@@ -161,6 +221,11 @@ TEST(GroundDetail, HasNoSeams) {
                     detailAt(data, 30, 20, 0.3, 0.6, footprint * 1.0001), 1e-3);
     }
     EXPECT_EQ(detailAt(data, 30, 20, 0.3, 0.6, 30), 0);
+}
+
+TEST(GroundDetail, HasNoSeams) {
+    expectNoSeams(GroundDetail::Kind::Rough);
+    expectNoSeams(GroundDetail::Kind::Weathered);
 }
 
 }  // namespace

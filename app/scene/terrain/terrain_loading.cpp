@@ -112,6 +112,7 @@ TerrainScene terrainOf(const SceneOptions& options, Progress& progress) {
     }
     // Tiled ground has its own detail near the eye, and needs none here.
     terrain.detail = options.groundDetail && !asMedium(options) && !terrain.tiled && !terrain.standIn;
+    terrain.weathered = options.chosenLook && terrain.colorSource && !terrain.colorSource->builtIn;
     terrain.ringsMayBeLate = terrain.tiled && options.detailLater;
     terrain.levelOfDetail = options.levelOfDetail;
     // Exaggerated heights sink more by the same factor, so that the same ground stays hidden.
