@@ -37,7 +37,8 @@ bool paintsBy(const Asked& asked, std::initializer_list<const char*> words) {
 std::vector<OptionRule> groundPaintRules() {
     return {
         {[](const Asked& asked) {
-             return asked.has("image") && paintsBy(asked, {"slope", "aspect", "hillshade"});
+             return asked.has("image") && paintsBy(asked, {"slope", "aspect", "hillshade", "natural",
+                                                           "hypsometric", "swiss", "grey"});
          },
          "{paint} does not go with --image: both say what colour the ground has", "leave one of them out"},
         {[](const Asked& asked) { return asked.has("light") && paintsBy(asked, {"hillshade"}); },
@@ -49,6 +50,10 @@ std::vector<PaintWord> groundPaintWords() {
     return {{"slope", "", kTerrain},
             {"aspect", "", kTerrain},
             {"hillshade", "", kTerrain},
+            {"natural", "", kTerrain},
+            {"hypsometric", "", kTerrain},
+            {"swiss", "", kTerrain},
+            {"grey", "", kTerrain},
             {"viewshed", "X,Y,HEIGHT", kTerrain, problemOfSeenFrom},
             {"hours", "DATE", kTerrain, problemOfDay}};
 }

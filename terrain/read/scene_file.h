@@ -34,9 +34,9 @@ struct TerrainLook {
     bool hazyBelow = false;
 };
 
-// What colours ground without a picture: tints by height, or slope, aspect or hillshade
-// (terrain/scene/slope_color.h).
-enum class GroundPaint { None, Slope, Aspect, Hillshade };
+// What colours ground without a picture: its own colours, how it lies (terrain/scene/slope_color.h), or one
+// of the palettes (terrain/scene/ground_tones.h).
+enum class GroundPaint { None, Slope, Aspect, Hillshade, Natural, Hypsometric, Swiss, Grey };
 
 // Whether an elevation model's samples are put into tiles on disk (terrain/scene/tiled_ground.h): where they
 // would not fit into memory, always, or never.

@@ -12,7 +12,7 @@
 
 #include "terrain/light/sun_and_sky.h"
 #include "terrain/scene/ground_texture.h"
-#include "terrain/scene/ground_tint.h"
+#include "terrain/scene/ground_tones.h"
 
 namespace stereonav {
 namespace {
@@ -35,24 +35,24 @@ double knownHeightAt(const Heightfield& ground, const glm::dvec2& grid) {
     return known ? sum / known : std::numeric_limits<double>::quiet_NaN();
 }
 
-// The ground's tint under the sun.
+// The ground's palette under the sun.
 class Tint {
 public:
     Tint(const Heightfield& ground, const TerrainLook& look, const TintPlace& place)
         : Tint(ground, ground, look, place) {}
     Tint(const Heightfield& part, const Heightfield& whole, const TerrainLook& look, const TintPlace& place)
-        : mGround(part), mLight(look), mTint(part, place, whole) {}
+        : mGround(part), mLight(look), mTones(groundTones(part, place, whole)) {}
 
     // Linear colour of the ground at a grid position, lit.
     glm::vec3 at(const glm::dvec2& grid) const {
-        const GroundTint::Site site = mTint.siteAt(grid);
-        return mLight.at(site.normal()) * mTint.at(grid, knownHeightAt(mGround, grid), site);
+        const GroundTone tone = mTones->at(grid, knownHeightAt(mGround, grid));
+        return mLight.at(tone.normal) * tone.color;
     }
 
 private:
     const Heightfield& mGround;
     GroundLight mLight;
-    GroundTint mTint;
+    std::unique_ptr<GroundTones> mTones;
 };
 
 // Picture and tint as one lays over the other, in a texture of that size. lit: set where the look's sun
@@ -92,7 +92,7 @@ float GroundLight::at(const glm::dvec3& unitNormal) const {
 
 double bytesOfTint(double samples) {
     return kTextureBytes * std::min(kMostGroundTexels, kLitDensity * kLitDensity * samples) +
-           GroundTint::kBytesPerSample * samples;
+           kBytesOfTones * samples;
 }
 
 GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, const TintPlace& place,
@@ -100,7 +100,7 @@ GroundColor tintedGround(const Heightfield& ground, const TerrainLook& look, con
     const Tint tint(ground, look, place);
     const GroundTextureSize size = groundTextureSize(ground, glm::dvec2(kLitDensity));
     const auto color = [&](int, int, const glm::dvec2& grid) { return tint.at(grid); };
-    return {groundTexture(ground, size, color, progress), "tint by height and slope, lit", look.ambient < 1};
+    return {groundTexture(ground, size, color, progress), describePalette(place) + ", lit", look.ambient < 1};
 }
 
 ColorTexture tintedPart(const Heightfield& part, const Heightfield& whole, const TerrainLook& look,

@@ -6,6 +6,22 @@
 #include "terrain/scene/slope_color.h"
 
 namespace stereonav {
+
+std::optional<GroundPalette> paletteOf(GroundPaint paint) {
+    switch (paint) {
+        case GroundPaint::Natural:
+            return GroundPalette::Natural;
+        case GroundPaint::Hypsometric:
+            return GroundPalette::Hypsometric;
+        case GroundPaint::Swiss:
+            return GroundPalette::Swiss;
+        case GroundPaint::Grey:
+            return GroundPalette::Grey;
+        default:
+            return std::nullopt;
+    }
+}
+
 void leaveOutLit(std::string& source) {
     constexpr std::string_view kLit = ", lit";
     if (source.ends_with(kLit)) source.resize(source.size() - kLit.size());
@@ -44,18 +60,25 @@ TerrainLook lookUnder(const SunAngles& sun, GroundPaint paint, const GroundColor
     return look;
 }
 
+// The source's tint, in the palette of a paint that is one.
+TintPlace tintIn(GroundPaint paint, const GroundColorSource& source) {
+    TintPlace tint = source.tint;
+    tint.palette = paletteOf(paint).value_or(tint.palette);
+    return tint;
+}
+
 }  // namespace
 
 GroundColor groundColorsAs(GroundPaint paint, const Heightfield& ground, const GroundColorSource& source,
                            const SunAngles& sun, Progress& progress) {
     const TerrainLook look = lookUnder(sun, paint, source);
     GroundColor color;
-    if (paint != GroundPaint::None)
-        color = paintedGround(ground, source.verticalScale, paint, look, progress);
-    else if (source.builtIn)
+    if (paletteOf(paint) || (paint == GroundPaint::None && !source.builtIn))
+        color = tintedGround(ground, look, tintIn(paint, source), progress);
+    else if (paint == GroundPaint::None)
         color = colorsOfBuiltIn(ground, builtInUnder(*source.builtIn, look, source.alone, progress));
     else
-        color = tintedGround(ground, look, source.tint, progress);
+        color = paintedGround(ground, source.verticalScale, paint, look, progress);
     return color;
 }
 
@@ -64,9 +87,9 @@ ColorTexture colorsOfPart(const Heightfield& part, const Heightfield& whole, Gro
     const TerrainLook look = lookUnder(sun, paint, source);
     constexpr double kDensity = 1;
     Progress progress;
-    if (paint != GroundPaint::None)
-        return paintedGround(part, source.verticalScale, paint, look, progress, kDensity).texture;
-    return tintedPart(part, whole, look, source.tint, kDensity, progress);
+    if (paint == GroundPaint::None || paletteOf(paint))
+        return tintedPart(part, whole, look, tintIn(paint, source), kDensity, progress);
+    return paintedGround(part, source.verticalScale, paint, look, progress, kDensity).texture;
 }
 
 }  // namespace stereonav

@@ -27,7 +27,10 @@ struct GroundColorSource {
     TintPlace tint;
 };
 
-// Removes the words about light from a description of colours, where other code lights them.
+// Returns the palette of a paint that is one; nothing for others.
+std::optional<GroundPalette> paletteOf(GroundPaint paint);
+
+// Takes what was lit out of the words for colours, where somebody else lights them.
 void leaveOutLit(std::string& source);
 
 // Returns the generated terrain under a look, from the cache where possible. Throws Error, Cancelled.

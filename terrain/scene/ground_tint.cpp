@@ -166,6 +166,16 @@ GrowthLines growthLines(double latitude) {
     return {at(kTree), at(kSnowLine)};
 }
 
+bool isLevelSea(const Heightfield& ground, const glm::dvec2& grid) {
+    const int i = static_cast<int>(std::floor(grid.x)), j = static_cast<int>(std::floor(grid.y));
+    for (int dj = -1; dj <= 2; ++dj)
+        for (int di = -1; di <= 2; ++di)
+            if (ground.sample(std::clamp(i + di, 0, ground.width() - 1),
+                              std::clamp(j + dj, 0, ground.height() - 1)) != 0)
+                return false;
+    return true;
+}
+
 GroundTint::GroundTint(const Heightfield& ground, const TintPlace& place, const Heightfield& whole)
     : mGround(ground), mWhole(whole), mUnscale(1 / place.verticalScale), mFine(72) {
     const glm::dvec2 spacing = ground.spacing();
@@ -247,17 +257,6 @@ double GroundTint::scaleHeight(const GrowthLines& lines, double metres) const {
     return kGreyEnds + (metres - snow);
 }
 
-// Samples that are exactly at the sea's level, all around.
-bool GroundTint::seaAt(const glm::dvec2& grid) const {
-    const int i = static_cast<int>(std::floor(grid.x)), j = static_cast<int>(std::floor(grid.y));
-    for (int dj = -1; dj <= 2; ++dj)
-        for (int di = -1; di <= 2; ++di)
-            if (mGround.sample(std::clamp(i + di, 0, mGround.width() - 1),
-                               std::clamp(j + dj, 0, mGround.height() - 1)) != 0)
-                return false;
-    return true;
-}
-
 glm::dvec3 GroundTint::Site::normal() const {
     return glm::normalize(glm::dvec3(-glm::dvec2(gradient), 1.0));
 }
@@ -283,7 +282,7 @@ glm::vec3 GroundTint::at(const glm::dvec2& grid, double height, const Site& site
         const auto deep = static_cast<float>(std::sqrt(std::clamp(metres / mLow, 0.0, 1.0)));
         return glm::mix(kShallow, kDeep, deep);
     }
-    if (mPlaced && metres == 0 && seaAt(grid)) return kSea;
+    if (mPlaced && metres == 0 && isLevelSea(mGround, grid)) return kSea;
     const glm::dvec2 place = inWhole(grid);
     const double north = std::clamp(place.y / (mWhole.height() - 1), 0.0, 1.0) * double(mZones.size() - 1);
     const auto node = static_cast<std::size_t>(north);

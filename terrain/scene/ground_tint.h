@@ -26,10 +26,14 @@
 
 namespace stereonav {
 
-// The ground's position on the Earth, as far as it is known, and its vertical scale.
+// Which colours ground without a picture has: these tints, or those of ground_tones.h.
+enum class GroundPalette { Tint, Natural, Hypsometric, Swiss, Grey };
+
+// The ground's place on the Earth, as far as it is known, its vertical scale, and its palette.
 struct TintPlace {
     double verticalScale = 1;       // factor from the file's heights to the ground's
     std::vector<double> latitudes;  // radians, evenly from the southern edge to the northern; empty: unknown
+    GroundPalette palette = GroundPalette::Tint;
 };
 
 // Tree line and snow line, metres above the sea; 0 <= tree <= snow.
@@ -38,6 +42,9 @@ struct GrowthLines {
 };
 // latitude: radians.
 GrowthLines growthLines(double latitude);
+
+// Returns whether all samples around a grid position are exactly at the sea's level.
+bool isLevelSea(const Heightfield& ground, const glm::dvec2& grid);
 
 class GroundTint {
 public:
@@ -71,8 +78,7 @@ private:
         std::vector<glm::vec3> colors;  // by height on the colour scale
     };
     double scaleHeight(const GrowthLines& lines, double metres) const;
-    bool seaAt(const glm::dvec2& grid) const;
-    // Converts grid coordinates of the part into those of the whole.
+    // Turns grid coordinates of the part into those of the whole.
     glm::dvec2 inWhole(const glm::dvec2& grid) const { return mFirst + grid * mStep; }
 
     const Heightfield &mGround, &mWhole;

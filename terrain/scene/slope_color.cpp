@@ -100,6 +100,10 @@ std::optional<GroundPaint> groundPaintNamed(const std::string& word) {
     if (word == "slope") return GroundPaint::Slope;
     if (word == "aspect") return GroundPaint::Aspect;
     if (word == "hillshade") return GroundPaint::Hillshade;
+    if (word == "natural") return GroundPaint::Natural;
+    if (word == "hypsometric") return GroundPaint::Hypsometric;
+    if (word == "swiss") return GroundPaint::Swiss;
+    if (word == "grey") return GroundPaint::Grey;
     return std::nullopt;
 }
 
@@ -159,8 +163,7 @@ Legend legendOfPaint(GroundPaint paint) {
             return {"slope", slopeEntries()};
         case GroundPaint::Aspect:
             return {"aspect, paler where less steep than 40 and 20 %", aspectEntries()};
-        case GroundPaint::Hillshade:
-        case GroundPaint::None:
+        default:
             break;
     }
     return {};

@@ -21,15 +21,16 @@
 
 namespace stereonav {
 
-// Returns the paint for "slope", "aspect" or "hillshade"; empty for other words.
+// Returns the paint of "slope", "aspect", "hillshade", "natural", "hypsometric", "swiss", "grey"; nothing for
+// other words.
 std::optional<GroundPaint> groundPaintNamed(const std::string& word);
 
-// Paints the ground. paint: not None. look: lights slope and aspect. density: texels per sample in each
-// direction. Throws Cancelled.
+// Paints the ground. paint: Slope, Aspect or Hillshade. look: its light falls on slope and aspect. density:
+// texels a sample each way. Throws Cancelled.
 GroundColor paintedGround(const Heightfield& ground, double verticalScale, GroundPaint paint,
                           const TerrainLook& look, Progress& progress, double density = kLitDensity);
 
-// Returns a legend for the colours; empty for a hillshade.
+// Returns what the colours mean; nothing for others than Slope and Aspect.
 Legend legendOfPaint(GroundPaint paint);
 
 // Return the colour for the slope or aspect of the file's heights: linear, without light. gradient: metres

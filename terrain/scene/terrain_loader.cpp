@@ -152,6 +152,7 @@ GroundColorSource colorSourceOf(const SceneFile& file, const LoadedGround& loade
     GroundColorSource source{file.look, litLater(file), file.verticalScale, file.paint, std::nullopt, {}};
     if (loaded.built) source.builtIn = BuiltInOrigin{file.seed, file.builtInSize};
     source.tint = tintPlaceOf(file, scene);
+    if (file.chosen) source.tint.palette = GroundPalette::Natural;
     return source;
 }
 
@@ -238,10 +239,12 @@ Pose startPoseOf(const SceneFile& file, const TerrainScene& scene) {
 }
 
 // Sets the first view. Returns the description with a sun chosen for it where none is given. The built-in
-// terrain, whose light is kept in the cache, and hillshade, whose sun stands where maps have it, keep theirs.
+// terrain, whose light is kept in the cache, and hillshade and swiss relief, whose sun stands where maps have
+// it, keep theirs.
 SceneFile chooseView(const SceneFile& file, TerrainScene& scene) {
     const bool free = file.chosen && !file.builtIn,
-               freeSun = free && !file.sunGiven && file.paint != GroundPaint::Hillshade;
+               mapSun = file.paint == GroundPaint::Hillshade || file.paint == GroundPaint::Swiss,
+               freeSun = free && !file.sunGiven && !mapSun;
     if (!free || file.startPosition) scene.startPose = startPoseOf(file, scene);
     SceneFile chosen = file;
     if (!free || (file.startPosition && !freeSun)) return chosen;
@@ -291,7 +294,7 @@ void chooseAir(SceneFile& file, TerrainScene& scene) {
 // built-in terrain has its light in its colours.
 bool quickLightSuits(const SceneFile& file, const TerrainScene& scene) {
     if (!file.quickLight || file.builtIn || !file.light.empty() || !file.image.empty()) return false;
-    if (file.paint != GroundPaint::None || file.colorsAlone) return false;
+    if ((file.paint != GroundPaint::None && !paletteOf(file.paint)) || file.colorsAlone) return false;
     const double samples = double(scene.ground.width()) * scene.ground.height(),
                  needed = bytesOfQuickLight(samples) + 2 * bytesOfTint(samples);
     return needed <= availableMemoryFor(needed);

@@ -45,6 +45,10 @@ TEST_F(GroundPaintOptionsTest, ChangePicturesAndNoneLeavesThemAsTheyAre) {
                                                     {"--paint", "slope"},
                                                     {"--paint", "aspect"},
                                                     {"--paint", "hillshade"},
+                                                    {"--paint", "natural", "--look", "plain"},
+                                                    {"--paint", "hypsometric"},
+                                                    {"--paint", "swiss"},
+                                                    {"--paint", "grey"},
                                                     {"--paint", "viewshed:50,50,2"},
                                                     {"--tracks", (place() / "walk.geojson").string()},
                                                     {"--tracks", (place() / "walk.geojson").string(),
@@ -66,13 +70,15 @@ TEST_F(GroundPaintOptionsTest, RefuseWhatDoesNotGo) {
     refused({"--contours", "-1"}, "--contours: expected auto or metres");
     refused({"--contours", "many"}, "--contours: expected auto or metres");
     refused({"--paint", "slopes"},
-            "--paint: expected one of slope, aspect, hillshade, viewshed:X,Y,HEIGHT, hours:DATE");
+            "--paint: expected one of slope, aspect, hillshade, natural, hypsometric, swiss, grey, "
+            "viewshed:X,Y,HEIGHT, hours:DATE");
     refused({"--paint", "slope:3"}, "--paint: expected one of");
     refused({"--paint", "viewshed:3"}, "viewshed expects a place");
     refused({"--paint", "viewshed:99999,3"}, "--paint: expected a place on the ground");
     refused({"--paint", "hours:soon"}, "hours expects a date");
     refused({"--paint", "hours:2026-06-21"}, "does not say where it lies on the Earth");
     refused({"--paint", "slope", "--image", "some.png"}, "slope does not go with --image");
+    refused({"--paint", "swiss", "--image", "some.png"}, "swiss does not go with --image");
     refused({"--tracks", "none.gpx"}, "none.gpx");
     writeTextFile(place() / "far.geojson", R"({"type":"LineString","coordinates":[[9250,200],[9000,0]]})");
     refused({"--tracks", (place() / "far.geojson").string()}, "all of it lies outside the ground");

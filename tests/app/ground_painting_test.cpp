@@ -150,7 +150,7 @@ TEST_F(GroundPaintingTest, WhatIsSeenFromAPlaceIsSaidInTheFilesCoordinates) {
 }
 
 TEST_F(GroundPaintingTest, ColoursOfTheGroundAreThoseOfASceneLoadedWithThem) {
-    const char* const all[] = {"", "slope", "aspect", "hillshade"};
+    const char* const all[] = {"", "slope", "swiss", "hillshade", "natural"};
     const auto loadedAs = [&](const std::string& word) {
         return loaded([&](SceneOptions& options) { options.paint = word; });
     };
@@ -164,7 +164,7 @@ TEST_F(GroundPaintingTest, ColoursOfTheGroundAreThoseOfASceneLoadedWithThem) {
     for (const char* const from : all) {
         const auto scene = loadedAs(from);
         LivePaint& paint = *scene->offered<LivePaint>();
-        for (const int to : {1, 0, 2, 3, 0, 3, 1}) {
+        for (const int to : {1, 0, 2, 3, 0, 4, 3, 1}) {
             ASSERT_TRUE(paint.takes("paint", all[to]));
             paint.ask("paint", all[to]);
             settle(paint);
@@ -173,7 +173,8 @@ TEST_F(GroundPaintingTest, ColoursOfTheGroundAreThoseOfASceneLoadedWithThem) {
             EXPECT_EQ(linesOf(scene->describe()), linesOf(facts[to])) << from << " to " << all[to];
         }
     }
-    EXPECT_FALSE(same(wanted[0], wanted[1]) || same(wanted[1], wanted[2]) || same(wanted[2], wanted[3]));
+    for (std::size_t k = 1; k < wanted.size(); ++k) EXPECT_FALSE(same(wanted[k - 1], wanted[k])) << all[k];
+    EXPECT_FALSE(same(wanted[0], wanted[4]));
 }
 
 TEST_F(GroundPaintingTest, BothEyesHaveTheNewColours) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "engine/image/packed_color.h"
 #include "engine/math/constants.h"
 #include "raster_files.h"
 #include "terrain/ground/nodata.h"
@@ -80,6 +81,55 @@ TEST(TerrainLoader, ChoosesViewSunAirAndLightWhereNothingSaysThem) {
     EXPECT_THAT(scene.report.notes, testing::Contains(HasSubstr("sun chosen for the first view")));
     // The same ground, the same choice.
     EXPECT_EQ(load(file).startPose.position, scene.startPose.position);
+}
+
+// Natural colours, whatever unit and system the file is in; those of a plain look stay.
+TEST(TerrainLoader, ChoosesNaturalColours) {
+    const TempFolder folder;
+    RasterSpec spec = hillSpec();
+    const auto colorOf = [&](bool chosen) {
+        SceneFile file = sceneOf(writeRaster(folder / "hills.tif", spec));
+        file.chosen = chosen;
+        file.sunGiven = file.fogGiven = true;
+        return load(file);
+    };
+    EXPECT_EQ(colorOf(false).report.colorSource, "tint by height and slope, lit");
+    const TerrainScene metres = colorOf(true);
+    EXPECT_EQ(metres.report.colorSource,
+              "natural colours by latitude, height, slope, aspect and wetness, lit");
+    spec.value = [](int c, int r, int) {
+        return (500 + 200 * std::sin(0.2 * c) * std::cos(0.15 * r)) / 0.3048;
+    };
+    spec.unit = "ft";
+    const TerrainScene feet = colorOf(true);
+    const auto one = metres.color.level(0), other = feet.color.level(0);
+    for (int y = 0; y < one.height(); ++y)
+        for (int x = 0; x < one.width(); ++x)
+            ASSERT_LT(glm::distance(unpackColor(one.at(x, y)), unpackColor(other.at(x, y))), 0.004f);
+    spec.unit = nullptr;
+    spec.value = [](int c, int r, int) { return 500 + 20 * std::sin(0.2 * c) * std::cos(0.15 * r); };
+    spec.epsg = 3413;  // over the pole
+    spec.transform = {-900, 30, 0, 750, 0, -30};
+    const TerrainScene overThePole = colorOf(true);
+    EXPECT_EQ(overThePole.report.colorSource, metres.report.colorSource);
+    const glm::vec3 pole = unpackColor(overThePole.color.level(0).at(60, 50));
+    EXPECT_GT(pole.z, 0.3f) << "ice";
+    spec.epsg = 0;
+    EXPECT_EQ(colorOf(true).report.colorSource,
+              "natural colours by height, slope and wetness, of no known latitude, lit");
+}
+
+// Palettes have the chosen light; relief after Imhof has its own sun.
+TEST(TerrainLoader, PalettesAreLit) {
+    const TempFolder folder;
+    SceneFile file = sceneOf(writeRaster(folder / "hills.tif", hillSpec()));
+    file.chosen = file.quickLight = true;
+    for (const GroundPaint paint : {GroundPaint::Hypsometric, GroundPaint::Swiss, GroundPaint::Grey}) {
+        file.paint = paint;
+        const TerrainScene scene = load(file);
+        EXPECT_NE(scene.illumination, nullptr);
+        EXPECT_EQ(scene.look.sunAzimuth == TerrainLook().sunAzimuth, paint == GroundPaint::Swiss);
+    }
 }
 
 TEST(TerrainLoader, ChoosesNothingThatIsSaid) {

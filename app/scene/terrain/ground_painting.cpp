@@ -16,6 +16,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/thread_priority.h"
 #include "terrain/scene/ground_color.h"
+#include "terrain/scene/map_tones.h"
 #include "terrain/scene/slope_color.h"
 
 namespace stereonav {
@@ -240,12 +241,20 @@ GroundPainting::Painted GroundPainting::painted(Layer layer, const Wish& wish, P
         const GroundPaint paint = groundPaintOf(made.text);
         if (surveyed(made.text))
             made.painter = surveyPainter(mTerrain, mFog, survey(reading), made.text, made.legend, looking);
-        if (Legend colors = legendOfPaint(paint); !colors.entries.empty())
+        if (Legend colors = legendOf(paint); !colors.entries.empty())
             made.legend.legends.push_back(std::move(colors));
         made.ground = groundAs(paint, wish.sun, colouring);
     }
     progress.report(1, kPainting);
     return made;
+}
+
+Legend GroundPainting::legendOf(GroundPaint paint) const {
+    const auto palette = paletteOf(paint);
+    if (!palette) return legendOfPaint(paint);
+    const Heightfield& ground = mTerrain.ground;
+    return legendOfPalette(*palette, ground.minHeight() / mTerrain.verticalScale,
+                           ground.maxHeight() / mTerrain.verticalScale);
 }
 
 bool GroundPainting::loadedPlain() const {

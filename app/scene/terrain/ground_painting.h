@@ -85,6 +85,7 @@ private:
     void workOff();
     Painted painted(Layer layer, const Wish& wish, Progress& progress);
     GroundWorn groundAs(GroundPaint paint, const SunAngles& sun, Progress& progress) const;
+    Legend legendOf(GroundPaint paint) const;
     bool loadedPlain() const;  // whether the ground was loaded in its own colours
     const SurveyGround& survey(Progress& progress);
     void show(Layer layer, Painted painted);  // the mutex has to be held

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
 
@@ -46,6 +47,23 @@ void drawInterval(SceneChanges& changes, const LivePaint& paint) {
     tooltip("Metres of height between contour lines; drag to change them, to the left end for none.");
 }
 
+// Colours in the place of the ground's own, which no picture holds.
+void drawColours(SceneChanges& changes, const LivePaint& paint) {
+    constexpr std::array<const char*, 7> kWords{"natural", "hypsometric", "swiss",    "grey",
+                                                "slope",   "aspect",      "hillshade"};
+    if (!paint.takes("paint", kWords[0])) return;
+    const std::string now = paint.now("paint");
+    const bool known = std::ranges::find(kWords, now) != kWords.end();
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (ImGui::BeginCombo("##colours", ("colours: " + (known ? now : "usual")).c_str())) {
+        if (ImGui::Selectable("usual", !known) && known) changes.set("paint", std::nullopt);
+        for (const char* const word : kWords)
+            if (ImGui::Selectable(word, now == word)) changes.set("paint", word);
+        ImGui::EndCombo();
+    }
+    tooltip("Colours of the ground. You can fly meanwhile.");
+}
+
 void drawSeenFrom(SceneChanges& changes, Instruments& instruments, const ViewSession& session,
                   LivePaint& paint) {
     static double height = 2;
@@ -75,6 +93,7 @@ void drawGroundPaint(SceneChanges& changes, Instruments& instruments, const View
     if (!paint) return;
     drawInterval(changes, *paint);
     drawSeenFrom(changes, instruments, session, *paint);
+    drawColours(changes, *paint);
 }
 
 void drawHoursButton(SceneChanges& changes, const std::string& date) {
