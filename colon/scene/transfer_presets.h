@@ -34,8 +34,8 @@ TransferFunction fittedTransfer(const std::filesystem::path& fileOrName, const V
 bool showsSomething(const TransferFunction& function, const ValueCounts& counts, const ValueKinds& kinds);
 // Returns the presets that show nothing of a volume.
 std::vector<std::string> emptyPresets(const ValueCounts& counts, const ValueKinds& kinds);
-// Returns that a function shows nothing of a volume, what the volume holds and what to do: one sentence; "" where
-// it shows something. given: what findTransferFunction() was asked for.
+// Returns that a function shows nothing of a volume, what the volume holds and what to do: one sentence; ""
+// where it shows something. given: what findTransferFunction() was asked for.
 std::string warningOfEmpty(const std::filesystem::path& given, const TransferFunction& function,
                            const ValueCounts& counts, const ValueKinds& kinds);
 

@@ -19,6 +19,16 @@ constexpr int kTileSide = 32;
 constexpr int kSteps = 5;
 constexpr float kLeastAway = 2;  // HU that voxel centres keep from kMaskWall, on their side of it
 
+// Returns the share of the way from the wall's value to those far away, for a distance in units of that where
+// a straight line would reach it: straight near the wall, then a parabola without a bend at either end, so
+// that films of values between follow the wall too.
+float shareAway(float distance) {
+    constexpr float kStraight = 0.6f, kEnd = 2 - kStraight;
+    if (distance <= kStraight) return distance;
+    const float left = std::max(kEnd - distance, 0.0f);
+    return 1 - left * left / (2 * (kEnd - kStraight));
+}
+
 // What is known of a voxel near the wall; sums, until they are divided by the weight.
 struct NearWall {
     glm::vec3 normal{0.0f};  // outwards
@@ -155,7 +165,7 @@ private:
                 std::uint32_t n = index(glm::ivec3(first.x, j, k) - mLow);
                 for (int i = first.x; i < end.x; ++i, ++n) {
                     if (mStep[n] == 0) continue;
-                    const float away = std::max(half * std::min(mNear[n].distance / mFar, 1.0f), kLeastAway);
+                    const float away = std::max(half * shareAway(mNear[n].distance / mFar), kLeastAway);
                     mField.at(i, j, k) =
                         static_cast<std::int16_t>(std::lround(kMaskWall + (mIn[n] ? -away : away)));
                 }
@@ -169,7 +179,7 @@ private:
     const std::vector<glm::vec3>& mNormals;
     GreyVolume& mField;
     glm::vec3 mSpacing;
-    float mFar = 1;                            // distances are told up to this one
+    float mFar = 1;                            // distance from the wall at which a straight line ends
     glm::ivec3 mLow{0}, mSize{0};              // the tile and what is around it
     std::vector<std::uint8_t> mIn, mStep;      // whether inside; steps from the wall, 0: unknown
     std::vector<NearWall> mNear;               // where mStep is not 0
