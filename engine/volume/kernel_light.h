@@ -74,7 +74,12 @@ STEREONAV_INLINE Lit litBy(const VolumeData& data, const VolumeView& view, const
     const F reaches = approxReciprocal(mulAdd(square, F(light.inverseFalloffSquared), F(1.0f)));
     const F up = n.z * byLength * F(light.varyingAmbient);
     const F ambient = mulAdd(F(light.ambient), up, F(light.ambient));
-    const F diffuse = mulAdd(F(light.diffuse), max(cosine, F(0.0f)) * lit, ambient) * reaches;
+    F facing = max(cosine, F(0.0f));
+    if (light.leastCosine4 > 0) {
+        const F facing2 = facing * facing;
+        facing = sqrt(sqrt(mulAdd(facing2, facing2, F(light.leastCosine4))));
+    }
+    const F diffuse = mulAdd(F(light.diffuse), facing * lit, ambient) * reaches;
     if (!(light.specular > 0)) return {diffuse, F(0.0f), unit};
     // Most of a wall that is seen along a tube: highlight_bound.h.
     const M shines = (cosine > F(0.0f)) & (mulAdd(F(view.lampAway), inverse, cosine) >= F(light.faintCosine));

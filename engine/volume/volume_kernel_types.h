@@ -101,6 +101,7 @@ struct LightData {
     float ambient = 0, diffuse = 0, specular = 0, shininess = 1;
     int wholeHalf = 0;                // half the shininess where that is a whole number: cheaper; else 0
     float faintCosine = 0;            // highlight_bound.h
+    float leastCosine4 = 0;           // fourth power of VolumeCasting::leastCosine
     float inverseFalloffSquared = 0;  // 1 / metres^2, at most kMostFalloff
     bool shadows = false;
     float largestSpacing = 0;                  // metres

@@ -217,7 +217,10 @@ struct VolumeRenderer::State {
                occlusionDataOf(scene.look, scene.cells.frame),
                studioDataOf(scene.look, scene.cells.frame),
                transfer.data} {
-        if (scene.look.transfer.empty()) return;
+        if (scene.look.transfer.empty()) {
+            data.light.leastCosine4 = std::pow(casting.leastCosine, 4.0f);
+            return;
+        }
         if (casting.integrated)
             data.transfer.integrals =
                 &integrals.emplace(scene.look.transfer, scene.field, scene.cells.isovalue).data();

@@ -15,6 +15,9 @@ struct VolumeCasting {
     bool leaping = true;      // false: cell by cell; the same hits, slower
     bool shadeAgain = true;   // keep normals and shade again for the other eye
     double stepVoxels = 0.5;  // translucent: distance of samples, in the smallest spacing
+    // Cosine by which an opaque surface is lit where it turns out of sight, 0 to 1. With 0 the lamp's light
+    // ends there, in a line narrower than a pixel, which shows as dashes along slanted edges.
+    float leastCosine = 0;
     bool integrated = false;  // translucent: what cells hold is integrated over values, and nothing sampled
 };
 

@@ -97,10 +97,13 @@ std::shared_ptr<const StudyValues> valuesOf(const ColonScene& colon) {
     return values;
 }
 
-VolumeCasting castingFor(SimdTarget target, bool chosenLook) {
+VolumeCasting castingFor(SimdTarget target, const SceneOptions& options, const ColonScene& scene) {
+    constexpr float kLeastCosine = 0.3f;  // folds have even edges, and are still darker there
     VolumeCasting casting;
     casting.target = target;
-    casting.integrated = chosenLook;
+    casting.integrated = options.chosenLook;
+    if (options.chosenLook && options.volume.shading == Shading::Lamp && scene.isColon())
+        casting.leastCosine = kLeastCosine;
     return casting;
 }
 
@@ -121,7 +124,7 @@ ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const Scen
       mMade(made),
       mWorld(std::move(volume.world)),
       mLighting(std::move(volume.light)),
-      mRenderer(mWorld->colon().volume, castingFor(target, made.chosenLook)),
+      mRenderer(mWorld->colon().volume, castingFor(target, made, mWorld->colon())),
       mFrames(mRenderer, RightEyeMethod::Cubic) {
     mWorld->setViews(made, *this);
     mWorld->setWall(&mRenderer);
