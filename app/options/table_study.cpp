@@ -102,8 +102,7 @@ std::vector<Option> studyOptions() {
                     const OptionValue& value) { to.scene->volume.fluid = fluidFromName(value.text); }},
         {.key = "mask-smoothing",
          .value = numberValue(kMaskSmoothingRange),
-         .help = "length along a mask's wall over which its bends are averaged, by millimetres; the wall "
-                 "moves by "
+         .help = "length along a mask's wall over which its bends are averaged; the wall moves by less than "
                  "half a voxel; 0: not at all",
          .advice = "leave it out for two voxels",
          .group = kStudyGroup,

@@ -139,6 +139,7 @@ STEREONAV_INLINE Falling ofOpenness(const OcclusionData& data, const V3& voxel, 
 template <typename Lamp>
 STEREONAV_INLINE Falling ofStudio(const StudioData& data, const V3& voxel, M m, const Lamp& lampAt) {
     const Lit lamp = lampAt();
+    if (!any(m)) return ofLamp(lamp, F(0.0f));
     const SkySeenBy seen = skySeenBy(data, voxel, lamp.normal, m);
     const auto along = [&](const float(&to)[3]) {
         return dot(lamp.normal, V3{F(to[0]), F(to[1]), F(to[2])});

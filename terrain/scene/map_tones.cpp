@@ -22,12 +22,12 @@ struct MapStop {
     float share;
     std::uint32_t srgb;
 };
-constexpr std::array<MapStop, 7> kHypsometric{{{0.00f, 0x6f9a78},
-                                               {0.15f, 0x93b183},
-                                               {0.32f, 0xc3c592},
-                                               {0.50f, 0xcdb083},
-                                               {0.68f, 0xb08b6c},
-                                               {0.85f, 0xb3a298},
+constexpr std::array<MapStop, 7> kHypsometric{{{0.00f, 0x7b9c80},
+                                               {0.15f, 0x9ab18b},
+                                               {0.32f, 0xbec09b},
+                                               {0.50f, 0xc5b497},
+                                               {0.68f, 0xb39d86},
+                                               {0.85f, 0xb9ada4},
                                                {1.00f, 0xeceae8}}};
 constexpr std::array<MapStop, 5> kSwiss{
     {{0.00f, 0x93aaa8}, {0.25f, 0xa0b09b}, {0.50f, 0xb0b394}, {0.75f, 0xc2b99b}, {1.00f, 0xd8cfbd}}};

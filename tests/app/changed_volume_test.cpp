@@ -70,7 +70,8 @@ TEST_F(ChangedVolume, ShowsACurveAsTheCommandLineDoes) {
         "curve:reference_mm:0.5,300:0.9:0.6:0.5:0,500:0.9:0.2:0.5:0.01",
         "curve:700:1:1:1:0.5"};
     const auto options = [&](const std::string& file, const SettingTexts& more) {
-        SettingTexts settings{{"SCENE", {file}}, {"no-cache", {""}}};
+        // The key light stays where the first scene was seen from; another one is opened from elsewhere.
+        SettingTexts settings{{"SCENE", {file}}, {"no-cache", {""}}, {"look", {"plain"}}};
         settings.insert(more.begin(), more.end());
         return settings;
     };
@@ -137,6 +138,36 @@ TEST_F(ChangedVolume, CountsItsValuesWithoutWhatWasAddedAround) {
     const std::shared_ptr<Scene> inside = opened({{"SCENE", {maskedTube()}}, {"no-cache", {""}}});
     EXPECT_FALSE(inside->offered<ShownValues>()->values->count(progress).empty());
     EXPECT_FALSE(inside->offered<ShownValues>()->begun.isovalue);
+}
+
+TEST_F(ChangedVolume, TheSkyAroundItFollowsItsSurface) {
+    const auto lightOf = [](const Scene& scene) -> const StudioLook& {
+        return scene.offered<ColonScene>()->volume.look.studio;
+    };
+    const auto sizeSeen = [&](const Scene& scene) {
+        double sum = 0;
+        const SkyGrid& grid = *lightOf(scene).seen;
+        for (std::size_t n = 0; n < grid.count(); ++n) sum += grid.words[2 * n + 1] & 1023u;
+        return sum;
+    };
+    const SettingTexts first{{"SCENE", {ball()}}, {"isosurface", {""}}, {"isovalue", {"300"}}};
+    const std::shared_ptr<Scene> shown = opened(first);
+    ASSERT_TRUE(lightOf(*shown).seen);
+    SurfaceChange smaller;
+    smaller.isovalue = 700;
+    const std::shared_ptr<Scene> after = changed(*shown, smaller);
+    EXPECT_GT(sizeSeen(*after), sizeSeen(*shown)) << "a smaller ball hides less";
+    EXPECT_EQ(lightOf(*after).keyFrom, lightOf(*shown).keyFrom) << "the key light stands still";
+    EXPECT_GT(sizeSeen(*through(*shown, kGlass)), sizeSeen(*shown));
+    EXPECT_EQ(lightOf(*changed(*after, {})).seen, lightOf(*after).seen) << "nothing is worked out again";
+    // Options that say what lights it.
+    for (const auto& [option, text] : std::vector<std::pair<std::string, std::string>>{
+             {"look", "plain"}, {"shading", "lamp"}, {"shading", "varying"}, {"ambient", "8"}}) {
+        SettingTexts said = first;
+        setText(said, option, text);
+        EXPECT_FALSE(lightOf(*opened(said)).seen) << option << " " << text;
+    }
+    EXPECT_FALSE(lightOf(*opened({{"SCENE", {maskedTube()}}, {"no-cache", {""}}})).seen) << "a colon";
 }
 
 }  // namespace
