@@ -145,6 +145,8 @@ struct Packet {
     }
     // Normals that nothing asked for are left at none: whoever shades again will not ask either.
     STEREONAV_INLINE Result shaded(const Rays& r, const Hits& hits, bool wantNormal) const {
+        // Normals of misses are then 0, as those of misses beside hits are.
+        if (data.studio.words && !any(hits.hit)) return {hits.t, behind, I(0), F(0.0f)};
         Channels n = openChannels(I(kNoNormal));
         const I color = surfaceColor(data, view, r, hits.t, hits.hit, behind, [&](F t) {
             const auto values = [&] { return cornersOf(grid, hits.word, cellsOf(r, hits), hits.hit); };
