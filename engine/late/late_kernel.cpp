@@ -33,7 +33,9 @@ STEREONAV_INLINE Rays raysOf(const LateMove& move, F x, float y) {
     };
     // Places beside or behind the picture that was cast get its border.
     const F z = row(2), forward = max(z, F(1e-6f));
-    const F one = approxReciprocal(forward);
+    // Exact: where the eye only moves, places lie on the borders of pixels, and the approximations of
+    // different processors lead to different sides.
+    const F one = F(1.0f) / forward;
     const F a = row(0) * one, b = row(1) * one;
     return {a, b, F(move.shift[0]) - F(move.shift[2]) * a, F(move.shift[1]) - F(move.shift[2]) * b};
 }
