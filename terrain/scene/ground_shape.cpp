@@ -146,17 +146,21 @@ GroundShape::GroundShape(const Heightfield& part, const Heightfield& whole, doub
     parallelFor(part.height(), [&](int j) {
         const SmoothedHeights::Row nearHere(near, j), farHere(far, j);
         for (int i = 0; i < part.width(); ++i) {
-            Site& site = mSites[static_cast<std::size_t>(j) * part.width() + i];
+            const auto kept = [](float share) {
+                return static_cast<std::int16_t>(std::lround(std::clamp(share, -1.0f, 1.0f) * kWhole));
+            };
+            KeptSite& site = mSites[static_cast<std::size_t>(j) * part.width() + i];
             const double here = part.sample(i, j);
             const glm::dvec2 gradient = part.gradientAtSample(i, j);
             site.gradient = glm::vec2(gradient);
-            site.hollow = squashed(8 * unscale * (nearHere.at(i) - here) / (kNear * side));
+            const float hollow = squashed(8 * unscale * (nearHere.at(i) - here) / (kNear * side));
             const float valley = squashed(6 * unscale * (farHere.at(i) - here) / (kFar * side));
             const auto slope = static_cast<float>(unscale * glm::length(gradient));
             const float steep = std::isfinite(slope) ? slope / (slope + 0.25f) : 0.0f;
-            site.wet = std::clamp(0.4f + 0.35f * site.hollow + 0.45f * valley - 0.8f * steep, -1.0f, 1.0f);
+            site.hollow = kept(hollow);
+            site.wet = kept(0.4f + 0.35f * hollow + 0.45f * valley - 0.8f * steep);
             const glm::vec2 at(inWhole({i, j}));
-            site.broad = broad.fractal(at.x / kBroadSize, at.y / kBroadSize, kBroadOctaves);
+            site.broad = kept(broad.fractal(at.x / kBroadSize, at.y / kBroadSize, kBroadOctaves));
         }
     });
 }
@@ -171,13 +175,17 @@ GroundShape::Site GroundShape::siteAt(const glm::dvec2& grid) const {
     const int i = std::min(static_cast<int>(x), mGround.width() - 2);
     const int j = std::min(static_cast<int>(y), mGround.height() - 2);
     const float u = static_cast<float>(x - i), v = static_cast<float>(y - j);
-    const Site* south = mSites.data() + static_cast<std::size_t>(j) * mGround.width() + i;
-    const Site* north = south + mGround.width();
-    const auto between = [&](auto Site::*part) {
-        return glm::mix(glm::mix(south[0].*part, south[1].*part, u),
-                        glm::mix(north[0].*part, north[1].*part, u), v);
+    const KeptSite* south = mSites.data() + static_cast<std::size_t>(j) * mGround.width() + i;
+    const KeptSite* north = south + mGround.width();
+    const auto between = [&](const auto& partOf) {
+        return glm::mix(glm::mix(partOf(south[0]), partOf(south[1]), u),
+                        glm::mix(partOf(north[0]), partOf(north[1]), u), v);
     };
-    return {between(&Site::gradient), between(&Site::hollow), between(&Site::wet), between(&Site::broad)};
+    const auto share = [&](std::int16_t KeptSite::*part) {
+        return between([&](const KeptSite& site) { return static_cast<float>(site.*part) / kWhole; });
+    };
+    return {between([](const KeptSite& site) { return site.gradient; }), share(&KeptSite::hollow),
+            share(&KeptSite::wet), share(&KeptSite::broad)};
 }
 
 }  // namespace stereonav

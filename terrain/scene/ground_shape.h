@@ -7,6 +7,7 @@
 // of Weiss 2001) take the place of ln a. tests/terrain/ground_shape_test.cpp holds it against the index.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -34,12 +35,21 @@ public:
     // Turns grid coordinates of the part into those of the whole.
     glm::dvec2 inWhole(const glm::dvec2& grid) const { return mFirst + grid * mStep; }
 
-    static constexpr double kBytesPerSample = sizeof(Site);
+private:
+    // A site as it is kept, in as many bytes as those of GroundTint.
+    struct KeptSite {
+        glm::vec2 gradient{0.0f};
+        std::int16_t hollow = 0, wet = 0, broad = 0;  // times kWhole
+    };
+    static constexpr float kWhole = 32767;
+
+public:
+    static constexpr double kBytesPerSample = sizeof(KeptSite);
 
 private:
     const Heightfield& mGround;
     glm::dvec2 mFirst{0.0}, mStep{1.0};  // grid of the whole: the first sample, and from one to the next
-    std::vector<Site> mSites;
+    std::vector<KeptSite> mSites;
 };
 
 }  // namespace stereonav

@@ -25,7 +25,7 @@ public:
 };
 
 // Bytes that a palette keeps for each sample, at most.
-constexpr double kBytesOfTones = 20;
+constexpr double kBytesOfTones = 16;
 
 // Returns the palette place.palette. Both grounds must outlive it; place: the whole's.
 std::unique_ptr<GroundTones> groundTones(const Heightfield& part, const TintPlace& place,

@@ -172,9 +172,14 @@ TEST_F(LazyLibraries, AVolumeHoldsWhatItIsShownBy) {
         EXPECT_GT(colon.at(what), 0) << what;
     }
     EXPECT_EQ(colon.size(), 3u) << colon;
-    const Json outside = info({ball(), "--isosurface", "--isovalue", "640"});
-    EXPECT_EQ(outside.at("volume").at("held").size(), 2u) << outside.at("volume").at("held");
-    EXPECT_FALSE(outside.at("volume").at("held").contains("lumen"));
+    const auto outside = [&](const char* look) {
+        return info({ball(), "--isosurface", "--isovalue", "640", "--look", look}).at("volume").at("held");
+    };
+    const Json plain = outside("plain"), chosen = outside("auto");
+    EXPECT_EQ(plain.size(), 2u) << plain;
+    EXPECT_FALSE(plain.contains("lumen"));
+    EXPECT_EQ(chosen.size(), 3u) << chosen;
+    EXPECT_GT(chosen.at("sky"), 0);
 }
 
 }  // namespace

@@ -102,8 +102,8 @@ VolumeCasting castingFor(SimdTarget target, const SceneOptions& options, const C
     VolumeCasting casting;
     casting.target = target;
     casting.integrated = options.chosenLook;
-    if (options.chosenLook && options.volume.shading == Shading::Lamp && scene.isColon())
-        casting.leastCosine = kLeastCosine;
+    const bool lampAlone = options.volume.shading == Shading::Lamp && !options.light.given();
+    if (options.chosenLook && lampAlone && scene.isColon()) casting.leastCosine = kLeastCosine;
     return casting;
 }
 
