@@ -38,10 +38,10 @@ public:
 private:
     // A site as it is kept, in as many bytes as those of GroundTint.
     struct KeptSite {
-        glm::vec2 gradient{0.0f};
+        glm::vec2 gradient{0.0f};                     // metres per metre of the ground
         std::int16_t hollow = 0, wet = 0, broad = 0;  // times kWhole
     };
-    static constexpr float kWhole = 32767;
+    static constexpr float kWhole = 32767;  // steps of a share of 1
 
 public:
     static constexpr double kBytesPerSample = sizeof(KeptSite);
