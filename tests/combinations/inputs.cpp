@@ -211,9 +211,6 @@ void Inputs::addVolume(const Row& row, Arguments& line) {
     if (isovalue == "on") add(line, {"--isovalue", values.baked});
     if (isovalue == "off") add(line, {"--isovalue", values.other});
     const std::string& opacity = levelOf(row, Factor::Opacity);
-    // The oracle takes samples, as the plain look does; what the chosen look integrates is compared with fine
-    // steps in tests/volume/rings_test.cpp.
-    if (opacity != "opaque") add(line, {"--look", "plain"});
     if (opacity == "dense") add(line, {"--opacity", "0.95"});
     if (opacity == "glass") add(line, {"--opacity", "0.05"});
     if (opacity == "preset") add(line, {"--transfer", isColon(row) ? "wall_glass" : "skin_and_bone"});

@@ -17,8 +17,6 @@
 namespace stereonav::test {
 namespace {
 
-constexpr double kStepVoxels = 0.5;  // the same as VolumeCasting's
-
 OraclePicture blank(const EyeView& view) {
     return {view.width, view.height,
             std::vector<glm::dvec3>(static_cast<std::size_t>(view.width) * view.height)};
@@ -57,7 +55,8 @@ glm::dvec3 volumeLight(const VolumeScene& volume, const EyeView& view, int x, in
         const PlainHit hit = castPlainVolume(volume.field, volume.cells.isovalue, ray);
         return hit.hit() ? surfaceLight(volume, view, lamp, ray, hit) : background;
     }
-    const PlainComposite sum = compositePlain(volume.field, look, ray, lamp, kStepVoxels);
+    ray.nearDepth = view.nearDepth;
+    const PlainComposite sum = integratePlain(volume.field, look, ray, lamp);
     // The kernels ignore the rest in the same way: it is too little to be seen.
     return sum.color + (sum.left < 1.0 / 1024 ? 0.0 : sum.left) * background;
 }

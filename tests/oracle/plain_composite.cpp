@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "engine/math/constants.h"
 #include "engine/volume/baked_data.h"
@@ -105,6 +106,111 @@ PlainComposite compositePlain(const GreyVolume& volume, const VolumeLook& look, 
         const double behind = tAt(k) - result.firstDepth;
         square += result.left * opacity * behind * behind;
         result.left *= 1 - opacity;
+    }
+    if (result.left < 1) result.spread = std::sqrt(square / (1 - result.left));
+    return result;
+}
+
+namespace {
+
+// Means over values, a metre.
+struct PlainMeans {
+    double extinction = 0;
+    glm::dvec3 sent{0.0};  // the extinction times the colour
+};
+
+PlainMeans meansBetween(const TransferFunction& function, double from, double to) {
+    constexpr int kParts = 24;
+    std::vector<double> ends{std::min(from, to), std::max(from, to)};
+    const double low = ends[0], high = ends[1];
+    for (const TransferPoint& point : function.points())
+        if (point.value > low && point.value < high) ends.push_back(point.value);
+    std::sort(ends.begin(), ends.end());
+    PlainMeans means;
+    const auto add = [&](double value, double share) {
+        const double extinction = share * function.extinction(value);
+        means.extinction += extinction;
+        means.sent += extinction * glm::dvec3(function.at(value).color);
+    };
+    if (!(high - low > 1e-9 * std::max(1.0, std::abs(high)))) {
+        add(low, 1);
+        return means;
+    }
+    for (std::size_t n = 0; n + 1 < ends.size(); ++n)
+        for (int k = 0; k < kParts; ++k)
+            add(ends[n] + (k + 0.5) / kParts * (ends[n + 1] - ends[n]),
+                (ends[n + 1] - ends[n]) / (high - low) / kParts);
+    return means;
+}
+
+// Returns the share of a piece before which all values are clear.
+double clearShare(const TransferFunction& function, double from, double to) {
+    const TransferFunction::Range seen = function.visibleRange();
+    const double first = std::clamp(from, seen.lowest, seen.highest);
+    return from == to ? 0 : std::clamp((first - from) / (to - from), 0.0, 1.0);
+}
+
+// Returns the places at which a ray passes from cell to cell, with both ends of its way, ascending.
+std::vector<double> cellBorders(const glm::dvec3& origin, const glm::dvec3& way, const glm::dvec2& range) {
+    std::vector<double> borders{range.x, range.y};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (way[axis] == 0) continue;
+        const double a = origin[axis] + range.x * way[axis], b = origin[axis] + range.y * way[axis];
+        for (double k = std::ceil(std::min(a, b)); k <= std::max(a, b); ++k) {
+            const double t = (k - origin[axis]) / way[axis];
+            if (t > range.x && t < range.y) borders.push_back(t);
+        }
+    }
+    std::sort(borders.begin(), borders.end());
+    return borders;
+}
+
+}  // namespace
+
+PlainComposite integratePlain(const GreyVolume& volume, const VolumeLook& look, const PlainRay& worldRay,
+                              const glm::dvec3& head) {
+    constexpr double kFaint = 0.3;
+    PlainComposite result;
+    const VolumeFrame& frame = volume.frame;
+    if (frame.size.x < 2 || frame.size.y < 2 || frame.size.z < 2 || look.transfer.empty()) return result;
+    const glm::dvec3 origin = frame.voxelFromWorld(worldRay.eye),
+                     way = frame.voxelDirection(worldRay.direction);
+    const glm::dvec2 range = rangeWithin(frame.size, origin, way, worldRay.nearDepth);
+    if (!(range.x <= range.y)) return result;
+    const auto voxelAt = [&](double t) {
+        return glm::clamp(origin + t * way, glm::dvec3(0.0), glm::dvec3(frame.size - 1));
+    };
+    const auto valueAt = [&](double t) {
+        return plainValue(volume, voxelAt(t)) * volume.scale + volume.offset;
+    };
+    double square = 0;
+    const auto addPiece = [&](double begin, double end) {
+        const double from = valueAt(begin), to = valueAt(end);
+        const PlainMeans means = meansBetween(look.transfer, from, to);
+        double depth = means.extinction * (end - begin) * glm::length(worldRay.direction);
+        if (look.modulation) depth *= plainShare(*look.modulation, voxelAt(0.5 * (begin + end)));
+        if (!(depth > 0)) return;
+        const double share = -result.left * std::expm1(-depth);
+        const double first = begin + clearShare(look.transfer, from, to) * (end - begin);
+        const double middle = 0.5 * (first + end);
+        const glm::dvec3 voxel = voxelAt(middle);
+        result.color += share * lightPlain(look, frame, voxel, plainNormal(volume, voxel), head, worldRay.eye,
+                                           means.sent / means.extinction);
+        result.firstDepth = std::min(result.firstDepth, first);
+        square += share * (middle - result.firstDepth) * (middle - result.firstDepth);
+        result.left -= share;
+        ++result.samples;
+    };
+    const std::vector<double> borders = cellBorders(origin, way, range);
+    for (std::size_t n = 0; n + 1 < borders.size() && result.left >= kLeastLeftOfRay; ++n) {
+        const double begin = borders[n], end = borders[n + 1], half = 0.5 * (begin + end);
+        if (!(end > begin)) continue;
+        if (result.left < kFaint) {
+            addPiece(begin, end);
+        } else {
+            addPiece(begin, half);
+            addPiece(half, end);
+        }
     }
     if (result.left < 1) result.spread = std::sqrt(square / (1 - result.left));
     return result;
