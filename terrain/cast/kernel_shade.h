@@ -137,24 +137,39 @@ STEREONAV_INLINE F roughnessAt(const DetailData& detail, const Hits& hits, M m) 
     return lerp(lerp(south.first, south.second, hits.u), lerp(north.first, north.second, hits.u), hits.v);
 }
 
+// Returns how far an octave has faded in, 0 to 1. inverse: 1 / cells of the ground that a pixel covers.
+STEREONAV_INLINE F octaveWeight(const DetailOctave& octave, F inverse) {
+    return clamp(F(octave.cell / kDetailPixels) * inverse - F(1.0f), F(0.0f), F(1.0f));
+}
+
+// A place on an octave's lattice, which repeats itself.
+struct LatticePlace {
+    I south, north;  // index of the corner to the lower left, and of that above it
+    F p, q;          // place between the corners, 0 to 1
+};
+template <int side, int pitch>
+STEREONAV_INLINE LatticePlace latticePlace(const DetailOctave& octave, const Hits& hits) {
+    const F a(static_cast<float>(octave.a)), b(static_cast<float>(octave.b));
+    const F x = a * hits.u - b * hits.v, y = b * hits.u + a * hits.v;
+    const I wholeX = floorToInt(x), wholeY = floorToInt(y), last(side - 1);
+    const I column = (I(octave.a) * hits.i - I(octave.b) * hits.j + wholeX) & last;
+    const I row = I(octave.b) * hits.i + I(octave.a) * hits.j + wholeY;
+    return {(row & last) * I(pitch) + column, ((row + I(1)) & last) * I(pitch) + column, x - toFloat(wholeX),
+            y - toFloat(wholeY)};
+}
+
 // Returns weatheredAt() of tests/oracle/plain_detail.h for the lanes m: kDarkestDetail to kBrightestDetail.
 STEREONAV_INLINE F weatheredOf(const DetailData& detail, const Hits& hits, F footprint, M m) {
     const F inverse = approxReciprocal(max(footprint * F(detail.perMetre), F(1e-9f)));
     F light(0.0f), tone(0.0f);
     for (int k = 0; k < detail.octaves; ++k) {
         const DetailOctave& o = detail.octave[k];
-        const F weight = clamp(F(o.cell / kDetailPixels) * inverse - F(1.0f), F(0.0f), F(1.0f));
+        const F weight = octaveWeight(o, inverse);
         const M on = m & (weight > F(0.0f));
         if (!any(on)) break;
-        const F a(static_cast<float>(o.a)), b(static_cast<float>(o.b));
-        const F x = a * hits.u - b * hits.v, y = b * hits.u + a * hits.v;
-        const I wholeX = floorToInt(x), wholeY = floorToInt(y);
-        const F p = x - toFloat(wholeX), q = y - toFloat(wholeY);
-        const I last(kReliefSide - 1);
-        const I column = (I(o.a) * hits.i - I(o.b) * hits.j + wholeX) & last;
-        const I row = I(o.b) * hits.i + I(o.a) * hits.j + wholeY;
-        const IPair south = gatherPair(detail.relief, (row & last) * I(kReliefPitch) + column, on);
-        const IPair north = gatherPair(detail.relief, ((row + I(1)) & last) * I(kReliefPitch) + column, on);
+        const auto [southern, northern, p, q] = latticePlace<kReliefSide, kReliefPitch>(o, hits);
+        const IPair south = gatherPair(detail.relief, southern, on);
+        const IPair north = gatherPair(detail.relief, northern, on);
         const auto between = [&](auto part) {
             return lerp(lerp(part(south.first), part(south.second), p),
                         lerp(part(north.first), part(north.second), p), q);
@@ -178,18 +193,12 @@ STEREONAV_INLINE F detailOf(const DetailData& detail, const Hits& hits, F footpr
     F light(0.0f);
     for (int k = 0; k < detail.octaves; ++k) {
         const DetailOctave& o = detail.octave[k];
-        const F weight = clamp(F(o.cell / kDetailPixels) * inverse - F(1.0f), F(0.0f), F(1.0f));
+        const F weight = octaveWeight(o, inverse);
         const M on = m & (weight > F(0.0f));
         if (!any(on)) break;
-        const F a(static_cast<float>(o.a)), b(static_cast<float>(o.b));
-        const F x = a * hits.u - b * hits.v, y = b * hits.u + a * hits.v;
-        const I wholeX = floorToInt(x), wholeY = floorToInt(y);
-        const F p = x - toFloat(wholeX), q = y - toFloat(wholeY);
-        const I last(kDetailSide - 1);
-        const I column = (I(o.a) * hits.i - I(o.b) * hits.j + wholeX) & last;
-        const I row = I(o.b) * hits.i + I(o.a) * hits.j + wholeY;
-        const FPair south = gatherPair(detail.values, (row & last) * I(kDetailPitch) + column, on);
-        const FPair north = gatherPair(detail.values, ((row + I(1)) & last) * I(kDetailPitch) + column, on);
+        const auto [southern, northern, p, q] = latticePlace<kDetailSide, kDetailPitch>(o, hits);
+        const FPair south = gatherPair(detail.values, southern, on);
+        const FPair north = gatherPair(detail.values, northern, on);
         const auto fade = [](F t) { return t * t * t * mulAdd(t, mulAdd(t, F(6.0f), F(-15.0f)), F(10.0f)); };
         const auto rise = [](F t) {
             const F s = t * (F(1.0f) - t);
