@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/sanitizers.h"
 #include "engine/camera/stereo_rig.h"
 #include "engine/volume/volume_renderer.h"
 #include "tests/oracle/plain_composite.h"
@@ -22,6 +23,8 @@ constexpr double kRingSpacing_m = 0.001;  // between voxels
 constexpr double kFallPerVoxel = 100;     // values that are lost, outwards
 constexpr int kRingWidth = 120, kRingHeight = 5;
 constexpr double kExactStep = 1.0 / 48;  // voxels
+// The exact rays take nearly all of the time, and sanitizers have nothing to find in more of them.
+constexpr bool kFewRays = kAddressSanitizer || kThreadSanitizer;
 
 // A ball around the origin, 0 on its surface, more inside; cells: where the function shows something.
 VolumeScene ringBall(const TransferFunction& transfer) {
@@ -136,6 +139,7 @@ TEST(Rings, WhatIsIntegratedHasNone) {
         const VolumeScene scene = ringBall(c.transfer);
         const StereoViews views = ringViews();
         for (const EyeView* view : {&views.left, &views.right}) {
+            if (kFewRays && view == &views.right) continue;
             const RingRow truth = exactRow(scene, *view);
             for (const SimdTarget target : simdTargets()) {
                 const Bands sampled = bandsOf(VolumeRenderer(scene, {target}), *view, truth);
@@ -153,8 +157,8 @@ TEST(Rings, WhatIsIntegratedHasNone) {
 // Eyes without, and within the ball's inside.
 std::vector<EyeView> smallViews() {
     Lens lens;
-    lens.width = 9;
-    lens.height = 5;
+    lens.width = kFewRays ? 5 : 9;
+    lens.height = kFewRays ? 3 : 5;
     lens.verticalFov = 0.6;
     lens.nearDepth = 0.0005;
     return {makeEyeView(poseFromAngles({0.003, -0.06, 0.002}, 0, 0, 0), lens),

@@ -157,9 +157,6 @@ void addCell(const GreyVolume& volume, double isovalue, const glm::ivec3& cell, 
     }
     if (!below || !above) return;
     const glm::dvec3 s = volume.frame.spacing;
-    const glm::dvec3 gap =
-        glm::max(glm::max((glm::dvec3(cell) - eye) * s, (eye - glm::dvec3(cell + 1)) * s), 0.0);
-    if (glm::length(gap) > bracket.most) return;
     const auto value = [&](const glm::ivec3& at) {
         const glm::dvec3 f = glm::dvec3(at) / static_cast<double>(kCuts), g = 1.0 - f;
         return g.z * (g.y * (g.x * v[0] + f.x * v[1]) + f.y * (g.x * v[2] + f.x * v[3])) +
@@ -180,12 +177,26 @@ void addCell(const GreyVolume& volume, double isovalue, const glm::ivec3& cell, 
     }
 }
 
+// The nearest cells first: those that begin behind the farthest end of the bracket cannot narrow it.
 Bracket bruteForce(const GreyVolume& volume, double isovalue, const glm::dvec3& voxel) {
-    Bracket bracket;
+    struct FarCell {
+        double gap;  // metres from the eye to its nearest point
+        glm::ivec3 cell;
+    };
+    std::vector<FarCell> cells;
     for (int k = 0; k < volume.frame.size.z - 1; ++k)
         for (int j = 0; j < volume.frame.size.y - 1; ++j)
-            for (int i = 0; i < volume.frame.size.x - 1; ++i)
-                addCell(volume, isovalue, {i, j, k}, voxel, bracket);
+            for (int i = 0; i < volume.frame.size.x - 1; ++i) {
+                const glm::dvec3 low(i, j, k);
+                const glm::dvec3 gap = glm::max(glm::max(low - voxel, voxel - (low + 1.0)), 0.0);
+                cells.push_back({glm::length(gap * volume.frame.spacing), {i, j, k}});
+            }
+    std::sort(cells.begin(), cells.end(), [](const FarCell& a, const FarCell& b) { return a.gap < b.gap; });
+    Bracket bracket;
+    for (const FarCell& far : cells) {
+        if (far.gap > bracket.most) break;
+        addCell(volume, isovalue, far.cell, voxel, bracket);
+    }
     return bracket;
 }
 

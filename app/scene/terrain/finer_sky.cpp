@@ -14,9 +14,9 @@ namespace {
 
 // Named by the ground and the settings of the last step.
 std::filesystem::path skyCache(const Heightfield& ground) {
-    constexpr double most = FinerSky::kMostSamples[std::size(FinerSky::kMostSamples) - 1];
+    constexpr double kFinest = FinerSky::kMostSamples[std::size(FinerSky::kMostSamples) - 1];
     return keptFile(
-        fmt::format("terrain-sky-{:016x}.bin", terrainLightKey(ground, sparseSettings(ground, most))));
+        fmt::format("terrain-sky-{:016x}.bin", terrainLightKey(ground, sparseSettings(ground, kFinest))));
 }
 
 std::optional<TerrainLight> keptSky(const Heightfield& ground) {
