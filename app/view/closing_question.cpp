@@ -13,7 +13,7 @@ bool ClosingQuestion::wish(const std::vector<std::string>& work, double now) {
 
 std::string ClosingQuestion::text(const std::vector<std::string>& work, double now) const {
     if (work.empty() || !stands(now)) return "";
-    return fmt::format("Still at work: {}. Esc again quits.", fmt::join(work, "; "));
+    return fmt::format("Still at work: {}. Ctrl+Q again quits, Esc goes on.", fmt::join(work, "; "));
 }
 
 }  // namespace stereonav

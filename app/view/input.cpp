@@ -20,7 +20,7 @@ struct KeyAction {
     ViewAction action;
 };
 constexpr KeyAction kKeys[] = {
-    {GLFW_KEY_ESCAPE, {ViewCommand::Quit}},
+    {GLFW_KEY_ESCAPE, {ViewCommand::Back}},
     {GLFW_KEY_F1, {ViewCommand::Help}},
     {GLFW_KEY_F2, {ViewCommand::Panels}},
     {GLFW_KEY_F3, {ViewCommand::LeftPanels}},
@@ -111,7 +111,7 @@ constexpr LetterCommand kLettersWithControl[] = {
     {'p', ViewCommand::Search},
     {'z', ViewCommand::Undo, ViewCommand::Redo},
     {'y', ViewCommand::Redo},
-    {'q', ViewCommand::QuitAtOnce},
+    {'q', ViewCommand::Quit},
 };
 
 std::optional<ViewAction> actionIn(std::span<const KeyAction> table, int key) {
@@ -212,7 +212,8 @@ const std::vector<KeyHelp>& viewKeys() {
         {"Backspace", "turn round (colon)", does(TurnRound)},
         {"3-D mouse", "fly and turn; its buttons: home, keep comfortable"},
         {"F1", "these keys"},
-        {"Esc", "back, or quit; Ctrl+Q quits; both ask first while a job runs"},
+        {"Esc", "close what is open, then leave full screen"},
+        {"Ctrl+Q", "quit; asks first while something is at work", does(Quit)},
     };
     return keys;
 }

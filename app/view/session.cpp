@@ -64,8 +64,7 @@ void ViewSession::act(const ViewAction& action) {
         actOnEyes(action.command) || actOnStereo(action))
         return;
     switch (action.command) {
-        case ViewCommand::Quit:
-            mQuit = true;
+        case ViewCommand::Back:
             break;
         case ViewCommand::Screenshot:
             mScreenshot = true;

@@ -96,7 +96,6 @@ public:
     void driftAtRest(bool drifts) { mDriftsAtRest = drifts; }
     ComposeSetting compose() const;
 
-    bool quit() const { return mQuit; }
     bool moving() const { return mMoving; }  // things change without input: do not sleep
     // Returns whether the pose or the picture's content changes: eyes that only come together or apart do not
     // count, and follow whole pictures.
@@ -161,7 +160,7 @@ private:
     std::optional<double> mFov;  // radians; empty: the scene's
     double mTime = 0;            // time in seconds of moving parts of the scene
     bool mDriftsAtRest = true;
-    bool mStereoOn = true, mSwapped = false, mLinear = false, mQuit = false, mCaptured = false;
+    bool mStereoOn = true, mSwapped = false, mLinear = false, mCaptured = false;
     bool mMoving = false, mFlying = false, mScreenshot = false;
     bool mFresh = true;
     FrameRequest mRequest;

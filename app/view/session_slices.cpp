@@ -20,7 +20,7 @@ bool SessionSlices::act(ViewCommand command, SessionSurface& surface) {
                command == ViewCommand::FindAgain;
     }
     switch (command) {
-        case ViewCommand::Quit:
+        case ViewCommand::Back:
             close();
             return true;
         case ViewCommand::Slices:

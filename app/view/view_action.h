@@ -6,7 +6,7 @@
 namespace stereonav {
 
 enum class ViewCommand {
-    Quit,  // closes what is open over the picture first, then the window
+    Back,  // closes what is open over the picture, then leaves full screen; never the window
     // Actions of the interface, not of the session.
     Help,
     HideInterface,
@@ -29,7 +29,7 @@ enum class ViewCommand {
     AddFinding,
     OpenPath,
     FullScreen,
-    QuitAtOnce,
+    Quit,  // asks first while something is at work
     // Actions of the session.
     Screenshot,
     Home,

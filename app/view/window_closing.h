@@ -24,6 +24,7 @@ public:
     // Closes the window unless there is something to ask first: then the question is shown.
     void leave();
     std::string question() const;  // "": nothing is asked
+    bool asks() const { return !question().empty(); }
     void goOn() { mQuestion.goOn(); }
     // Returns whether the last turn was the final one. The window's own button asks like a key; asked: called
     // then.
@@ -34,7 +35,7 @@ public:
             leave();
             asked();
         }
-        return mEnds || (mSession && mSession->quit());
+        return mEnds;
     }
 
 private:

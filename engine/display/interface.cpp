@@ -178,6 +178,7 @@ struct Interface::State {
     std::uint64_t digest = 0;
     std::string clipboard;
     bool down[ImGuiMouseButton_COUNT] = {};
+    bool closesPopups = false;  // in the next layout
     InterfaceStill still;
     glm::ivec2 laidOut{0};  // pixels of the framebuffer then
 
@@ -235,6 +236,11 @@ struct Interface::State {
         bool pressedSome = false;
         while (!events.empty() && feel(events.front(), io, pressedSome)) events.pop_front();
     }
+    // Return whether a text is being written, and whether an open box holds the keyboard: it asked for that
+    // in the last layout by CaptureKeyboardFromApp(). The text field of the last layout may have been closed
+    // since by Enter: then the next key is not kept from flight.
+    bool writes() const { return context->IO.WantTextInput && context->ActiveId != 0; }
+    bool boxHolds() const { return context->WantCaptureKeyboardNextFrame == 1; }
     void use() const { ImGui::SetCurrentContext(context); }
     void takeLook();
 };
@@ -320,6 +326,8 @@ bool Interface::layOut(const InterfacePlaces& places, double dt, const std::func
         const bool late = turn > 0 && state.events.empty();
         state.feelEvents();
         ImGui::NewFrame();
+        if (std::exchange(state.closesPopups, false) && !state.context->OpenPopupStack.empty())
+            ImGui::ClosePopupToLevel(0, true);
         draw();
         ImGui::Render();
         // With as many corners as before nothing has another size: figures that changed are in place.
@@ -458,12 +466,15 @@ bool Interface::takesKey(int key, int modifiers, bool pressed) {
     if (key < 0 || key >= IM_ARRAYSIZE(ImGuiIO::KeysDown)) return false;
     mState->use();
     const bool popup = key == GLFW_KEY_ESCAPE && !mState->context->OpenPopupStack.empty();
+    // What is written in a popup ends first. The library closes popups by keys only where it is steered by
+    // them.
+    if (popup && pressed && !mState->writes()) mState->closesPopups = true;
     mState->events.push_back(
         {.kind = Event::Kind::Key, .which = key, .pressed = pressed, .modifiers = modifiers});
     const char* const letter = glfwGetKeyName(key, 0);
     const bool quits = (modifiers & GLFW_MOD_CONTROL) != 0 && letter && std::string_view(letter) == "q";
-    // Keys with a function go on having it, and Ctrl+Q.
-    return popup || (holdsKeyboard() && key < GLFW_KEY_F1 && !quits);
+    // Keys with a function go on having it beside a text, and Ctrl+Q always.
+    return popup || ((mState->boxHolds() || (mState->writes() && key < GLFW_KEY_F1)) && !quits);
 }
 
 bool Interface::takesText(unsigned codePoint) {
@@ -473,10 +484,8 @@ bool Interface::takesText(unsigned codePoint) {
 }
 
 bool Interface::holdsKeyboard() const {
-    // The text field of the last layout may have been closed since by Enter: then the next key is not kept
-    // from flight.
     mState->use();
-    return ImGui::GetIO().WantTextInput && mState->context->ActiveId != 0;
+    return mState->boxHolds() || mState->writes();
 }
 
 }  // namespace stereonav

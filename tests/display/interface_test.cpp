@@ -9,6 +9,7 @@
 #include <imgui.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -200,6 +201,53 @@ TEST_F(InterfaceTest, ATextKeepsItsKeys) {
     click(200, 150);
     layOut(kWhole);
     EXPECT_FALSE(mInterface->holdsKeyboard()) << "a click beside it ends writing";
+}
+
+// Enter ends the writing of a text; the box that it is in keeps the keys.
+TEST_F(InterfaceTest, ABoxKeepsEveryKeyUntilItIsClosed) {
+    bool open = true;
+    const auto layOutBox = [&] {
+        mInterface->layOut(kWhole, 0.02, [&] {
+            if (!open) return;
+            ImGui::Begin("box", nullptr, ImGuiWindowFlags_NoSavedSettings);
+            ImGui::CaptureKeyboardFromApp(true);
+            ImGui::End();
+        });
+    };
+    layOutBox();
+    EXPECT_TRUE(mInterface->holdsKeyboard());
+    for (const int key : {GLFW_KEY_W, GLFW_KEY_ENTER, GLFW_KEY_TAB, GLFW_KEY_ESCAPE, GLFW_KEY_F12}) {
+        EXPECT_TRUE(mInterface->takesKey(key, 0, true)) << key;
+        mInterface->takesKey(key, 0, false);
+        layOutBox();
+    }
+    EXPECT_FALSE(mInterface->takesKey(GLFW_KEY_Q, GLFW_MOD_CONTROL, true)) << "ends the program all the same";
+    mInterface->takesKey(GLFW_KEY_Q, GLFW_MOD_CONTROL, false);
+    open = false;
+    layOutBox();
+    EXPECT_FALSE(mInterface->holdsKeyboard());
+    EXPECT_FALSE(mInterface->takesKey(GLFW_KEY_W, 0, true));
+}
+
+TEST_F(InterfaceTest, EscapeClosesWhatHasPoppedUpAndNoMore) {
+    bool opens = true, shown = false;
+    const auto layOutMenu = [&] {
+        mInterface->layOut(kWhole, 0.02, [&] {
+            if (std::exchange(opens, false)) ImGui::OpenPopup("menu");
+            shown = ImGui::BeginPopup("menu");
+            if (!shown) return;
+            ImGui::MenuItem("item");
+            ImGui::EndPopup();
+        });
+    };
+    layOutMenu();
+    layOutMenu();
+    ASSERT_TRUE(shown);
+    EXPECT_TRUE(mInterface->takesKey(GLFW_KEY_ESCAPE, 0, true));
+    EXPECT_TRUE(mInterface->takesKey(GLFW_KEY_ESCAPE, 0, false));
+    layOutMenu();
+    EXPECT_FALSE(shown);
+    EXPECT_FALSE(mInterface->takesKey(GLFW_KEY_ESCAPE, 0, true)) << "nothing has popped up: the window's";
 }
 
 TEST_F(InterfaceTest, ThePictureKnowsItsPointer) {

@@ -23,8 +23,8 @@ TEST(ClosingQuestion, NamesAllThatIsAtWork) {
     const std::vector<std::string> both{"a recording of 3 s, which is kept", kMovie[0]};
     EXPECT_EQ(question.text(both, 100), "") << "nobody wants to close it";
     EXPECT_FALSE(question.wish(both, 100));
-    EXPECT_THAT(question.text(both, 100),
-                AllOf(HasSubstr(both[0]), HasSubstr(both[1]), HasSubstr("Esc again")));
+    EXPECT_THAT(question.text(both, 100), AllOf(HasSubstr(both[0]), HasSubstr(both[1]),
+                                                HasSubstr("Ctrl+Q again quits"), HasSubstr("Esc goes on")));
     EXPECT_TRUE(question.wish(both, 100 + ClosingQuestion::kAsked_s));
 }
 

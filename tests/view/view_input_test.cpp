@@ -33,7 +33,7 @@ TEST(ViewKeys, LettersFollowTheUsersLayout) {
 }
 
 TEST(ViewKeys, KeysWithoutLetters) {
-    EXPECT_EQ(commandOf({GLFW_KEY_ESCAPE, 0, false, false}), ViewCommand::Quit);
+    EXPECT_EQ(commandOf({GLFW_KEY_ESCAPE, 0, false, false}), ViewCommand::Back) << "Esc never quits";
     EXPECT_EQ(commandOf({GLFW_KEY_F1, 0, false, false}), ViewCommand::Help);
     EXPECT_EQ(commandOf({GLFW_KEY_F12, 0, false, false}), ViewCommand::Screenshot);
     EXPECT_EQ(commandOf({GLFW_KEY_SPACE, ' ', false, false}), ViewCommand::Home);

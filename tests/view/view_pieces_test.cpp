@@ -95,7 +95,7 @@ TEST_F(ViewPieces, AClickTakesOrLeavesThePieceUnderIt) {
     EXPECT_THAT(s.notice(), testing::HasSubstr("value 0 at 30.0,20.0,40.0: click in gas"));
     s.slices().click(2, 200);
     EXPECT_THAT(s.slices().status(), testing::HasSubstr("3 changes")) << "beside the study, and in tissue";
-    s.act({ViewCommand::Quit});
+    s.act({ViewCommand::Back});
     EXPECT_FALSE(s.slices().shown());
     s.act({ViewCommand::Slices});
     EXPECT_THAT(s.slices().status(), testing::HasSubstr("3 changes")) << "Esc does not take them away";

@@ -357,9 +357,6 @@ TEST_F(ViewSessionTest, ScreenshotsAreWishedOnceEach) {
     s.act({ViewCommand::Screenshot});
     EXPECT_TRUE(s.takeScreenshotWish());
     EXPECT_FALSE(s.takeScreenshotWish());
-    EXPECT_FALSE(s.quit());
-    s.act({ViewCommand::Quit});
-    EXPECT_TRUE(s.quit());
 }
 
 TEST_F(ViewSessionTest, TheSunMovesWhereLightIsBaked) {

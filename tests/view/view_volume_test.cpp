@@ -422,15 +422,13 @@ TEST_F(ViewVolume, SlicesAreReadOnceAndLeftByEscape) {
     EXPECT_FALSE(s.slices().takeStudyWish());
     s.slices().show(mStudy);
     EXPECT_TRUE(s.slices().shown());
-    s.act({ViewCommand::Quit});
+    s.act({ViewCommand::Back});
     EXPECT_FALSE(s.slices().shown());
-    EXPECT_FALSE(s.quit());
     s.act({ViewCommand::Slices});
     EXPECT_TRUE(s.slices().shown()) << "kept";
     EXPECT_FALSE(s.slices().takeStudyWish());
-    s.act({ViewCommand::Quit});
-    s.act({ViewCommand::Quit});
-    EXPECT_TRUE(s.quit());
+    s.act({ViewCommand::Back});
+    EXPECT_FALSE(s.slices().shown());
 }
 
 TEST_F(ViewVolume, PagesTurnWithinTheStudy) {

@@ -20,6 +20,8 @@ records() {
     xdotool keyup w
     turns
 }
+# grows: the recording is longer than $bytes
+grows() { [ "$(wc -c <"$shots/flight_0001.gltf")" -gt "$bytes" ]; }
 ended() {
     wait "$pid"
     echo "$1 $?" >>ends.txt
@@ -45,9 +47,31 @@ asks() {
     ended "$step"
 }
 
+# Escape leaves full screen, and answers the question; it ends neither the recording nor the window.
 records
-asks escape keys Escape
+keys F11
+turns
+keys Escape Escape Escape
+still_there
+keys ctrl+q Escape Escape
+still_there
+bytes=$(wc -c <"$shots/flight_0001.gltf")
+xdotool keydown w
+until_true grows
+xdotool keyup w
+turns
+asks quit keys ctrl+q
 records
+# Keys belong to the search while it is open, also where nothing is found: no picture is saved, nothing ends.
+keys ctrl+p
+turns
+xdotool type --delay 20 qqqq
+turns
+keys Return z p x m
+turns
+still_there
+keys Escape
+turns
 asks closed "$client" close "$window"
 records
 kill -KILL "$pid"

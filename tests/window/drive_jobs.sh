@@ -168,6 +168,6 @@ for step in closed_movie stopped_movie; do
     press 837 358
     until_true works
     until_true writes_movie
-    if [ "$step" = closed_movie ]; then insist keys Escape; else kill -TERM "$pid"; fi
+    if [ "$step" = closed_movie ]; then insist keys ctrl+q; else kill -TERM "$pid"; fi
     ended "$step"
 done

@@ -155,9 +155,9 @@ await_end() {
     wait "$pid"
     status=$?
 }
-# Escape, and the exit status in status.txt.
+# Ctrl+Q, and the exit status in status.txt.
 close_window() {
-    keys Escape
-    await_end Escape
+    keys ctrl+q
+    await_end ctrl+q
     echo "$status" >"$out/status.txt"
 }

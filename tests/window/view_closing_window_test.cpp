@@ -22,7 +22,7 @@ protected:
 TEST_F(ClosingWindow, AsksWhileAFlightIsRecordedAndKeepsIt) {
     const std::string scenes = "'" + ground("one.asc").string() + "' '" + ground("other.asc").string() + "'";
     ASSERT_EQ(drive("drive_closing.sh", scenes), 0) << textOf("problems.txt") << textOf("log.txt");
-    EXPECT_EQ(textOf("ends.txt"), "escape 0\nclosed 0\nkilled 137\nstopped 1\nother 0\n");
+    EXPECT_EQ(textOf("ends.txt"), "quit 0\nclosed 0\nkilled 137\nstopped 1\nother 0\n");
     for (int number = 1; number <= 5; ++number) {
         const fs::path file = mFolder / "shots" / ("flight_000" + std::to_string(number) + ".gltf");
         ASSERT_TRUE(fs::exists(file)) << file;

@@ -187,6 +187,7 @@ std::optional<std::filesystem::path> FileBrowser::draw(FileLooks& looks) {
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) mOpen = false;
     if (done && !mName.empty() && mOpen) choose(mFolder / mName);
+    if (mOpen) ImGui::CaptureKeyboardFromApp(true);  // every key belongs to the box
     ImGui::End();
     return std::exchange(mChosen, std::nullopt);
 }

@@ -36,7 +36,7 @@ void fileMenu(const PanelParts& parts, ShownPanels& panels, MenuWishes& wishes) 
         parts.clipboard.copy(commandLineOf(parts.second.settingsToOpen()));
     tooltip("Copies the command that opens the window as it is set now.");
     ImGui::Separator();
-    if (ImGui::MenuItem("Quit", "Ctrl+Q")) parts.actions.ask({ViewCommand::QuitAtOnce});
+    if (ImGui::MenuItem("Quit", "Ctrl+Q")) parts.actions.ask({ViewCommand::Quit});
     ImGui::EndMenu();
 }
 

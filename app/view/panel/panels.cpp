@@ -268,6 +268,10 @@ void Panels::forget() {
     forgetStartPictures();
 }
 
+bool Panels::holdsKeys() const {
+    return mState->search.isOpen() || mState->files.isOpen();
+}
+
 bool Panels::closeOne() {
     State& state = *mState;
     if (state.search.isOpen()) return state.search.close(), true;

@@ -30,6 +30,8 @@ public:
 
     // Closes the topmost open element; returns false where there is none.
     bool closeOne();
+    // Returns whether a box is open that all keys belong to.
+    bool holdsKeys() const;
 
 private:
     struct State;

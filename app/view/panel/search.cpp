@@ -44,9 +44,9 @@ void SearchBox::draw(SceneChanges& changes, AskedActions& actions) {
     if (mFresh) {
         mWords.clear();
         mChosen = 0;
-        ImGui::SetKeyboardFocusHere();
     }
-    mFresh = false;
+    if (mFresh || mWrites) ImGui::SetKeyboardFocusHere();
+    mFresh = mWrites = false;
     ImGui::SetNextItemWidth(-FLT_MIN);
     const bool entered = ImGui::InputTextWithHint("##words", "options, commands, keys", &mWords,
                                                   ImGuiInputTextFlags_EnterReturnsTrue);
@@ -86,6 +86,11 @@ void SearchBox::draw(SceneChanges& changes, AskedActions& actions) {
     mChosen = std::min(mChosen, std::max(row - 1, 0));
     if (row == 0) quietText("Nothing matches these words.");
     ImGui::EndChild();
+    // After Enter, or a click on a row, the words go on being written.
+    const bool popup = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);
+    if (mOpen && !ImGui::IsAnyItemActive() && !popup && !ImGui::IsMouseDown(ImGuiMouseButton_Left))
+        mWrites = true;
+    if (mOpen) ImGui::CaptureKeyboardFromApp(true);  // every key belongs to the box
     ImGui::End();
 }
 

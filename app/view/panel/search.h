@@ -15,7 +15,7 @@ public:
     void draw(SceneChanges& changes, AskedActions& actions);
 
 private:
-    bool mOpen = false, mFresh = false;
+    bool mOpen = false, mFresh = false, mWrites = false;  // mWrites: the words get the keyboard again
     std::string mWords;
     int mChosen = 0;
 };

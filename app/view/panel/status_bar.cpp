@@ -101,7 +101,7 @@ void askBeforeClosing(const PanelParts& parts, const std::string& question, floa
     ImGui::PushStyleColor(ImGuiCol_Text, warningNow());
     wrappedText(question, wrap);
     ImGui::PopStyleColor();
-    if (ImGui::Button("Quit##closing")) parts.actions.ask({ViewCommand::QuitAtOnce});
+    if (ImGui::Button("Quit##closing")) parts.actions.ask({ViewCommand::Quit});
     ImGui::SameLine();
     if (ImGui::Button("Go on##closing")) parts.closing.goOn();
 }

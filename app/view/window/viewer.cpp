@@ -122,7 +122,9 @@ double Viewer::waitSeconds() const {
 }
 
 void Viewer::takeInput(double dt) {
-    for (const ViewAction& action : mInput.take(mStage.controls(), dt)) act(action);
+    // Keys that come with the one that opens a box are meant for the box.
+    for (const ViewAction& action : mInput.take(mStage.controls(), dt))
+        if (!mStage.panels().holdsKeys() || action.command == ViewCommand::Quit) act(action);
 }
 
 void Viewer::takeDrops() {
@@ -140,14 +142,15 @@ void Viewer::act(const ViewAction& action) {
     mSession->act(action);
 }
 
-// Closes first what is open over the picture, then work in progress, then the window.
-bool Viewer::quit() {
+// Closes the topmost of what is open over the picture, then leaves full screen. Returns false where the
+// session closes it.
+bool Viewer::back() {
+    if (mClosing.asks()) return mClosing.goOn(), true;
     if (mStage.panels().closeOne()) return true;
-    if (mSession && mSession->slices().shown() && !mStudy.busy()) return false;
-    if (mSession && mStudy.busy())
-        mStudy.cancel();
-    else
-        mClosing.leave();
+    if (mSession && mStudy.busy()) return mStudy.cancel(), true;
+    if (mSession && mSession->slices().shown()) return false;
+    if (mSession && mSession->mouseCaptured()) return mSession->act({ViewCommand::CaptureMouse}), true;
+    if (mDisplay.fullScreen()) mDisplay.toggleFullScreen();
     return true;
 }
 
@@ -155,9 +158,9 @@ bool Viewer::actOnInterface(ViewCommand command) {
     Panels& panels = mStage.panels();
     ShownPanels& shown = panels.shown();
     switch (command) {
+        case ViewCommand::Back:
+            return back();
         case ViewCommand::Quit:
-            return quit();
-        case ViewCommand::QuitAtOnce:
             mClosing.leave();
             return true;
         case ViewCommand::FullScreen:

@@ -54,7 +54,7 @@ private:
     void act(const ViewAction& action);
     bool actOnInterface(ViewCommand command);  // commands that need no scene
     bool actOnInstruments(ViewCommand command);
-    bool quit();
+    bool back();
     void step(bool forward);  // undo or redo
     void takeScene();
     void beginSession();
