@@ -83,6 +83,7 @@ void SessionPath::edit(const std::function<RecordedPath(const RecordedPath&)>& e
 }
 
 void SessionPath::open(RecordedPath path) {
+    if (mIs == Is::Unsaved && mPath.samples().size() > 1) save();  // the opened one takes its place
     put([&](const RecordedPath&) { return std::move(path); }, Is::InFile);
 }
 

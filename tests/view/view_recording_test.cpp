@@ -80,13 +80,17 @@ TEST_F(ViewRecording, WhatWasRecordedOrChangedIsKeptAtItsEnd) {
         s.paths().set(lasting(8));
         s.paths().save();
         EXPECT_EQ(s.paths().keepWork(), "") << "it was saved";
+        s.paths().set(lasting(6));
+        s.paths().open(lasting(5));
+        EXPECT_NEAR(readPath(mFolder / "flight_0004.gltf").duration(), 6, 1e-3) << "it is lost by no other";
+        EXPECT_EQ(s.paths().path().duration(), 5);
         s.paths().set(lasting(9));
         s.act({ViewCommand::Record});  // replaces a path that is in no file
         for (int i = 0; i < 120; ++i) s.step(forward, kRecordedFrame);
         s.act({ViewCommand::Record});
         EXPECT_NEAR(s.paths().path().duration(), 2, 1e-3);
     }
-    double seconds[] = {1, 7, 8, 2, 9}, found = 0;
+    double seconds[] = {1, 7, 8, 6, 2, 9}, found = 0;
     for (const auto& entry : fs::directory_iterator(mFolder)) {
         const double duration = readPath(entry.path()).duration();
         EXPECT_NE(std::find_if(std::begin(seconds), std::end(seconds),
@@ -95,7 +99,7 @@ TEST_F(ViewRecording, WhatWasRecordedOrChangedIsKeptAtItsEnd) {
             << entry.path();
         ++found;
     }
-    EXPECT_EQ(found, 5);
+    EXPECT_EQ(found, 6);
     EXPECT_NEAR(readPath(file).duration(), 1, 1e-3) << "none was written over";
 }
 
