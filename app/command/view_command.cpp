@@ -37,11 +37,11 @@ std::vector<Option> shownOptions() {
          .value = textValue().checked(problemOfMode),
          .help = "how two eyes are shown: ml, mr, sbsl, sbsr, tbl, irl, arcd, ...; al, ar: alternating, for "
                  "shutter glasses and a monitor of 100 Hz or more; quad: the graphics driver's stereo",
-         .fallback = "sbsl",
+         .fallback = "as it was left, at first one eye",
          .panel = OptionPanel::View,
          .take =
              [](OptionTargets& to, const OptionValue& value) {
-                 to.of<ViewOptions>().mode = outputModeFromName(value.text).value_or(OutputMode::SideBySide);
+                 to.of<ViewOptions>().mode = outputModeFromName(value.text);
              }},
         {.key = "full-screen",
          .value = textValue().checked([](const std::string& text) {

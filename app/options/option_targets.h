@@ -38,7 +38,7 @@ public:
         if constexpr (requires { options.size; }) size = &options.size;
         if constexpr (requires { options.telling; }) telling = &options.telling;
         if constexpr (requires { options.rays; }) rays = &options.rays;
-        if constexpr (requires { options.mode; }) mode = &options.mode;
+        if constexpr (requires { mode = &options.mode; }) mode = &options.mode;  // not that of view, optional
         if constexpr (requires { options.method; }) method = &options.method;
         if constexpr (requires { options.path; }) path = &options.path;
     }

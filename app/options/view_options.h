@@ -14,10 +14,10 @@ struct ViewOptions {
     SceneOptions scene = shownSceneOptions();
     Telling telling;
     SizeOption size;
-    std::string method = "auto";  // auto: the frame plan's choice
-    OutputMode mode = OutputMode::SideBySide;
-    std::string path;   // flight that the key Z starts first
-    std::string shots;  // folder for screenshots and recorded flights; "": the working folder
+    std::string method = "auto";     // auto: the frame plan's choice
+    std::optional<OutputMode> mode;  // empty: as the window was left, at first one eye
+    std::string path;                // flight that the key Z starts first
+    std::string shots;               // folder for screenshots and recorded flights; "": the working folder
     SweepChoice sweep = SweepChoice::Auto;  // processor that sweeps a medium
     std::string fullScreen;                 // "": a window; auto, a monitor's number, or part of its name
     std::optional<double> screenWidth_mm, viewingDistance_mm;  // empty: as the monitor reports, and a default

@@ -122,13 +122,21 @@ bool eyesAsBegun(const ViewSession& session, double StereoSetting::*part) {
     return both || wanted.*part == session.open().scene->stereo.*part;
 }
 
+// One eye is the left one's mode where the window begins so, and no setting where key 3 came to it.
+std::string modeText(const ViewSession& s) {
+    const bool two = s.shownMode().stereo || s.firstMode().stereo;
+    return std::string(infoOf(two ? s.mode() : OutputMode::Left).shortName);
+}
+bool modeAsBegun(const ViewSession& s) {
+    return s.firstMode().stereo ? s.mode() == s.firstMode().mode : !s.shownMode().stereo;
+}
+
 constexpr Live kLive[] = {
-    {"mode", always, [](const ViewSession& s) { return std::string(infoOf(s.mode()).shortName); },
-     [](const ViewSession& s) { return s.mode() == s.firstMode(); },
+    {"mode", always, modeText, modeAsBegun,
      [](ViewSession& s, const OptionValue& value) {
          s.chooseMode(outputModeFromName(value.text).value_or(s.mode()));
      },
-     [](ViewSession& s) { s.chooseMode(s.firstMode()); }},
+     [](ViewSession& s) { s.show(s.firstMode()); }},
     {"method", always, [](const ViewSession& s) { return std::string(s.method()); },
      [](const ViewSession& s) { return s.method() == s.open().way.method; },
      [](ViewSession& s, const OptionValue& value) {

@@ -111,8 +111,7 @@ bool SceneChanges::open(const std::string& scene) {
                                 "viewing-distance", "late-warp", "target-ms"})
             if (const auto kept = given.find(key); kept != given.end()) settings.insert(*kept);
         ViewOptions options = viewOptionsOf(settings);
-        if (mSession) mDisplay.setMode(mSession->mode());
-        options.mode = mDisplay.mode();
+        if (mSession) mDisplay.setMode(mSession->shownMode());
         load(options, settingTextsOf(options.scene.given), true);
     });
     return mNotices.failure().empty();
@@ -120,7 +119,7 @@ bool SceneChanges::open(const std::string& scene) {
 
 void SceneChanges::goTo(std::shared_ptr<const OpenScene> scene, const SceneMade& next, const SceneMade& flown,
                         Arrival arrival) {
-    mDisplay.setMode(mSession->mode());
+    mDisplay.setMode(mSession->shownMode());
     mAnother = true;
     mSettings.begin(next, flown);
     mArrival = std::move(arrival);

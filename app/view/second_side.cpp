@@ -36,7 +36,6 @@ void SecondSide::open(const std::string& study) {
         if (shownAs(options.scene).swept)
             throw Error(study, "", "expected a study that is shown as a surface", "name a CT study");
         options.scene.skyTurns = true;
-        options.mode = mDisplay.mode();
         const SizeOption size = mDisplay.windowSize();
         checkMethod(options.scene, options.method);
         checkSize(size, options.scene, kViewBytes);

@@ -50,8 +50,8 @@ ViewSession::ViewSession(std::shared_ptr<const OpenScene> scene, const Options& 
       mSurface(mScene, mNotice),
       mSlices(mScene, mNotice, [this] { return pose().position; }),
       mStereo(shown()),
-      mMode(options.mode),
-      mFirstMode(options.mode),
+      mShown{options.mode, options.stereo},
+      mFirst{options.mode, options.firstStereo},
       mQuadBuffer(options.quadBuffer),
       mMethod(mScene->way.method) {
     if (!shown().warning.empty()) notify(shown().warning);
@@ -117,8 +117,7 @@ void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
 bool ViewSession::actOnStereo(const ViewAction& action) {
     switch (action.command) {
         case ViewCommand::ToggleStereo:
-            mStereoOn = !mStereoOn;
-            notify(mStereoOn ? "stereo on" : "stereo off");
+            toggleStereo();
             return true;
         case ViewCommand::SwapEyes:
             mSwapped = !mSwapped;
@@ -133,7 +132,7 @@ bool ViewSession::actOnStereo(const ViewAction& action) {
         case ViewCommand::SetMode:
             if (action.mode == OutputMode::QuadBuffer && !mQuadBuffer)
                 return notify("this window has no buffer for each eye: start with --mode quad"), true;
-            mMode = action.mode;
+            mShown = {action.mode, true};
             stepMode(0);
             return true;
         case ViewCommand::ShowFullCast:
@@ -184,9 +183,22 @@ bool ViewSession::actOnEyes(ViewCommand command) {
 
 // --- modes
 
+// From one eye the first step goes to the mode that both eyes were shown in last.
 void ViewSession::stepMode(int by) {
-    mMode = steppedMode(mMode, by, mFirstMode);
-    notify(fmt::format("{} ({})", infoOf(mMode).longName, infoOf(mMode).shortName));
+    const bool returns = !mShown.stereo && by > 0 && infoOf(mShown.mode).layout != OutputLayout::OneEye;
+    mShown = {steppedMode(mShown.mode, returns ? 0 : by, mFirst.mode), true};
+    notify(fmt::format("{} ({})", infoOf(mShown.mode).longName, infoOf(mShown.mode).shortName));
+}
+
+void ViewSession::toggleStereo() {
+    const bool on = !stereoOn();
+    if (on && infoOf(mShown.mode).layout == OutputLayout::OneEye) mShown.mode = ShownMode().mode;
+    mShown.stereo = on;
+    notify(on ? "stereo on" : "stereo off");
+}
+
+void ViewSession::show(const ShownMode& mode) {
+    if (mode.mode != OutputMode::QuadBuffer || mQuadBuffer) mShown = mode;
 }
 
 void ViewSession::showTruth(ViewCommand command) {
@@ -211,10 +223,9 @@ void ViewSession::reset() {
     mFlight.reset();
     mLight.reset();
     mStereo.reset(shown());
-    mMode = mFirstMode;
+    mShown = mFirst;
     mMethod = mScene->way.method;
     mFov.reset();
-    mStereoOn = true;
     mSwapped = mLinear = false;
     notify("reset");
 }
@@ -333,7 +344,7 @@ const FrameRequest& ViewSession::requestFor(int width, int height, double ahead,
     wanted.time = offered<Animation>() ? mTime + ahead : mTime;
     wanted.sun = mLight.sun();
     wanted.paint = paintVersion(shown());
-    wanted.twoEyes = mStereoOn;
+    wanted.twoEyes = mShown.stereo;
     wanted.mode = compose().mode;
     wanted.fitEyes = mStereo.fits();
     wanted.truth = mTruth;
@@ -345,11 +356,11 @@ const FrameRequest& ViewSession::requestFor(int width, int height, double ahead,
 }
 
 ComposeSetting ViewSession::compose() const {
-    if (!mStereoOn) return {OutputMode::Left, false, mLinear};
+    if (!mShown.stereo) return {OutputMode::Left, false, mLinear};
     // A difference is shown to both eyes where a display mixes them; they have the same size there.
-    if (mTruth == TruthView::Difference && mixesEyes(infoOf(mMode).layout))
+    if (mTruth == TruthView::Difference && mixesEyes(infoOf(mShown.mode).layout))
         return {OutputMode::Right, false, mLinear};
-    return {mMode, mSwapped, mLinear};
+    return {mShown.mode, mSwapped, mLinear};
 }
 
 std::string ViewSession::measuredText(const ViewFrame& frame) const {

@@ -15,6 +15,7 @@
 #include "app/view/session_path.h"
 #include "app/view/session_slices.h"
 #include "app/view/session_surface.h"
+#include "app/view/shown_mode.h"
 #include "app/view/stereo.h"
 #include "app/view/view_action.h"
 #include "app/view/view_frame.h"
@@ -31,6 +32,7 @@ public:
         std::filesystem::path folder;      // folder for recorded flights
         bool quadBuffer = false;           // whether the window has a quad buffer
         bool speedByDistance = false;
+        bool stereo = true, firstStereo = true;  // whether both eyes are shown, now and after a reset
     };
     ViewSession(std::shared_ptr<const OpenScene> scene, const Options& options);
     ViewSession(const ViewSession&) = delete;
@@ -52,11 +54,14 @@ public:
     std::string_view method() const { return mMethod; }
     Lens lens() const;  // lens without a size
     const StereoSetting& eyesWanted() const { return mStereo.target(); }
-    bool stereoOn() const { return mStereoOn; }
+    // Returns whether both eyes are shown.
+    bool stereoOn() const { return infoOf(mShown.shown()).layout != OutputLayout::OneEye; }
+    const ShownMode& shownMode() const { return mShown; }
+    void show(const ShownMode& mode);
     bool swapped() const { return mSwapped; }
     const OpenScene& open() const { return *mScene; }
     const std::shared_ptr<const OpenScene>& openShared() const { return mScene; }
-    OutputMode firstMode() const { return mFirstMode; }
+    const ShownMode& firstMode() const { return mFirst; }
     const SessionFlight& moves() const { return mFlight; }
     SessionPath& paths() { return mPaths; }
     const SessionPath& paths() const { return mPaths; }
@@ -121,7 +126,7 @@ public:
     // Returns the measurement of the picture that rests; "" where it is of another one.
     std::string measuredText(const ViewFrame& frame) const;
     bool followsClearance() const { return mStereo.follows(); }
-    OutputMode mode() const { return mMode; }
+    OutputMode mode() const { return mShown.mode; }
     Pose pose() const { return mPaths.playing() ? mPaths.played() : flight().pose(); }
     const Flight& flight() const { return mFlight.flight(); }
 
@@ -130,6 +135,7 @@ private:
     bool actOnStereo(const ViewAction& action);
     bool actOnEyes(ViewCommand command);
     void stepMode(int by);
+    void toggleStereo();
     void nextMethod();
     void showTruth(ViewCommand command);
     void reset();
@@ -150,7 +156,7 @@ private:
     MotionAhead mAhead;
     ViewStereo mStereo;
     double mDepthAhead = 0;  // in metres
-    OutputMode mMode, mFirstMode;
+    ShownMode mShown, mFirst;
     bool mQuadBuffer = false;  // whether the window has a quad buffer
     std::string_view mMethod;
     TruthView mTruth = TruthView::None;
@@ -160,7 +166,7 @@ private:
     std::optional<double> mFov;  // radians; empty: the scene's
     double mTime = 0;            // time in seconds of moving parts of the scene
     bool mDriftsAtRest = true;
-    bool mStereoOn = true, mSwapped = false, mLinear = false, mCaptured = false;
+    bool mSwapped = false, mLinear = false, mCaptured = false;
     bool mMoving = false, mFlying = false, mScreenshot = false;
     bool mFresh = true;
     FrameRequest mRequest;

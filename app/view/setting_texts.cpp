@@ -129,8 +129,9 @@ std::string poseText(const Pose& pose) {
                        kDegrees * angles.roll);
 }
 
-SettingTexts withEyes(SettingTexts settings, const StereoSetting& eyes) {
-    settings["separation"] = {fmt::format("{:.6g}", eyes.separation)};
+SettingTexts withEyes(SettingTexts settings, const StereoSetting& eyes, bool one) {
+    settings["separation"] = {fmt::format("{:.6g}", one ? 0.0 : eyes.separation)};
+    if (one) settings["mode"] = {std::string(infoOf(OutputMode::Left).shortName)};
     settings["zero-parallax"] = {fmt::format("{:.6g}", eyes.zeroParallax)};
     return settings;
 }

@@ -37,8 +37,8 @@ std::string renderLineOf(const SettingTexts& settings, const std::string& pose, 
 // Returns a pose in the form of --pose.
 std::string poseText(const Pose& pose);
 // Returns the settings with these eyes, for a picture, whose eyes then neither follow the room nor fit
-// themselves to it.
-SettingTexts withEyes(SettingTexts settings, const StereoSetting& eyes);
+// themselves to it. one: one eye is shown, in the middle of the head.
+SettingTexts withEyes(SettingTexts settings, const StereoSetting& eyes, bool one = false);
 // Returns the arguments of a command, with those settings that it shares with `view`.
 std::vector<std::string> commandWords(CommandSet command, const SettingTexts& settings);
 // Returns the text as one word of a POSIX shell; where it is not printable, in the form $'\x1b' of bash, ksh

@@ -15,12 +15,30 @@ constexpr const char* kNoQuadBuffer =
 
 }  // namespace
 
-ViewDisplay::ViewDisplay(Window& window, const ViewOptions& options) : mWindow(window), mMode(options.mode) {
+// A benchmark measures both eyes.
+ViewDisplay::ViewDisplay(Window& window, const ViewOptions& options)
+    : mWindow(window), mMode{ShownMode().mode, false}, mModeChosen(options.mode || options.bench) {
+    if (mModeChosen) mGiven = ShownMode{options.mode.value_or(ShownMode().mode), true};
+    if (mGiven) mMode = *mGiven;
     if (wantsQuadBuffer(options) && !window.quadBuffered()) {
-        mMode = OutputMode::SideBySide;
+        mMode.mode = OutputMode::SideBySide;
+        mGiven = mMode;
         mNotice = kNoQuadBuffer;
     }
     follow(options);
+}
+
+void ViewDisplay::setMode(const ShownMode& mode) {
+    mModeChosen = mModeChosen || mode != mMode;
+    mMode = mode;
+}
+
+void ViewDisplay::restoreMode(const ShownMode& kept) {
+    if (!mModeChosen && (kept.mode != OutputMode::QuadBuffer || mWindow.quadBuffered())) mMode = kept;
+}
+
+std::optional<ShownMode> ViewDisplay::modeToKeep() const {
+    return mGiven == mMode ? std::nullopt : std::optional(mMode);
 }
 
 void ViewDisplay::follow(const ViewOptions& options) {

@@ -8,6 +8,7 @@
 
 #include "app/options/view_options.h"
 #include "app/view/screen_sizes.h"
+#include "app/view/shown_mode.h"
 #include "app/view/view_frame.h"
 #include "engine/display/frame_sequence.h"
 #include "engine/display/stereo_screen.h"
@@ -35,9 +36,16 @@ public:
 
     static bool wantsQuadBuffer(const ViewOptions& options) { return options.mode == OutputMode::QuadBuffer; }
     // Returns the mode that the next session begins with: at first that of the options, or its replacement
-    // where the driver does not grant it.
-    OutputMode mode() const { return mMode; }
-    void setMode(OutputMode mode) { mMode = mode; }
+    // where the driver does not grant it; where they have none, one eye.
+    const ShownMode& mode() const { return mMode; }
+    // Takes the mode that a session shows.
+    void setMode(const ShownMode& mode);
+    // Takes a mode that was kept, unless one was given or chosen since.
+    void restoreMode(const ShownMode& kept);
+    // Returns the mode to keep; empty while it is as the options say.
+    std::optional<ShownMode> modeToKeep() const;
+    // Returns whether both eyes are shown after a reset: the options have a mode.
+    bool firstStereo() const { return mGiven.has_value(); }
     SizeOption windowSize() const;  // in pixels
     void close() { mWindow.close(); }
 
@@ -74,7 +82,9 @@ private:
     double pictureWidthOf(const ViewFrame& frame, const ScreenTold& on) const;
 
     Window& mWindow;
-    OutputMode mMode;
+    std::optional<ShownMode> mGiven;  // by the options
+    ShownMode mMode;
+    bool mModeChosen;         // by the options or the user
     std::string mFullScreen;  // value of the option
     ScreenSizes mSizes;
     std::optional<FrameSequence> mSequence;  // set while eyes alternate

@@ -44,6 +44,30 @@ void readTheme(TomlSection& window, std::string& theme) {
         window.note("theme", fmt::format("expected dark or light, got \"{}\"", name), "choose one of them");
 }
 
+// A place has all four numbers.
+void readPlace(TomlSection& window, std::optional<ScreenRect>& place) {
+    constexpr std::int64_t kFarthest = 100'000, kMissing = kFarthest + 1;
+    std::int64_t x = kMissing, y = kMissing, width = 0, height = 0;
+    window.read("x", x, -kFarthest, kFarthest);
+    window.read("y", y, -kFarthest, kFarthest);
+    window.read("width", width, 1, kFarthest);
+    window.read("height", height, 1, kFarthest);
+    if (x == kMissing || y == kMissing || width == 0 || height == 0) return;
+    place = {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)};
+}
+
+void readMode(TomlSection& stereo, std::optional<ShownMode>& mode) {
+    if (!stereo.has("mode")) return;
+    std::string name;
+    bool on = false;
+    stereo.read("mode", name);
+    stereo.read("on", on);
+    if (const auto known = outputModeFromName(name))
+        mode = {*known, on};
+    else
+        stereo.note("mode", fmt::format("there is no output mode \"{}\"", name), "leave it out");
+}
+
 std::vector<std::string> panelNames(std::vector<std::string> names) {
     if (names.size() > kMostPanels) names.resize(kMostPanels);
     std::erase_if(names, [](const std::string& name) { return name.empty() || name.size() > kLongestPanel; });
@@ -55,6 +79,8 @@ void readSections(TomlDocument& document, WindowConfig& config) {
     readTheme(window, config.theme);
     readOptional(window, "scale", config.scale, kWindowScaleRange);
     window.read("place_labels", config.placeLabels);
+    readPlace(window, config.place);
+    window.read("maximised", config.maximised);
     std::string folder;
     window.read("last_folder", folder);
     config.lastFolder = folder;
@@ -64,6 +90,8 @@ void readSections(TomlDocument& document, WindowConfig& config) {
     config.openPanels = panelNames(panels.texts("open"));
     TomlSection flight = document.section("flight");
     flight.read("speed_by_distance", config.speedByDistance);
+    TomlSection stereo = document.section("stereo");
+    readMode(stereo, config.mode);
     for (TomlSection& section : document.sections("screen")) {
         KeptScreen screen;
         if (section.has("monitor")) section.read("monitor", screen.monitor);
@@ -88,6 +116,9 @@ std::string tomlOf(const WindowConfig& config) {
     text += "theme = " + tomlText(config.theme) + "\n";
     if (config.scale) text += fmt::format("scale = {}\n", *config.scale);
     text += fmt::format("place_labels = {}\n", config.placeLabels);
+    if (const auto& at = config.place)
+        text += fmt::format("x = {}\ny = {}\nwidth = {}\nheight = {}\n", at->x, at->y, at->width, at->height);
+    text += fmt::format("maximised = {}\n", config.maximised);
     const std::string folder = config.lastFolder.string();
     if (!folder.empty() && isUtf8(folder))  // other bytes are not valid in TOML
         text += "last_folder = " + tomlText(folder) + "\n";
@@ -98,6 +129,9 @@ std::string tomlOf(const WindowConfig& config) {
         text += (k > 0 ? ", " : "open = [") + tomlText(keptText(config.openPanels[k], kLongestPanel));
     if (!config.openPanels.empty()) text += "]\n";
     text += fmt::format("\n[flight]\nspeed_by_distance = {}\n", config.speedByDistance);
+    if (config.mode)
+        text += fmt::format("\n[stereo]\nmode = \"{}\"\non = {}\n", infoOf(config.mode->mode).shortName,
+                            config.mode->stereo);
     for (const KeptScreen& screen : config.screens) text += tomlOf(screen);
     return text;
 }

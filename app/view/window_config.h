@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/view/shown_mode.h"
+#include "engine/display/monitors.h"
 #include "engine/text/number_range.h"
 
 namespace stereonav {
@@ -32,6 +34,9 @@ struct WindowConfig {
     std::filesystem::path lastFolder;     // "" where there is none
     bool speedByDistance = false;
     bool placeLabels = true;
+    std::optional<ScreenRect> place;  // the window's on the desktop, while it is not maximised
+    bool maximised = false;
+    std::optional<ShownMode> mode;    // the one that was shown last
     std::vector<KeptScreen> screens;  // used last first
 
     bool operator==(const WindowConfig&) const = default;

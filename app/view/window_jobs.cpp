@@ -34,7 +34,7 @@ void WindowJobs::cancel() {
 // Returns the mode for files; swapped eyes are another mode of the same layout, where there is one. Throws
 // Error for modes that no file can have.
 std::string WindowJobs::modeOfFiles() const {
-    const OutputModeInfo& shown = infoOf(mSession->mode());
+    const OutputModeInfo& shown = infoOf(mSession->shownMode().shown());
     if (!fitsInPicture(shown.mode))
         throw Error("", shown.longName.data(), "is a mode of windows alone", "choose another mode for files");
     if (mSession->swapped() && shown.layout != OutputLayout::Anaglyph)
@@ -50,13 +50,15 @@ void WindowJobs::savePicture(const PictureWish& picture) {
         auto held = std::make_unique<HeldPlace>(std::filesystem::absolute(picture.file).lexically_normal(),
                                                 HeldPlace::Kind::File);
         const std::filesystem::path place = held->path();
-        SettingTexts settings = withEyes(mSettings.now(), mSession->stereo());
+        const bool both = isJps(place) || isMpo(place);
+        SettingTexts settings =
+            withEyes(mSettings.now(), mSession->stereo(), !both && !mSession->shownMode().stereo);
         settings["size"] = {fmt::format("{}x{}", picture.width, picture.height)};
         // Movies are not made in flight, so time does not matter.
         settings.try_emplace("method",
                              std::vector{std::string(mSession->open().scene->frames().exactMethod())});
         settings.erase("mode");  // files of both eyes have an arrangement of their own
-        if (!isJps(place) && !isMpo(place)) settings["mode"] = {modeOfFiles()};
+        if (!both) settings["mode"] = {modeOfFiles()};
         std::vector<std::string> words = commandWords(command::kRender, settings);
         words.push_back("--pose=" + poseText(mSession->pose()));
         words.push_back("--out=" + place.string());
@@ -70,6 +72,7 @@ void WindowJobs::makeMovie(const MovieWish& movie) {
         if (mSession->paths().path().samples().size() < 2)
             throw Error("", "movie", "there is no flight", "record one with z");
         SettingTexts settings = mSettings.now();
+        if (!mSession->shownMode().stereo) settings = withEyes(settings, mSession->stereo(), true);
         settings["size"] = {fmt::format("{}x{}", movie.width, movie.height)};
         settings["mode"] = {modeOfFiles()};
         std::vector<std::string> words = commandWords(command::kPlay, settings);

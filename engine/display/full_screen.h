@@ -20,6 +20,9 @@ public:
     // Returns whether the window is over a whole monitor according to the desktop: unplugging the monitor
     // ends that as well.
     static bool on(GLFWwindow* window);
+    // Return the place to restore; empty where none is, and whether the window was maximised there.
+    const std::optional<ScreenRect>& before() const { return mBefore; }
+    bool maximisedBefore() const { return mMaximised; }
 
 private:
     std::optional<ScreenRect> mBefore;

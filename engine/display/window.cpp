@@ -339,6 +339,28 @@ ScreenRect Window::place() const {
     return told().place;
 }
 
+WindowPlace Window::desktopPlace() const {
+    if (fullScreen() && mFullScreen.before()) return {*mFullScreen.before(), mFullScreen.maximisedBefore()};
+    return {place(), glfwGetWindowAttrib(mHandle, GLFW_MAXIMIZED) != 0};
+}
+
+void Window::setDesktopPlace(const WindowPlace& place) {
+    const std::vector<Monitor> all = monitors();
+    ScreenRect to = place.rect;
+    if (const auto under = monitorUnder(all, to)) {
+        // A monitor that is no longer there, or has another size, must not hide the window.
+        const ScreenRect& area = all[*under].workArea;
+        to.width = std::clamp(to.width, kSmallestWindow, std::max(area.width, kSmallestWindow));
+        to.height = std::clamp(to.height, kSmallestWindow, std::max(area.height, kSmallestWindow));
+        to.x = std::clamp(to.x, area.x, std::max(area.x + area.width - to.width, area.x));
+        to.y = std::clamp(to.y, area.y, std::max(area.y + area.height - to.height, area.y));
+    }
+    glfwSetWindowSize(mHandle, to.width, to.height);
+    glfwSetWindowPos(mHandle, to.x, to.y);
+    if (place.maximised) glfwMaximizeWindow(mHandle);
+    ++turns;
+}
+
 void Window::enterFullScreen(std::size_t monitor) {
     mFullScreen.enter(mHandle, monitor);
     ++turns;

@@ -34,6 +34,11 @@ struct Gamepad {
     bool up = false, down = false, left = false, right = false;  // directional pad
 };
 
+struct WindowPlace {
+    ScreenRect rect;         // without its frame; where it is maximised, the area that it fills
+    bool maximised = false;  // by the desktop
+};
+
 // An element over the picture that gets input first: input that it takes does not reach the picture. Places
 // are shares of the window's size, (0, 0) top left.
 class InputSink {
@@ -83,6 +88,10 @@ public:
     bool redrawNeeded();  // resized or uncovered since the last call
 
     ScreenRect place() const;  // without its frame
+    // Returns the place on the desktop; of a window over a whole monitor the one that it had before.
+    WindowPlace desktopPlace() const;
+    // Puts it there, as far as the monitor has room, and maximises it where it was so.
+    void setDesktopPlace(const WindowPlace& place);
     // Goes over a whole monitor, one of monitors(); throws Error where there is no such one.
     void enterFullScreen(std::size_t monitor);
     void leaveFullScreen();

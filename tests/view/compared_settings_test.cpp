@@ -67,7 +67,8 @@ STEREONAV_MEMBERS(ValueView, "low", "high");
 STEREONAV_MEMBERS(SecondPlace, "along", "length", "back");
 STEREONAV_MEMBERS(KeptScreen, "monitor", "width_mm", "viewingDistance_mm");
 STEREONAV_MEMBERS(WindowConfig, "theme", "scale", "leftWidth", "rightWidth", "openPanels", "lastFolder",
-                  "speedByDistance", "placeLabels", "screens");
+                  "speedByDistance", "placeLabels", "place", "maximised", "mode", "screens");
+STEREONAV_MEMBERS(ShownMode, "mode", "stereo");
 STEREONAV_MEMBERS(PicturePlace, "part", "corner", "size");
 STEREONAV_MEMBERS(Lens, "width", "height", "verticalFov", "pixelAspect", "nearDepth", "fall");
 STEREONAV_MEMBERS(StereoSetting, "separation", "zeroParallax");
@@ -119,6 +120,8 @@ TEST(ComparedSettings, OfTheWindowCountInWhole) {
     WindowConfig config;
     expectEachMemberCompared(config);
     config.scale = 1.5;
+    config.place = {1, 2, 3, 4};
+    config.mode = {OutputMode::Rows, true};
     config.openPanels = {"Light", "Places"};
     config.screens = {{"A", 600.0, std::nullopt}, {"B", std::nullopt, 700.0}};
     expectEachMemberCompared(config);

@@ -314,6 +314,9 @@ TEST(WindowConfig, ComesBackAsItWasKept) {
     config.lastFolder = "/data/\xe5\xb1\xb1/new\nline \"x\"";
     config.speedByDistance = true;
     config.placeLabels = false;
+    config.place = {-1920, 30, 1700, 900};
+    config.maximised = true;
+    config.mode = {OutputMode::RedCyanDubois, false};
     config.screens = {{"DP-1 \"\xe5\xb1\xb1\"", 598, 700.5}, {"HDMI-1", std::nullopt, 900}, {"", {}, {}}};
     EXPECT_EQ(writeWindowConfig(config, file), "");
     const ReadConfig read = readWindowConfig(file);
@@ -343,6 +346,10 @@ TEST(WindowConfig, WhatIsWrongIsToldAndTheRestCounts) {
                     HasSubstr("width_mm"));
     EXPECT_THAT(problemOf(panels + "[[screen]]\nmonitor = 3\n"), HasSubstr("monitor"));
     EXPECT_THAT(problemOf(panels + "[screen]\nwidth_mm = 500\n"), HasSubstr("screen"));
+    EXPECT_THAT(problemOf(panels + "[window]\nwidth = 0\n"), HasSubstr("width"));
+    EXPECT_THAT(problemOf(panels + "[stereo]\nmode = \"magic\"\n"), HasSubstr("no output mode \"magic\""));
+    EXPECT_EQ(problemOf(panels + "[window]\nx = 3\ny = 4\n"), "") << "a place without a size is none";
+    EXPECT_EQ(readWindowConfig(file).config.place, std::nullopt);
     EXPECT_THAT(problemOf(panels + "[future]\nx = 3\n"), HasSubstr("future"));
     EXPECT_THAT(problemOf(panels + "open = 3\n"), testing::_);
 }

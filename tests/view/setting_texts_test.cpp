@@ -144,6 +144,9 @@ TEST(SettingText, APictureHasThePlaceAndTheEyesThatAreSeen) {
     EXPECT_THAT(words, testing::Contains("--separation=0.25")) << "not as it was asked for";
     EXPECT_THAT(words, testing::Contains("--fov=40"));
     EXPECT_THAT(words, testing::Contains(testing::StartsWith("--zero-parallax=")));
+    const std::vector<std::string> one =
+        commandWords(command::kRender, withEyes({}, StereoSetting{.separation = 0.25}, true));
+    EXPECT_THAT(one, testing::IsSupersetOf({"--separation=0", "--mode=ml"})) << "in the middle of the head";
 }
 
 }  // namespace

@@ -125,6 +125,44 @@ TEST_F(ViewSessionTest, EveryModeIsReachedByStepping) {
     EXPECT_EQ(s.compose(), (ComposeSetting{OutputMode::SideBySide, false, false}));
 }
 
+// The window begins so where no mode was given or kept.
+TEST_F(ViewSessionTest, OneEyeIsShownAtFirstAndAfterReset) {
+    ViewSession s(opened(*mScene),
+                  {OutputMode::SideBySide, std::nullopt, mFolder, false, false, false, false});
+    const auto shows = [&](OutputMode mode, bool two) {
+        EXPECT_EQ(s.compose().mode, mode);
+        EXPECT_EQ(s.stereoOn(), two);
+        EXPECT_EQ(s.requestFor(100, 100).twoEyes, two) << "nothing is cast for an eye that is not shown";
+    };
+    shows(OutputMode::Left, false);
+    EXPECT_FALSE(withLive(s, {}).contains("mode")) << "the command line of what is seen";
+    s.act({ViewCommand::ToggleStereo});
+    shows(OutputMode::SideBySide, true);
+    EXPECT_EQ(withLive(s, {}).at("mode"), std::vector<std::string>{"sbsl"});
+    s.act({ViewCommand::Reset});
+    shows(OutputMode::Left, false);
+    s.act({ViewCommand::NextMode});
+    shows(OutputMode::SideBySide, true);
+    s.chooseMode(OutputMode::RedCyanDubois);
+    shows(OutputMode::RedCyanDubois, true);
+    s.act({ViewCommand::ToggleStereo});
+    shows(OutputMode::Left, false);
+    s.act({ViewCommand::ToggleStereo});
+    shows(OutputMode::RedCyanDubois, true);
+    setLive(s, "mode", std::nullopt);
+    shows(OutputMode::Left, false);
+    EXPECT_EQ(s.shownMode(), s.firstMode());
+}
+
+TEST_F(ViewSessionTest, TheKeyForStereoLeavesTheLeftEyeAlone) {
+    ViewSession s = session();
+    s.act({ViewCommand::SetMode, OutputMode::Left});
+    EXPECT_FALSE(s.stereoOn());
+    s.act({ViewCommand::ToggleStereo});
+    EXPECT_EQ(s.compose().mode, OutputMode::SideBySide);
+    EXPECT_TRUE(s.stereoOn());
+}
+
 TEST_F(ViewSessionTest, ModesOfShutterGlassesAreReachedWhereTheWindowBeganSo) {
     ViewSession s(opened(*mScene), {OutputMode::Alternating, std::nullopt, mFolder});
     s.act({ViewCommand::NextMode});

@@ -75,7 +75,7 @@ found_window() {
 # start_window ARGUMENT ...: of the program. Waits for its window. A picture that rests stays as it was made, so that two
 # of one place are the same.
 start_window() {
-    rm -f "$recent"
+    rm -rf "$recent" "$HOME/.local/share/stereonav/views" # each scene begins at its start
     "$program" view "$@" --refine off --shots "$shots" >"$out/log.txt" 2>&1 &
     pid=$!
     wait_for "its window" found_window

@@ -253,8 +253,9 @@ void drawSidePanels(const PanelParts& parts, SideTools& tools) {
         ImGui::SameLine();
         const std::string at = poseText(session->pose());
         if (button("Copy for a picture", "Copies the command that writes what is seen now into view.png."))
-            parts.clipboard.copy(
-                renderLineOf(withEyes(changes.settings().now(), session->stereo()), at, parts.eyeSize));
+            parts.clipboard.copy(renderLineOf(
+                withEyes(changes.settings().now(), session->stereo(), !session->shownMode().stereo), at,
+                parts.eyeSize));
     }
 }
 

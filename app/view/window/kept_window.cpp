@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/view/notices.h"
-#include "app/view/screen_sizes.h"
+#include "app/view/view_display.h"
 #include "app/view/window/panel_stage.h"
 
 namespace stereonav {
@@ -21,7 +21,8 @@ bool contains(const std::vector<std::string>& names, const char* name) {
 
 }  // namespace
 
-void KeptWindow::restore(PanelStage& stage, ScreenSizes& screens, Notices& notices) {
+void KeptWindow::restore(Window& window, PanelStage& stage, ViewDisplay& display, Notices& notices,
+                         bool sized) {
     const ReadConfig read = readWindowConfig();
     mConfig = read.config;
     notices.fail(read.problem);
@@ -36,17 +37,31 @@ void KeptWindow::restore(PanelStage& stage, ScreenSizes& screens, Notices& notic
     shown.left.width = static_cast<float>(mConfig.leftWidth) / kInterfaceFontPixels;
     shown.placeNames = mConfig.placeLabels;
     stage.panels().setFolder(mConfig.lastFolder);
-    screens.setKept(mConfig.screens);
+    display.sizes().setKept(mConfig.screens);
+    if (mConfig.mode) display.restoreMode(*mConfig.mode);
+    if (sized)
+        mGiven = window.place();
+    else if (mConfig.place && !window.fullScreen())
+        window.setDesktopPlace({*mConfig.place, mConfig.maximised});
     if (contains(mConfig.openPanels, kOwnWindow)) notices.tryTo([&] { stage.toggleControls(); });
 }
 
-void KeptWindow::keep(const PanelStage& stage, const ScreenSizes& screens, bool speedByDistance,
-                      float contentScale) const {
+// The size that a maximised window goes back to is the one that it had last.
+void KeptWindow::keepPlace(const Window& window, WindowConfig& config) const {
+    const WindowPlace now = window.desktopPlace();
+    if (mGiven && now.rect.width == mGiven->width && now.rect.height == mGiven->height && !now.maximised)
+        return;
+    config.maximised = now.maximised;
+    if (!now.maximised || !config.place) config.place = now.rect;
+}
+
+void KeptWindow::keep(const Window& window, const PanelStage& stage, const ViewDisplay& display,
+                      bool speedByDistance) const {
     WindowConfig config = mConfig;
     const InterfaceLook& look = stage.overPicture().look();
     const ShownPanels& shown = stage.panels().shown();
     config.theme = look.dark ? "dark" : "light";
-    if (mConfig.scale || look.scale != contentScale) config.scale = look.scale;
+    if (mConfig.scale || look.scale != window.contentScale()) config.scale = look.scale;
     config.rightWidth = shown.side.width * kInterfaceFontPixels;
     config.leftWidth = shown.left.width * kInterfaceFontPixels;
     config.openPanels.clear();
@@ -56,7 +71,9 @@ void KeptWindow::keep(const PanelStage& stage, const ScreenSizes& screens, bool 
     config.lastFolder = stage.panels().folder();
     config.placeLabels = shown.placeNames;
     config.speedByDistance = speedByDistance;
-    config.screens = screens.kept();
+    config.screens = display.sizes().kept();
+    if (const auto mode = display.modeToKeep()) config.mode = mode;
+    keepPlace(window, config);
     if (!(config == mConfig)) writeWindowConfig(config);
 }
 

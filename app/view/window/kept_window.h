@@ -7,20 +7,25 @@ namespace stereonav {
 
 class Notices;
 class PanelStage;
-class ScreenSizes;
+class ViewDisplay;
+class Window;
 
 class KeptWindow {
 public:
-    // Restores the kept state; errors in it become notices.
-    void restore(PanelStage& stage, ScreenSizes& screens, Notices& notices);
+    // Restores the kept state; errors in it become notices. sized: the window's size was given, and its place
+    // is left to the desktop.
+    void restore(Window& window, PanelStage& stage, ViewDisplay& display, Notices& notices, bool sized);
     // Keeps the present state; writes nothing where nothing has changed.
-    void keep(const PanelStage& stage, const ScreenSizes& screens, bool speedByDistance,
-              float contentScale) const;
+    void keep(const Window& window, const PanelStage& stage, const ViewDisplay& display,
+              bool speedByDistance) const;
 
     bool speedByDistance() const { return mConfig.speedByDistance; }
 
 private:
-    WindowConfig mConfig;  // state as it was read
+    void keepPlace(const Window& window, WindowConfig& config) const;
+
+    WindowConfig mConfig;              // state as it was read
+    std::optional<ScreenRect> mGiven;  // place of a window whose size was given
 };
 
 }  // namespace stereonav

@@ -36,7 +36,7 @@ public:
     void toggleControls();  // throws Error where the driver grants no second window
 
     // Returns the mode of the picture: the session's, or before it the one that it will begin with.
-    OutputMode mode() const { return mSession ? mSession->compose().mode : mDisplay.mode(); }
+    OutputMode mode() const { return mSession ? mSession->compose().mode : mDisplay.mode().shown(); }
     PicturePlace placeOf(const OutputModeInfo& mode) const;
     SizeOption eyeSize() const;  // size of the picture in its mode in pixels
 

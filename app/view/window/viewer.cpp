@@ -21,6 +21,11 @@ std::string titleOf(const SceneOptions& scene) {
     return "stereonav - " + (scene.scene.empty() ? "built-in terrain" : scene.scene);
 }
 
+// Returns the mode that a window of a given size is opened for.
+OutputMode firstMode(const ViewOptions& options) {
+    return options.mode.value_or(ShownMode{ShownMode().mode, options.bench}.shown());
+}
+
 void wakeWindow() {
     Window::wake();
 }
@@ -32,8 +37,8 @@ Viewer::Viewer(const ViewOptions& options)
       mSettings(options, mSession),
       mFlight(options.path.empty() ? std::nullopt : std::optional(readPath(options.path))),
       mWindow(titleOf(options.scene),
-              composedSize(options.mode, options.size.width, options.size.height).first,
-              composedSize(options.mode, options.size.width, options.size.height).second, true,
+              composedSize(firstMode(options), options.size.width, options.size.height).first,
+              composedSize(firstMode(options), options.size.width, options.size.height).second, true,
               ViewDisplay::wantsQuadBuffer(options)),
       mDisplay(mWindow, options),
       mChanges(mSession, mSettings, mNotices, mDisplay),
@@ -54,7 +59,8 @@ Viewer::Viewer(const ViewOptions& options)
       mDrawing(mSession, mWindow, mDisplay, mStage, mPictures, mPointer, mMarks),
       mClipboard(mWindow, mSession) {
     mStage.panels().shown().start = options.scene.given.empty();
-    mKeptWindow.restore(mStage, mDisplay.sizes(), mNotices);
+    mKeptWindow.restore(mWindow, mStage, mDisplay, mNotices,
+                        options.bench || !options.fullScreen.empty() || mSettings.given().contains("size"));
     mChanges.begin();
 }
 
@@ -106,7 +112,8 @@ void Viewer::end() {
         report();
     }
     const bool byDistance = mSession ? mSession->moves().speedByDistance() : mKeptWindow.speedByDistance();
-    mKeptWindow.keep(mStage, mDisplay.sizes(), byDistance, mWindow.contentScale());
+    keepView();
+    mKeptWindow.keep(mWindow, mStage, mDisplay, byDistance);
     mNotices.finish(mSettings.sceneName());
 }
 
@@ -271,20 +278,33 @@ void Viewer::beginSession() {
     const std::string kept = mSession ? mSession->paths().keepWork() : "";
     const bool byDistance = mSession ? mSession->moves().speedByDistance() : mKeptWindow.speedByDistance();
     mStudy.abandon();
+    keepView();
+    mView.emplace(mSettings.fullName().string());
+    if (const auto mode = mView->mode()) mDisplay.restoreMode(*mode);
     mSession.emplace(mChanges.scene(),
-                     ViewSession::Options{mDisplay.mode(), std::exchange(mFlight, std::nullopt),
-                                          mSettings.options().shots, mWindow.quadBuffered(), byDistance});
+                     ViewSession::Options{mDisplay.mode().mode, std::exchange(mFlight, std::nullopt),
+                                          mSettings.options().shots, mWindow.quadBuffered(), byDistance,
+                                          mDisplay.mode().stereo, mDisplay.firstStereo()});
     mAsked.begin(*mSession);
     mKeyframes.end();
     mPictures.forgetCosts();
     mWindow.setTitle(titleOf(mSettings.options().scene));
     mSettings.look();
     mSettings.history().start(mSettings.now());
+    const bool left =
+        !mSettings.options().bench && !mSettings.given().contains("pose") && mView->restore(*mSession);
     mKept.open();
     mInstruments.open(mChanges.scene()->scene, mKept.places()->file());
     mSecond.begin();
-    greet(first);
+    greet(first, left);
     tell(kept);
+}
+
+// Keeps the view of the scene that is left. What a benchmark flies is nobody's view.
+void Viewer::keepView() {
+    if (!mSession || !mView || mSettings.options().bench) return;
+    mDisplay.setMode(mSession->shownMode());
+    mView->keep(*mSession, mDisplay.modeToKeep());
 }
 
 // Shows another scene in the same session.
@@ -296,13 +316,15 @@ void Viewer::replaceScene() {
     if (raised) mKeyframes.raise(*raised, *mSession);
 }
 
-// Guesses about the scene are reported before hints for beginners.
-void Viewer::greet(bool first) {
+// Guesses about the scene are reported before hints. left: it is seen as it was left.
+void Viewer::greet(bool first, bool left) {
     const auto* const terrain = mChanges.scene()->scene->offered<const TerrainScene>();
     const std::vector<std::string> notes = terrain ? terrain->report.notes : std::vector<std::string>();
     for (const std::string& note : notes) mNotices.tell(note);
     if (!notes.empty())
         mSession->notify(notes.front());
+    else if (left)
+        mSession->notify("as it was left; Space goes to the start");
     else if (first)
         mSession->notify("F1 shows the keys, F2 and F3 the panels");
 }

@@ -15,6 +15,7 @@
 #include "app/view/frame_presenter.h"
 #include "app/view/instruments.h"
 #include "app/view/kept_places.h"
+#include "app/view/kept_view.h"
 #include "app/view/notices.h"
 #include "app/view/panel/panel_parts.h"
 #include "app/view/scene_changes.h"
@@ -59,7 +60,8 @@ private:
     void takeScene();
     void beginSession();
     void replaceScene();
-    void greet(bool first);
+    void greet(bool first, bool left);
+    void keepView();
     void fly(double dt);
     void followInstruments();
     void askFor();
@@ -89,6 +91,7 @@ private:
     FlownKeyframes mKeyframes;
     KeptPlaces mKept;
     KeptWindow mKeptWindow;
+    std::optional<KeptView> mView;  // the view that the shown scene had when it was left
     WindowJobs mJobs;
     Instruments mInstruments;
     std::optional<ViewSession> mSession;

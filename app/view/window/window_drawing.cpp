@@ -19,7 +19,8 @@ WindowDrawing::WindowDrawing(std::optional<ViewSession>& session, Window& window
 
 // Returns the session's mode; until there is a picture made for it, the mode of the one that is shown.
 ComposeSetting WindowDrawing::setting() const {
-    ComposeSetting setting = mSession ? mSession->compose() : ComposeSetting{mDisplay.mode(), false, false};
+    ComposeSetting setting =
+        mSession ? mSession->compose() : ComposeSetting{mDisplay.mode().shown(), false, false};
     const ShownPicture& picture = mPictures.picture();
     if (!mSession || mSession->slices().shown() || !picture.left) return setting;
     const OutputModeInfo &now = infoOf(setting.mode), &then = infoOf(picture.of.mode);
