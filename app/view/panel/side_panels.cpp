@@ -19,6 +19,7 @@
 #include "app/view/panel/ground_paint_panel.h"
 #include "app/view/panel/legend.h"
 #include "app/view/panel/path_panel.h"
+#include "app/view/panel/screen_lines.h"
 #include "app/view/scene_facts.h"
 #include "app/view/second_side.h"
 #include "app/view/status.h"
@@ -45,8 +46,7 @@ void command(AskedActions& actions, const char* label, ViewCommand which, const 
 
 void drawView(const PanelParts& parts, ViewSession& session) {
     drawOptions(parts.changes, OptionPanel::View);
-    quietText(parts.display.screen().words);
-    tooltip("Parallax in millimetres and degrees follows from this size. It is kept for this monitor.");
+    drawScreen(parts);
     bool stereo = session.stereoOn(), swapped = session.swapped();
     if (ImGui::Checkbox("stereo", &stereo)) parts.actions.ask({ViewCommand::ToggleStereo});
     tooltip("Shows two eyes, or one. Key: 3");

@@ -74,29 +74,6 @@ void placePieces(const Facts& facts, Row& row) {
     for (const Fact& fact : facts) row.text(fact.text, fact.label.value_or("") + ", under the pointer");
 }
 
-// Returns whether to ask for the screen's size: once per monitor, and only for modes with two eyes.
-bool asksForScreen(const PanelParts& parts) {
-    ViewSession* const session = parts.session;
-    const ViewFrame* const frame = parts.pictures.frame();
-    return session && frame && frame->request.twoEyes && !session->slices().shown() &&
-           infoOf(session->compose().mode).layout != OutputLayout::OneEye && parts.display.screen().asks;
-}
-
-void askForScreen(const PanelParts& parts, float wrap) {
-    static double width_mm = 0;  // the number that is being typed
-    wrappedText("How wide is this screen? It does not report it, so parallax in mm is a guess.", wrap);
-    if (!(width_mm > 0)) width_mm = std::round(parts.display.screen().width_mm);
-    ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
-    ImGui::InputDouble("mm##screen", &width_mm, 0, 0, "%.0f");
-    ImGui::SameLine();
-    if (button("Set",
-               "The width of the whole monitor. It is kept, and can be changed in the panel View and stereo.",
-               width_mm > 0 && std::isfinite(width_mm)))
-        parts.changes.set("screen-width", fmt::format("{:.6g}", width_mm));
-    ImGui::SameLine();
-    if (button("Not now", "The program does not ask again.")) parts.display.leaveUnknown();
-}
-
 void askBeforeClosing(const PanelParts& parts, const std::string& question, float wrap) {
     ImGui::PushStyleColor(ImGuiCol_Text, warningNow());
     wrappedText(question, wrap);
@@ -183,12 +160,11 @@ void drawNotices(const PanelParts& parts, float left, float right, float top) {
     const std::string notice = session ? session->notice() : "";
     const bool waits = loading.busy && (parts.changes.loadingSeconds() > kPatience || !session);
     const Job* const job = parts.jobs.busy() ? parts.jobs.job() : nullptr;
-    const bool asks = asksForScreen(parts);
     const std::optional<PaintWork> painting = parts.instruments.painting();
     const std::optional<PaintWork> preparing = parts.changes.preparing();
     const std::string closing = parts.closing.question();
     const bool works = waits || job || parts.study.fraction() || painting || preparing || !closing.empty();
-    if (notice.empty() && parts.notices.failure().empty() && !works && !asks) return;
+    if (notice.empty() && parts.notices.failure().empty() && !works) return;
     const float wrap =
         std::max(std::min(width - 2 * margin, 46 * ImGui::GetFontSize()) - 4 * ImGui::GetFontSize(), 60.0f);
     ImGui::SetNextWindowPos({left + width / 2, top + margin}, ImGuiCond_Always, {0.5f, 0});
@@ -215,7 +191,6 @@ void drawNotices(const PanelParts& parts, float left, float right, float top) {
         if (auto* const paint = session->open().scene->offered<LivePaint>()) paint->cancel();
     if (preparing && drawWork("Cancel##prepare", preparing->what, preparing->fraction, wrap, nullptr))
         parts.changes.cancelPreparing();
-    if (asks) askForScreen(parts, wrap);
     if (job && drawWork("Cancel##job", job->what(), job->fraction(), wrap,
                         shareText(job->fraction(), job->seconds(), 0.02).c_str(), job->progress()))
         parts.jobs.cancel();
