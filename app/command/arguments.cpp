@@ -96,6 +96,20 @@ std::string similarOption(const CLI::App& app, const std::string& word) {
     return editDistance(name, nearest) <= mostEdits ? nearest : "";
 }
 
+// Returns advice for a word that is no command: the command that it may mean, or the one that opens it.
+std::string adviceForCommand(const CLI::App& app, const std::string& word) {
+    const std::string help = "see stereonav --help";
+    std::error_code code;
+    if (!word.empty() && (isBuiltIn(word) || std::filesystem::exists(word, code)))
+        return "did you mean stereonav view " + shownText(word) + "? " + help;
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    const std::string nearest = nearestWord(word, names);
+    const int mostEdits = std::min(static_cast<int>(word.size()) / 3, 2);  // more would make it a guess
+    return editDistance(word, nearest) <= mostEdits ? "did you mean " + nearest + "? " + help : help;
+}
+
 // Turns CLI11's refusal into our form: which option or word, what is wrong with it, what to do.
 Error refusalOf(const CLI::App& app, const CLI::ParseError& error) {
     const std::string help = "see stereonav" + commandIn(app) + " --help";
@@ -106,10 +120,9 @@ Error refusalOf(const CLI::App& app, const CLI::ParseError& error) {
         const std::string word = left.empty() ? said : left.front();
         const bool dashes = word.starts_with("-");
         const std::string meant = dashes ? similarOption(app, word) : "";
-        return {word, "",
-                dashes                   ? "there is no such option here"
-                : commandIn(app).empty() ? "there is no such command"
-                                         : "is one word too many",
+        if (!dashes && commandIn(app).empty())
+            return {word, "", "there is no such command", adviceForCommand(app, word)};
+        return {word, "", dashes ? "there is no such option here" : "is one word too many",
                 meant.empty() ? help : "did you mean " + meant + "? " + help};
     }
     if (const PageFacts* page = pageIn(app)) {
@@ -185,7 +198,7 @@ void checkIsCommand(const CLI::App& app, const std::vector<std::string>& words) 
     const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
     const auto isNamed = [&](const CLI::App* command) { return command->get_name() == *word; };
     if (word == words.end() || std::any_of(commands.begin(), commands.end(), isNamed)) return;
-    throw Error(word->empty() ? "\"\"" : *word, "", "there is no such command", "see stereonav --help");
+    throw Error(word->empty() ? "\"\"" : *word, "", "there is no such command", adviceForCommand(app, *word));
 }
 
 void parse(CLI::App& app, std::vector<std::string> words) {

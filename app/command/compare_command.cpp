@@ -9,6 +9,7 @@
 
 #include "app/command/comparison_report.h"
 #include "app/options/command.h"
+#include "app/options/offered_words.h"
 #include "app/options/option_take.h"
 #include "app/options/output_place.h"
 #include "app/output/progress_bar.h"
@@ -151,7 +152,7 @@ std::vector<Option> compareOptions() {
          .fallback = "24",
          .take = into<&CompareOptions::frames>},
         {.key = "methods",
-         .value = wordsValue(),
+         .value = wordsValue().offering(methodWords()),
          .help = "some of them, as in full,paper,linear",
          .fallback = "all",
          .repeated = true,

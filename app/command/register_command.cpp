@@ -166,7 +166,7 @@ int runRegister(const RegisterOptions& options) {
 std::vector<Option> registerOptions() {
     return {
         {.key = "with",
-         .value = fileValue(),
+         .value = fileValue().offering({"colon"}),
          .help = "the other study, or colon for the built-in one",
          .required = true,
          .take = into<&RegisterOptions::with>},

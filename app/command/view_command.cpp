@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/options/command.h"
+#include "app/options/offered_words.h"
 #include "app/options/option_take.h"
 #include "app/options/usual_words.h"
 #include "engine/base/file.h"
@@ -27,16 +28,18 @@ std::vector<Option> shownOptions() {
          .inFile = false,
          .take = into<&ViewOptions::path>},
         {.key = "method",
-         .value = textValue(),
+         .value = textValue().offering(methodWords()),
          .help = "how the right eye is made, or both eyes of a medium",
+         .also = "warp reprojection right eye",
          .fallback = "auto, the one that measures best on this machine",
          .behind = "method",
          .panel = OptionPanel::Quality,
          .take = into<&ViewOptions::method>},
         {.key = "mode",
-         .value = textValue().checked(problemOfMode),
+         .value = textValue().checked(problemOfMode).offering(modeWords(true)),
          .help = "how two eyes are shown: ml, mr, sbsl, sbsr, tbl, irl, arcd, ...; al, ar: alternating, for "
                  "shutter glasses and a monitor of 100 Hz or more; quad: the graphics driver's stereo",
+         .also = "anaglyph stereo 3d glasses interlaced side-by-side sbs layout output display",
          .fallback = "as it was left, at first one eye",
          .panel = OptionPanel::View,
          .take =
@@ -44,17 +47,22 @@ std::vector<Option> shownOptions() {
                  to.of<ViewOptions>().mode = outputModeFromName(value.text);
              }},
         {.key = "full-screen",
-         .value = textValue().checked([](const std::string& text) {
-             return text.empty() ? std::optional(ValueProblem{"expected a monitor, got \"\"", "try auto"})
-                                 : std::nullopt;
-         }),
+         .value = textValue()
+                      .checked([](const std::string& text) {
+                          return text.empty()
+                                     ? std::optional(ValueProblem{"expected a monitor, got \"\"", "try auto"})
+                                     : std::nullopt;
+                      })
+                      .offering({"auto"}),
          .help =
              "fill a whole monitor: auto (the one that the window is on), its number, or part of its name",
+         .also = "fullscreen projector television",
          .advice = "try auto",
          .take = into<&ViewOptions::fullScreen>},
         {.key = "screen-width",
          .value = numberValue(above(0, 1e5, "mm")),
          .help = "width of the whole monitor or projection, for parallax in millimetres",
+         .also = "display size",
          .advice = "leave it out for what the monitor reports",
          .fallback = "what the monitor reports, or 500",
          .panel = OptionPanel::View,
@@ -108,6 +116,7 @@ std::vector<Option> runOptions() {
         {.key = "target-ms",
          .value = numberValue(within(1e-3, 1e6, "ms")),
          .help = "time for a frame while something moves: to keep it, frames are made smaller, and enlarged",
+         .also = "fps performance rate quality",
          .advice = "33 is 30 frames a second",
          .fallback = "two refreshes of the monitor, at most 40; for a medium four times that",
          .rules = {{[](const Asked& asked) { return asked.is("late-warp", "off"); },

@@ -29,7 +29,10 @@ std::string optionsOf(CommandSet command) {
 // --set.
 std::string wordsBehind(const Option& option) {
     if (option.key == std::string_view("set")) return "";
-    return fmt::format("{}", fmt::join(option.value.words, " "));
+    const ValueType& type = option.value;
+    const std::string words = fmt::format("{}", fmt::join(type.words, " "));
+    const std::string offered = fmt::format("{}", fmt::join(type.offered, " "));
+    return words + (words.empty() || offered.empty() ? "" : " ") + offered;
 }
 
 // Returns a branch of the script's `case` statement: what may follow this option.
@@ -44,12 +47,13 @@ std::string caseOf(const Command& facts, const Option& option) {
 
 std::string bashCompletion() {
     const std::string names = fmt::format("{}", fmt::join(namesOfCommands(), " "));
-    std::string options, behind;
+    std::string options, behind, scenes;
     for (const Command& facts : commands()) {
         options += fmt::format("        {}) words=\"{}\" ;;\n", facts.name, optionsOf(facts.command));
         for (const Option& option : optionTable())
-            if ((option.commands & facts.command) && !option.positional() &&
-                option.value.kind != ValueKind::Flag)
+            if ((option.commands & facts.command) && option.positional())
+                scenes += fmt::format("        {}) words=\"{}\" ;;\n", facts.name, wordsBehind(option));
+            else if ((option.commands & facts.command) && option.value.kind != ValueKind::Flag)
                 behind += caseOf(facts, option);
     }
     for (const PageFacts& page : pageFacts())
@@ -74,6 +78,9 @@ _stereonav() {{
             files=""
             case "$command" in
 {1}            esac
+        else
+            case "$command" in
+{3}            esac
         fi
     fi
     COMPREPLY=($(compgen -W "$words" -- "$current"))
@@ -81,7 +88,7 @@ _stereonav() {{
 }}
 complete -o filenames -F _stereonav stereonav
 )",
-                       names, options, behind);
+                       names, options, behind, scenes);
 }
 
 }  // namespace stereonav

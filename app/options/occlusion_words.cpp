@@ -77,4 +77,10 @@ std::string occlusionMethodNames() {
     return names;
 }
 
+std::vector<std::string> occlusionMethodWords() {
+    std::vector<std::string> words;
+    for (const Method& m : kMethods) words.emplace_back(m.name);
+    return words;
+}
+
 }  // namespace stereonav

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/options/option_value.h"
 #include "engine/light/occlusion/occlusion.h"
@@ -17,5 +18,6 @@ std::optional<ValueProblem> problemOfOcclusionText(const std::string& text);
 std::string textOf(const OcclusionEstimate& estimate);
 // Returns the names for help, with the numbers that may follow them.
 std::string occlusionMethodNames();
+std::vector<std::string> occlusionMethodWords();  // the names alone
 
 }  // namespace stereonav

@@ -56,6 +56,7 @@ struct Option {
     const char* key = "";  // "vertical-scale"; "SCENE" stands without dashes
     ValueType value;
     std::string help;           // one line
+    const char* also = "";      // other words that people look for it by, separated by blanks
     const char* advice = "";    // what to write instead of a refused value
     const char* group = "";     // heading in help
     const char* fallback = "";  // value in effect where the option is left out

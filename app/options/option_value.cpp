@@ -141,6 +141,12 @@ ValueType ValueType::checked(std::optional<ValueProblem> (*by)(const std::string
     return type;
 }
 
+ValueType ValueType::offering(std::vector<std::string> some) const {
+    ValueType type = *this;
+    type.offered = std::move(some);
+    return type;
+}
+
 bool ValueType::takesNumbers() const {
     return kind == ValueKind::Number || kind == ValueKind::Whole || kind == ValueKind::Numbers ||
            kind == ValueKind::Size || kind == ValueKind::Fraction || kind == ValueKind::WholeOrPart;

@@ -35,11 +35,14 @@ struct ValueType {
     NumberRange range;
     const NumberList* list = nullptr;
     std::vector<std::string> words;
+    std::vector<std::string> offered;  // words that completion offers; others may be valid
     // Returns what is wrong with a value of this kind; null: nothing can be.
     std::optional<ValueProblem> (*check)(const std::string& text) = nullptr;
 
     // Returns a copy of this type with a check.
     ValueType checked(std::optional<ValueProblem> (*by)(const std::string& text)) const;
+    // Returns a copy of this type with words that completion offers.
+    ValueType offering(std::vector<std::string> some) const;
     bool takesNumbers() const;
     bool takesText() const;  // true for names, files, and words that a scene knows
     bool isFile() const { return kind == ValueKind::File || kind == ValueKind::FileOrWord; }

@@ -27,6 +27,7 @@ std::vector<Option> mediumItself() {
          .help = "show the scene as a medium that light goes through: a file, ground (a terrain in its own "
                  "colours), " +
                  mediumPresetNames(),
+         .also = "fog cloud smoke volumetric",
          .group = kMediumGroup,
          .commands = kShowing,
          .scenes = kNoMesh,
@@ -85,6 +86,7 @@ std::vector<Option> mediumLight() {
         {.key = "light-from",
          .value = numbersValue(sunNumbers()),
          .help = "direction that parallel light comes from, clockwise from north",
+         .also = "sun direction shadows",
          .group = kMediumGroup,
          .commands = kShowing,
          .scenes = kMedia,

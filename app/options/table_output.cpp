@@ -1,4 +1,5 @@
 // Options: size, path, method and mode of pictures; what is told.
+#include "app/options/offered_words.h"
 #include "app/options/option_table.h"
 #include "app/options/usual_words.h"
 #include "engine/image/stereo_picture_file.h"
@@ -48,7 +49,7 @@ std::vector<Option> pictureOptions() {
          .inFile = false,
          .take = [](OptionTargets& to, const OptionValue& value) { *to.path = value.text; }},
         {.key = "method",
-         .value = textValue(),
+         .value = textValue().offering(methodWords()),
          .help = "how the right eye is made, or both eyes of a medium",
          .fallback = "auto, the best",
          .commands = kRender | kPlay,
@@ -59,7 +60,7 @@ std::vector<Option> pictureOptions() {
                     "{method} does not go with --light traced", "leave it out: each eye is traced in full"}},
          .take = [](OptionTargets& to, const OptionValue& value) { *to.method = value.text; }},
         {.key = "mode",
-         .value = textValue().checked(problemOfFileMode),
+         .value = textValue().checked(problemOfFileMode).offering(modeWords(false)),
          .help = "how two eyes become one picture: ml, mr, sbsl, sbsr, tbl, irl, arcd, ...",
          .fallback = "sbsl",
          .commands = kRender | kPlay,

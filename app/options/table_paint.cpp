@@ -21,6 +21,14 @@ std::string namesOfPaint() {
     return names;
 }
 
+// Returns the words, with a colon where an argument has to follow.
+std::vector<std::string> offeredPaint() {
+    std::vector<std::string> offered;
+    for (const PaintWord& word : paintWords())
+        offered.push_back(std::string(word.word) + (*word.takes ? ":" : ""));
+    return offered;
+}
+
 std::optional<PaintWord> paintWordNamed(const std::string& name) {
     for (const PaintWord& word : paintWords())
         if (name == word.word) return word;
@@ -69,8 +77,10 @@ std::vector<Option> paintOptions() {
         rules.insert(rules.end(), ofType.begin(), ofType.end());
     return {
         {.key = "paint",
-         .value = textValue().checked(problemOfPaint),
+         .value = textValue().checked(problemOfPaint).offering(offeredPaint()),
          .help = "what surfaces are coloured by: " + namesOfPaint(),
+         .also = "colormap palette ramp colors symbology style classification layer relief shaded exposure "
+                 "vegetation water snow",
          .fallback = "their own colours",
          .commands = kRender | kPlay | kView,
          .scenes = scenesOfPaint(),

@@ -93,6 +93,7 @@ std::vector<Option> qualityOptions() {
         {.key = "edges",
          .value = wholeValue(within(0, kMostEdgeRays, "rays")),
          .help = "rays added to each pixel at an edge, in both eyes; 0: jagged edges, in less time",
+         .also = "antialiasing smooth jagged",
          .advice = "4 smooths them, 16 is fine",
          .group = kQualityGroup,
          .fallback = "4; with compare 0",
@@ -119,6 +120,7 @@ std::vector<Option> qualityOptions() {
          .value = numberValue(within(0, 16, "of a pixel")),
          .help = "cast distant ground from coarser samples where their error in height is at most this share "
                  "of a pixel; 0: never",
+         .also = "lod resolution performance",
          .advice = "0.5 is not seen",
          .group = kQualityGroup,
          .fallback = "0",
@@ -129,6 +131,7 @@ std::vector<Option> qualityOptions() {
         {.key = "rays",
          .value = wholeValue(within(1, kMostRays, "rays")),
          .help = "rays in every pixel, spread evenly over it",
+         .also = "antialiasing supersampling samples msaa smooth",
          .advice = "16 is fine, 64 is hard to tell from the truth",
          .group = kQualityGroup,
          .fallback = "1",

@@ -7,13 +7,18 @@
 #include "terrain/read/scene_ranges.h"
 
 namespace stereonav {
+namespace {
+
+constexpr const char *kBuiltInGround = "terrain", *kBuiltInColon = "colon";
+
+}  // namespace
 
 std::vector<Option> sourceOptions() {
     using namespace command;
     using namespace scene_type;
     return {
         {.key = "SCENE",
-         .value = textValue(),
+         .value = textValue().offering({kBuiltInGround, kBuiltInColon, "cloud", "wax"}),
          .help = "a scene file (.toml), an elevation model, a CT study (a folder of DICOM slices, .nrrd, "
                  ".nhdr, .nii, .nii.gz, .mha, .mhd), a mesh (.glb, .gltf), colon, cloud or wax",
          .fallback = "the built-in terrain",
@@ -21,14 +26,14 @@ std::vector<Option> sourceOptions() {
          .inFile = false,
          .take = into<&SceneOptions::scene>},
         {.key = "SCENE",
-         .value = textValue(),
+         .value = textValue().offering({kBuiltInGround}),
          .help = "a scene file (.toml) or an elevation model",
          .fallback = "the built-in terrain",
          .commands = kOfGround,
          .inFile = false,
          .take = into<&SceneOptions::scene>},
         {.key = "SCENE",
-         .value = textValue(),
+         .value = textValue().offering({kBuiltInColon}),
          .help = "a CT study (a folder of DICOM slices, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd) or colon",
          .commands = kOfColon,
          .inFile = false,
@@ -36,6 +41,7 @@ std::vector<Option> sourceOptions() {
         {.key = "vertical-scale",
          .value = numberValue(kVerticalScaleRange),
          .help = "factor on heights",
+         .also = "exaggeration exaggerate z factor relief stretch",
          .advice = "use 1 for true heights",
          .fallback = "1",
          .commands = kShowing | kOfGround | kBake,
@@ -45,6 +51,7 @@ std::vector<Option> sourceOptions() {
         {.key = "open-holes",
          .value = flagValue(),
          .help = "leave missing ground open instead of filling it",
+         .also = "nodata gaps missing voids",
          .commands = kShowing | kOfGround | kBake,
          .scenes = kTerrains,
          .panel = OptionPanel::Material,

@@ -80,6 +80,7 @@ std::vector<Option> ambientOptions() {
         {.key = "ambient",
          .value = numberValue(kLookRange),
          .help = "ambient occlusion (Ruiz et al. 2010) in place of the lamp: its radius",
+         .also = "ao ssao occlusion shadows",
          .advice = "try ten voxels' worth",
          .group = kStudyGroup,
          .commands = kShowing,
@@ -89,7 +90,7 @@ std::vector<Option> ambientOptions() {
          .panel = OptionPanel::Light,
          .take = into<&SceneOptions::volume, &VolumeOptions::ambient_mm>},
         {.key = "ambient-method",
-         .value = textValue().checked(problemOfOcclusionText),
+         .value = textValue().checked(problemOfOcclusionText).offering(occlusionMethodWords()),
          .help = "how openness is estimated: " + occlusionMethodNames() +
                  "; B: an exponent; S: standard deviations",
          .group = kStudyGroup,
@@ -183,6 +184,7 @@ std::vector<Option> bakedLookOptions() {
         {.key = "exposure",
          .value = numberValue(within(1e-30, 1e6)),
          .help = "factor on baked light",
+         .also = "brightness contrast gamma tone",
          .advice = "1 shows a white sky of 1 as white",
          .group = kStudyGroup,
          .fallback = "chosen by the light's mean",
@@ -224,6 +226,8 @@ std::vector<Option> volumeLookOptions() {
          .value = fileOrWordValue({}).checked(problemOfTransfer),
          .help = "show the volume translucent, with colours and opacities by value: a file, " +
                  transferPresetNames() + ", or curve:... in one word",
+         .also = "volume rendering colormap palette lut lookup table preset opacity transparency window "
+                 "level shift",
          .advice =
              "such a word is curve:-600:1:0.8:0.7:0,-350:1:0.8:0.7:0.95: value, colour and opacity of points",
          .group = kStudyGroup,
@@ -234,6 +238,7 @@ std::vector<Option> volumeLookOptions() {
         {.key = "opacity",
          .value = numberValue(above(0, 1)),
          .help = "show the wall translucent: share of light that one millimetre takes away",
+         .also = "transparency transparent alpha see-through",
          .advice = "0.95 is a wall that is nearly opaque within a millimetre",
          .group = kStudyGroup,
          .commands = kShowing,
@@ -244,6 +249,7 @@ std::vector<Option> volumeLookOptions() {
         {.key = "shading",
          .value = wordValue(shadingNames()),
          .help = "how a surface is lit, for comparisons",
+         .also = "phong lighting material specular",
          .advice = "lamp is the default",
          .group = kStudyGroup,
          .fallback = "lamp",

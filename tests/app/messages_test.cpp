@@ -70,6 +70,11 @@ TEST_F(Messages, OfTheCommandLineAreInOurWords) {
     }
     expectRefused({"help", "fly"}, {"stereonav: fly: there is no such command; see stereonav --help"});
     expectRefused({""}, {"stereonav: \"\": there is no such command"});
+    expectRefused({"veiw"},
+                  {"stereonav: veiw: there is no such command; did you mean view? see stereonav --help"});
+    expectRefused({"veiw", "colon"}, {"stereonav: veiw: there is no such command; did you mean view?"});
+    expectRefused({"rendr", "--help"}, {"stereonav: rendr: there is no such command; did you mean render?"});
+    expectRefused({"colon"}, {"stereonav: colon: there is no such command; did you mean stereonav view"});
     expectRefused({"completion", "zsh"},
                   {"stereonav: completion: expected bash, got \"zsh\"; see stereonav completion --help"});
     expectRefused({"completion"}, {"stereonav: completion: expected bash, found nothing"});

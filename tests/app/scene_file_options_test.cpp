@@ -10,7 +10,10 @@
 #include "app/options/man_page.h"
 #include "app/options/option_page.h"
 #include "app/options/pages.h"
+#include "app/scene/scene_type_table.h"
 #include "engine/base/error.h"
+#include "engine/image/stereo_compose.h"
+#include "engine/medium/sweep/swept_frames.h"
 #include "tests/app/volume_input.h"
 
 namespace stereonav::test {
@@ -20,6 +23,16 @@ using Words = std::vector<std::string>;
 
 class SceneFileOptionsTest : public VolumeTest {
 protected:
+    // Returns what bash offers behind these words, a line each.
+    std::string offeredBy(const std::string& script, const std::string& line) const {
+        const std::string out = (mFolder / "offered").string();
+        const std::string command = "bash -c 'set -eu; source " + script + "; COMP_WORDS=(" + line +
+                                    "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _stereonav; printf \"%s\\n\" "
+                                    "\"${COMPREPLY[@]}\"' > " +
+                                    out;
+        EXPECT_EQ(std::system(command.c_str()), 0) << line;
+        return "\n" + contentOf(out);
+    }
     std::string toml(const std::string& text) const { return input("scene.toml", text); }
 
     static RenderOptions asked(Words words) {
@@ -219,16 +232,7 @@ TEST_F(SceneFileOptionsTest, TheManPageNamesEveryCommandAndOption) {
 TEST_F(SceneFileOptionsTest, BashCompletesEveryOption) {
     const std::string script = input("completion.bash", run({"completion", "bash"}).out);
     EXPECT_EQ(contentOf(script), bashCompletion());
-    // What bash offers behind these words.
-    const auto offered = [&](const std::string& line) {
-        const std::string out = (mFolder / "offered").string();
-        const std::string command = "bash -c 'set -eu; source " + script + "; COMP_WORDS=(" + line +
-                                    "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _stereonav; printf \"%s\\n\" "
-                                    "\"${COMPREPLY[@]}\"' > " +
-                                    out;
-        EXPECT_EQ(std::system(command.c_str()), 0) << line;
-        return "\n" + contentOf(out);
-    };
+    const auto offered = [&](const std::string& line) { return offeredBy(script, line); };
     for (const Command& command : commands()) {
         const std::string options = offered(std::string("stereonav ") + command.name + " --");
         for (const Option& option : optionTable())
@@ -242,6 +246,29 @@ TEST_F(SceneFileOptionsTest, BashCompletesEveryOption) {
     EXPECT_EQ(offered("stereonav completion \"\""), "\nbash\n");
     EXPECT_EQ(offered("stereonav render --simd av"), "\navx2\navx512\n");
     EXPECT_EQ(offered("stereonav view --shading phong"), "\nphong\nphong-shadows\n");
+}
+
+TEST_F(SceneFileOptionsTest, BashCompletesWhatAnOptionTakes) {
+    const std::string script = input("completion.bash", bashCompletion());
+    const auto offered = [&](const std::string& line) { return offeredBy(script, line); };
+    for (const OutputModeInfo& mode : outputModes()) {
+        const std::string word = "\n" + std::string(mode.shortName) + "\n";
+        EXPECT_NE(offered("stereonav view --mode \"\"").find(word), std::string::npos) << word;
+        const bool written = offered("stereonav render --mode \"\"").find(word) != std::string::npos;
+        EXPECT_EQ(written, fitsInPicture(mode.mode)) << word;
+    }
+    for (const std::string_view method : kSweepMethods)
+        EXPECT_NE(offered("stereonav view --method \"\"").find("\n" + std::string(method) + "\n"),
+                  std::string::npos)
+            << method;
+    EXPECT_EQ(offered("stereonav view --paint hill"), "\nhillshade\n");
+    EXPECT_EQ(offered("stereonav view --method sel"), "\nselective\n");
+    EXPECT_EQ(offered("stereonav view --ambient-method g"), "\ngaussian\n");
+    for (const SceneType* type : sceneTypes())
+        for (const std::string_view name : type->builtIn)
+            EXPECT_NE(offered("stereonav view \"\"").find("\n" + std::string(name) + "\n"), std::string::npos)
+                << name;
+    EXPECT_EQ(offered("stereonav unfold co").substr(0, 7), "\ncolon\n");
 }
 
 }  // namespace
