@@ -20,8 +20,11 @@ std::optional<ViewAction> actionOf(const KeyPress& press);
 struct KeyHelp {
     std::string keys, meaning;
     std::optional<ViewAction> action = std::nullopt;  // action of choosing it there
+    const char* also = "";                            // other words that people look for it by
 };
 const std::vector<KeyHelp>& viewKeys();
+// What menus and panels have and no key does, in the same form: in place of the keys they say where it is.
+const std::vector<KeyHelp>& menuEntries();
 
 // Adds a 3-D mouse to the other input; its buttons are home and comfortable eyes.
 FlightInput withSpaceMouse(FlightInput input, const SpaceMouseState& mouse);

@@ -45,6 +45,7 @@ bool mixesEyes(OutputLayout layout) {
 ViewSession::ViewSession(std::shared_ptr<const OpenScene> scene, const Options& options)
     : mScene(std::move(scene)),
       mFlight(shown(), options.speedByDistance, mNotice),
+      mOrbit(shown()),
       mPaths(mScene, mFlight.shared(), mNotice, options.path, options.folder),
       mLight(mScene, mNotice),
       mSurface(mScene, mNotice),
@@ -82,8 +83,17 @@ void ViewSession::act(const ViewAction& action) {
         case ViewCommand::SpeedByDistance:
             mFlight.toggleSpeedByDistance();
             break;
+        case ViewCommand::ToggleOrbit:
+            setOrbit(!mOrbit.on());
+            break;
+        case ViewCommand::NextFlightMode:
+            if (mOrbit.startsOn()) return setOrbit(!mOrbit.on());
+            [[fallthrough]];
         default:
             mPaths.stop();
+            mOrbit.endZoom();
+            if (action.command == ViewCommand::SetFlightMode) mOrbit.set(false);
+            if (action.command == ViewCommand::Home) mStereo.endZoom();
             mFlight.act(action);
             if (action.command == ViewCommand::Reset) reset();
     }
@@ -97,6 +107,7 @@ void ViewSession::replaceScene(std::shared_ptr<const OpenScene> scene) {
     if (raised && mPaths.recording()) mPaths.endRecording();  // the recording is over the ground before
     const Pose here = mFlight.flight().pose();
     mFlight.replaceScene(*scene->scene, raised ? raised->moved(here) : here);
+    mOrbit.replaceScene(*scene->scene);
     // Light that was turned stays turned over the same study.
     const auto *const before = offered<TurningLight>(), *const after = scene->scene->offered<TurningLight>();
     const bool lightStays = before && after && before->isSky() == after->isSky();
@@ -221,6 +232,7 @@ void ViewSession::nextMethod() {
 
 void ViewSession::reset() {
     mFlight.reset();
+    mOrbit.set(mOrbit.startsOn());
     mLight.reset();
     mStereo.reset(shown());
     mShown = mFirst;
@@ -241,6 +253,40 @@ void ViewSession::turnWheel(double notches) {
     mFlight.turnWheel(notches);
 }
 
+void ViewSession::setOrbit(bool on) {
+    mOrbit.set(on);
+    notify(on ? "orbit: drag turns, Shift or the middle button pans, the wheel zooms"
+              : "fly: drag looks around, the wheel sets the speed");
+}
+
+void ViewSession::takeHold(const std::optional<glm::dvec3>& place) {
+    mOrbit.takeHold(place, pose(),
+                    std::isfinite(mDepthAhead) && mDepthAhead > 0 ? mDepthAhead : mStereo.now().zeroParallax);
+}
+
+void ViewSession::drag(OrbitDrag drag, const glm::dvec2& by, double height) {
+    if (mPaths.playing() || mSlices.shown() || by == glm::dvec2(0.0)) return;
+    mFlight.moveTo(mOrbit.dragged(mFlight.flight().pose(), drag, by, height));
+}
+
+void ViewSession::zoomBy(double notches) {
+    mFlight.endGoal();
+    mOrbit.zoomBy(notches);
+}
+
+// Brings the eyes nearer together as they come nearer, and apart again: what is looked at keeps its parallax.
+void ViewSession::stepZoom(double dt) {
+    if (!mOrbit.zooming()) return;
+    const auto away = [this] { return glm::distance(mFlight.flight().pose().position, mOrbit.pivot()); };
+    const double before = away();
+    const Pose wanted = mOrbit.zoomed(mFlight.flight().pose(), dt);
+    mFlight.moveTo(wanted);
+    const double after = away(), asked = glm::distance(wanted.position, mOrbit.pivot());
+    if (std::abs(after - asked) > 0.5 * std::abs(before - asked))
+        mOrbit.endZoom();  // something is in the way
+    if (before > 0 && after > 0) mStereo.zoom(after / before);
+}
+
 void ViewSession::step(const FlightInput& input, double dt) {
     const bool animated = offered<Animation>() != nullptr, drifts = animated && mDriftsAtRest;
     mStereo.step(flight().clearanceNow(), mDepthAhead, dt);
@@ -250,6 +296,8 @@ void ViewSession::step(const FlightInput& input, double dt) {
     if (mPaths.playing()) {
         mPaths.step(dt);
     } else {
+        if (asksForMotion(input)) mOrbit.endZoom();
+        stepZoom(dt);
         mFlight.step(input, dt, !mSurface.hasIsovalue());  // keys for rolling move the surface
         mPaths.record(dt, flight().pose());
     }
@@ -290,16 +338,22 @@ void ViewSession::setFov(std::optional<double> verticalFov) {
 
 void ViewSession::goTo(const Pose& pose) {
     mPaths.stop();
+    mOrbit.endZoom();
+    mStereo.endZoom();
     mFlight.goTo(pose);
 }
 
 void ViewSession::flyTo(const Pose& pose) {
     mPaths.stop();
+    mOrbit.endZoom();
+    mStereo.endZoom();
     mFlight.flyTo(pose);
 }
 
 void ViewSession::flyAlong(double along) {
     mPaths.stop();
+    mOrbit.endZoom();
+    mStereo.endZoom();
     mFlight.flyAlong(along);
 }
 
@@ -318,7 +372,10 @@ bool ViewSession::hasOtherShape(int width, int height) const {
 Pose ViewSession::poseAhead(double seconds) const {
     if (!(seconds > 0) || !mFlying) return pose();
     if (mPaths.playing()) return mPaths.ahead(seconds);
-    return mAhead.from(pose(), seconds, flight().clearanceNow());
+    // Nothing of what is turned lies nearer than the place that it is turned about.
+    double free = flight().clearanceNow();
+    if (mOrbit.on()) free = std::min(free, glm::distance(pose().position, mOrbit.pivot()));
+    return mAhead.from(pose(), seconds, free);
 }
 
 const FrameRequest& ViewSession::requestFor(int width, int height, double ahead, double scale,

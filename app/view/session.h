@@ -12,6 +12,7 @@
 #include "app/view/passing_notice.h"
 #include "app/view/session_flight.h"
 #include "app/view/session_light.h"
+#include "app/view/session_orbit.h"
 #include "app/view/session_path.h"
 #include "app/view/session_slices.h"
 #include "app/view/session_surface.h"
@@ -75,6 +76,18 @@ public:
     // Turns by radians: clockwise seen from above, and upwards.
     void look(double yaw, double pitch);
     void turnWheel(double notches);  // each notch a fifth faster; in the slice view, one slice
+    // What the mouse does: whether it turns, pans and zooms about a place, or looks around.
+    bool orbits() const { return mOrbit.on(); }
+    // Takes the surface under the pointer as the place that the coming drags and zooms are about; empty: the
+    // middle of the object.
+    void takeHold(const std::optional<glm::dvec3>& place);
+    // Drags by the pointer's motion to the right and up, in units of the picture's plane at view depth 1, of
+    // which the picture is `height` high.
+    void drag(OrbitDrag drag, const glm::dvec2& by, double height);
+    // Takes the wheel for zooming; false where it does something else.
+    bool zoomsByWheel() const { return mOrbit.on() && !mSlices.shown() && !mPaths.playing(); }
+    bool zooming() const { return mOrbit.zooming(); }
+    void zoomBy(double notches);
     // Lets dt seconds pass. The input's speed multiplier is applied in addition to the session's.
     void step(const FlightInput& input, double dt);
     // Takes a frame, by which the eyes follow the room.
@@ -111,7 +124,7 @@ public:
     const std::string& notice() const { return mNotice.text(); }
     void notify(const std::string& text) { mNotice.say(text); }
 
-    const StereoSetting& stereo() const { return mStereo.now(); }
+    StereoSetting stereo() const { return mStereo.now(); }
     const ViewStereo& eyes() const { return mStereo; }
     ViewStereo& eyes() { return mStereo; }  // for changes other than by keys
     void setTruth(TruthView truth) { mTruth = truth; }
@@ -137,6 +150,8 @@ private:
     void stepMode(int by);
     void toggleStereo();
     void nextMethod();
+    void setOrbit(bool on);
+    void stepZoom(double dt);
     void showTruth(ViewCommand command);
     void reset();
 
@@ -149,6 +164,7 @@ private:
     std::shared_ptr<const OpenScene> mScene;
     PassingNotice mNotice;
     SessionFlight mFlight;
+    SessionOrbit mOrbit;
     SessionPath mPaths;
     SessionLight mLight;
     SessionSurface mSurface;

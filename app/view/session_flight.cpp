@@ -97,6 +97,13 @@ void SessionFlight::goTo(const Pose& pose) {
     mLooked = true;
 }
 
+void SessionFlight::moveTo(const Pose& pose) {
+    mGoal.reset();
+    if (mFlight->along()) mFlight->setMode(mFlight->lineMode() == 0 ? 1 : 0);
+    mFlight->moveTo(pose);
+    mLooked = true;
+}
+
 void SessionFlight::startGoal(const std::function<FlightTo(const Flight&)>& goal) {
     mResting = false;
     mLooked = true;

@@ -37,6 +37,8 @@ public:
     void reset();
     void turnBy(double yaw, double pitch);
     void goTo(const Pose& pose);
+    // Moves straight to a pose nearby, as far as there is room (Flight::moveTo); leaves a line that guides.
+    void moveTo(const Pose& pose);
     // Flies to a pose until the user takes over (engine/nav/flight_to.h); a notice says why it can not.
     void flyTo(const Pose& pose);
     void flyAlong(double along);  // metres along the line through the scene

@@ -16,6 +16,7 @@ constexpr double kLargestSeparation = 0.25;  // share of the zero-parallax dista
 // Relative change below which the eyes count as at rest: less than 0.05 pixels of 1280 at the largest
 // comfortable parallax. A resting picture is refined only once the eyes do not move.
 constexpr double kFollowed = 1e-3;
+constexpr double kLeastZoom = 1e-9;  // factor of eyes that were zoomed with
 
 // Returns the next value of an exponential approach in the logarithm, so that halving and doubling look
 // alike.
@@ -45,6 +46,7 @@ void ViewStereo::look(const Scene& scene) {
 
 void ViewStereo::reset(const Scene& scene) {
     takeOver();
+    endZoom();
     mTarget = begun(scene);
     mFits = !mGiven && !mStart;
     mFitted = mStart.has_value();
@@ -59,6 +61,8 @@ void ViewStereo::replaceScene(const Scene& scene) {
 }
 
 void ViewStereo::follow() {
+    mNow = now();
+    mZoom = mZoomTo = 1;
     mFollower = mRoom ? mRoom->makeFollower(mNow) : nullptr;
     if (follows()) mComfort.restart();
 }
@@ -71,6 +75,22 @@ void ViewStereo::takeOver() {
     }
     mFollower = nullptr;
     mFits = mFitted = mArrives = false;
+}
+
+void ViewStereo::zoom(double factor) {
+    if (!(factor > 0) || !std::isfinite(factor)) return;
+    if (!follows()) {
+        mZoom = mZoomTo = std::clamp(mZoom * factor, kLeastZoom, 1 / kLeastZoom);
+        return;
+    }
+    mNow.separation = std::min(mNow.separation * factor, mLargest);
+    mNow.zeroParallax *= factor;
+    mFollower = mRoom->makeFollower(mNow);
+}
+
+StereoSetting ViewStereo::now() const {
+    if (mZoom == 1) return mNow;
+    return {std::min(mNow.separation * mZoom, mLargest), mNow.zeroParallax * mZoom};
 }
 
 // The largest separation has priority over the distance of the screen.
@@ -127,8 +147,9 @@ void ViewStereo::observe(const ViewFrame& frame, bool fitsNow) {
     const FrameRequest& request = frame.request;
     if (!request.twoEyes) return;
     mSeen = true;
-    if (mFits && request.fitEyes && fitsNow) adopt(request.stereo);
-    mComfort.observe(request.stereo.separation, {frame.nearParallax, frame.farParallax});
+    if (mFits && request.fitEyes && fitsNow)
+        adopt({request.stereo.separation / mZoom, request.stereo.zeroParallax / mZoom});
+    mComfort.observe(request.stereo.separation / mZoom, {frame.nearParallax, frame.farParallax});
 }
 
 void ViewStereo::stepByHand(double dt) {
@@ -156,7 +177,8 @@ void ViewStereo::arrive(double free, double depth, double dt) {
 }
 
 void ViewStereo::step(double free, double depth, double dt) {
-    const StereoSetting before = mNow;
+    const StereoSetting before = now();
+    mZoom = approach(mZoom, mZoomTo, dt);
     if (mFollower && mArrives && mSeen && dt > 0) {
         arrive(free, depth, dt);
     } else if (mFollower) {
@@ -165,7 +187,8 @@ void ViewStereo::step(double free, double depth, double dt) {
     } else {
         stepByHand(dt);
     }
-    mMoving = before.separation != mNow.separation || before.zeroParallax != mNow.zeroParallax;
+    const StereoSetting after = now();
+    mMoving = before.separation != after.separation || before.zeroParallax != after.zeroParallax;
 }
 
 }  // namespace stereonav

@@ -16,6 +16,11 @@ public:
     // Restores the beginning: the scene's own setting, or the one that fitted its first picture, and
     // following.
     void reset(const Scene& scene);
+    // Scales separation and zero parallax with the distance from what is looked at, which zooming has changed
+    // by this factor, > 0: what was comfortable stays so. Eyes that follow the room go on from there.
+    // Settings by hand stay those of the distance before zooming, which endZoom() slowly goes back to.
+    void zoom(double factor);
+    void endZoom() { mZoomTo = 1; }
     // Returns the setting that reset() goes to.
     const StereoSetting& begun(const Scene& scene) const { return mStart ? *mStart : scene.stereo; }
     // Goes on in another scene with the present setting.
@@ -51,7 +56,7 @@ public:
     // free: distance around the head; depth: in the middle of the last picture; metres.
     void step(double free, double depth, double dt);
 
-    const StereoSetting& now() const { return mNow; }
+    StereoSetting now() const;
     // Returns the setting that the eyes go to, without the clamp.
     const StereoSetting& target() const { return follows() ? mNow : mTarget; }
     bool moving() const { return mMoving; }  // in the last step
@@ -64,8 +69,9 @@ private:
     void stepByHand(double dt);
     void arrive(double free, double depth, double dt);
 
-    // Settings: shown; gone to slowly, by hand; and the latter before the clamp.
+    // Settings before zooming: shown; gone to slowly, by hand; and the latter before the clamp.
     StereoSetting mNow, mTarget, mByHand;
+    double mZoom = 1, mZoomTo = 1;      // factor of all three, and the one that it goes to
     double mLargest;                    // in metres
     const RoomAround* mRoom = nullptr;  // the scene's; it outlives this object or is replaced first
     StereoFollower mFollower;

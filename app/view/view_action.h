@@ -28,6 +28,11 @@ enum class ViewCommand {
     PreviousUnseen,
     AddFinding,
     OpenPath,
+    OpenOther,
+    SavePictureAs,
+    MakeMovie,
+    ShowSide,  // these two: stay open where they are
+    ShowLeft,
     FullScreen,
     Quit,  // asks first while something is at work
     // Actions of the session.
@@ -38,6 +43,7 @@ enum class ViewCommand {
     NextFlightMode,
     SetFlightMode,
     SpeedByDistance,
+    ToggleOrbit,
     ToggleStereo,
     SwapEyes,
     NextMode,

@@ -183,8 +183,9 @@ void Window::installCallbacks() {
     glfwSetCursorPosCallback(mHandle, [](GLFWwindow* handle, double x, double y) {
         static_cast<Window*>(glfwGetWindowUserPointer(handle))->onPointer(x, y);
     });
-    glfwSetMouseButtonCallback(mHandle, [](GLFWwindow* handle, int button, int action, int) {
-        static_cast<Window*>(glfwGetWindowUserPointer(handle))->onButton(button, action == GLFW_PRESS);
+    glfwSetMouseButtonCallback(mHandle, [](GLFWwindow* handle, int button, int action, int mods) {
+        static_cast<Window*>(glfwGetWindowUserPointer(handle))
+            ->onButton(button, action == GLFW_PRESS, (mods & GLFW_MOD_SHIFT) != 0);
     });
     glfwSetFramebufferSizeCallback(mHandle, [](GLFWwindow* handle, int, int) {
         static_cast<Window*>(glfwGetWindowUserPointer(handle))->mRedraw = true;
@@ -206,15 +207,18 @@ void Window::onPointer(double x, double y) {
     const auto drags = [&](int button) {
         return glfwGetMouseButton(mHandle, button) == GLFW_PRESS && (mTaken & 1u << button) == 0;
     };
-    const bool held = drags(GLFW_MOUSE_BUTTON_LEFT) || drags(GLFW_MOUSE_BUTTON_RIGHT);
     const glm::dvec2 now(x, y);
     if (mSink && !mCaptured) mSink->pointerAt(shareOf(now));
-    if (mPointerKnown && (held || mCaptured)) mDrag += now - mPointer;
+    if (mPointerKnown && (drags(mGrip.button) || mCaptured)) {
+        if (mGrip.begins || mDrags.empty()) mDrags.push_back(mGrip);
+        mGrip.begins = false;
+        mDrags.back().by += now - mPointer;
+    }
     mPointer = now;
     mPointerKnown = true;
 }
 
-void Window::onButton(int button, bool pressed) {
+void Window::onButton(int button, bool pressed, bool shift) {
     if (mCaptured || button < 0 || button > GLFW_MOUSE_BUTTON_LAST) return;
     // The pointer's place at the time of the event; asking the system would give the present one, some frames
     // later.
@@ -229,6 +233,7 @@ void Window::onButton(int button, bool pressed) {
         mTaken = pressed && taken ? mTaken | bit : mTaken & ~bit;
         if (pressed ? taken : was) return;
     }
+    if (pressed && button <= GLFW_MOUSE_BUTTON_MIDDLE) mGrip = {button, shift, true, shareOf(now), {}};
     if (button != GLFW_MOUSE_BUTTON_LEFT) return;
     if (pressed)
         mPressed = now;
@@ -418,8 +423,8 @@ std::vector<glm::dvec2> Window::takeClicks() {
     return std::exchange(mClicks, {});
 }
 
-glm::dvec2 Window::takeDrag() {
-    return std::exchange(mDrag, glm::dvec2(0.0));
+std::vector<PointerDrag> Window::takeDrags() {
+    return std::exchange(mDrags, {});
 }
 
 Gamepad Window::gamepad() const {

@@ -25,6 +25,15 @@ struct KeyPress {
     bool control = false;
 };
 
+// The pointer's motion while a button is held, or while it is captured.
+struct PointerDrag {
+    int button = 0;        // GLFW_MOUSE_BUTTON_...: 0 left, 1 right, 2 middle
+    bool shift = false;    // held when the button went down
+    bool begins = true;    // whether it is the first of this press
+    glm::dvec2 from{0.0};  // where the button went down: share of the window's size, (0, 0) top left
+    glm::dvec2 by{0.0};    // screen units, x right, y down
+};
+
 // Sticks in [-1, 1] (y downwards) with a dead zone taken out; triggers in [0, 1].
 struct Gamepad {
     bool present = false;
@@ -99,9 +108,9 @@ public:
     void toggleFullScreen();  // on the monitor that the window is on
 
     bool keyDown(int key) const;
-    std::vector<KeyPress> takeKeys();  // pressed since the last call
-    double takeWheel();                // notches, upwards is positive
-    glm::dvec2 takeDrag();             // screen units, x right, y down, while a button is held or captured
+    std::vector<KeyPress> takeKeys();      // pressed since the last call
+    double takeWheel();                    // notches, upwards is positive
+    std::vector<PointerDrag> takeDrags();  // since the last call, one a press
     // Places where the left button went down and up without the pointer moving away: shares of the
     // window's size, (0, 0) top left.
     std::vector<glm::dvec2> takeClicks();
@@ -126,7 +135,7 @@ private:
     void placeBeside(const Window& first);
     void installCallbacks();
     void onPointer(double x, double y);
-    void onButton(int button, bool pressed);
+    void onButton(int button, bool pressed, bool shift);
     void setPointerMode();
     // What the window system says of it. It is asked once between two calls of handleEvents: each answer
     // takes a turn to the X server and back.
@@ -144,10 +153,12 @@ private:
     FullScreen mFullScreen;
     bool mQuadBuffered = false;
     std::vector<KeyPress> mKeys;
-    double mWheel = 0;                     // notches
-    glm::dvec2 mDrag{0.0}, mPointer{0.0};  // screen units
-    std::vector<glm::dvec2> mClicks;       // shares of the window's size
-    glm::dvec2 mPressed{0.0};              // where the left button went down, screen units
+    double mWheel = 0;         // notches
+    glm::dvec2 mPointer{0.0};  // screen units
+    PointerDrag mGrip;         // the last press, without motion
+    std::vector<PointerDrag> mDrags;
+    std::vector<glm::dvec2> mClicks;  // shares of the window's size
+    glm::dvec2 mPressed{0.0};         // where the left button went down, screen units
     std::vector<std::string> mDrops;
     InputSink* mSink = nullptr;
     unsigned mTaken = 0;  // buttons that are down and the sink's, a bit each

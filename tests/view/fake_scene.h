@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/view/worker.h"
+#include "engine/scene/seen_from_outside.h"
 #include "engine/scene/shown_values.h"
 #include "engine/scene/slices.h"
 #include "engine/scene/surface_paint.h"
@@ -30,6 +31,7 @@ struct FakeParts {
 
     std::optional<SurfaceChoices> surface;
     std::optional<ShownValues> values;
+    std::optional<SeenFromOutside> outside;
     std::function<StereoFollower(const StereoSetting&)> makeFollower;
     double largestSeparation = std::numeric_limits<double>::infinity();
     bool followsAtStart = true;
@@ -65,6 +67,7 @@ public:
         path = parts.path;
         if (mParts.surface) offer(*mParts.surface);
         if (mParts.values) offer(*mParts.values);
+        if (mParts.outside) offer(*mParts.outside);
         mRays.renderer = mParts.rays;
         if (mParts.rays) offer(mRays);
         if (parts.makeFollower || parts.largestSeparation < std::numeric_limits<double>::infinity())

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "app/scene/medium/medium_facts.h"
 #include "app/scene/type/outside_view.h"
@@ -63,7 +64,9 @@ private:
 ShownMedium::~ShownMedium() = default;
 
 void ShownMedium::flyFreely() {
-    const glm::dvec3 size = mMedium->medium.bounds().high - mMedium->medium.bounds().low;
+    mOutside = {mMedium->medium.bounds().low, mMedium->medium.bounds().high};
+    if (!offered<SeenFromOutside>()) offer(std::as_const(mOutside));  // a volume has offered its own
+    const glm::dvec3 size = mOutside.high - mOutside.low;
     mMakeFlight = [this, extent = std::max({size.x, size.y, size.z})] {
         return freeFlight(startPose, extent);
     };

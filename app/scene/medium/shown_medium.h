@@ -11,6 +11,7 @@
 #include "engine/medium/sweep/swept_frames.h"
 #include "engine/scene/capabilities.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/seen_from_outside.h"
 
 namespace stereonav {
 
@@ -38,7 +39,9 @@ public:
         offer<C>(capability);
     }
     void flyAs(MakeFlight make) { mMakeFlight = std::move(make); }
-    void flyFreely();  // flight without ground or walls, which may enter the medium; begins at startPose
+    // Sets a flight without ground or walls, which may enter the medium and begins at startPose; offers
+    // SeenFromOutside.
+    void flyFreely();
     void alsoDescribe(std::function<Fact()> describe) { mDescribe = std::move(describe); }
     void checkBy(CheckPath check) { mCheckPath = std::move(check); }
     // Offers `light` where the medium's own light does not turn; held.
@@ -69,6 +72,7 @@ private:
     std::unique_ptr<TurningLight> mSun;  // for parallel light; else null
     TurningLight* mOtherLight = nullptr;
     Animation mAnimation;
+    SeenFromOutside mOutside;
     MakeFlight mMakeFlight;
     CheckPath mCheckPath;
     std::function<Fact()> mDescribe;  // facts of the source; null: it is not a scene

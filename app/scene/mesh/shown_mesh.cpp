@@ -79,7 +79,8 @@ ShownMesh::ShownMesh(MeshCaster caster, const SceneOptions& options, SimdTarget 
       mRays{&mRenderer},
       mFrames(mRenderer),
       mSun(mRenderer),
-      mBox{mRenderer.caster().low(), mRenderer.caster().high()} {
+      mBox{mRenderer.caster().low(), mRenderer.caster().high()},
+      mOutside{mBox.low, mBox.high} {
     simd = availableTarget(target);
     constexpr const char* kFlight = "the flight around the mesh";
     std::optional<double> turn;
@@ -94,6 +95,7 @@ ShownMesh::ShownMesh(MeshCaster caster, const SceneOptions& options, SimdTarget 
     offer<const MeshRenderer>(mRenderer);
     offer<TurningLight>(mSun);
     offer(std::as_const(mBox));
+    offer(std::as_const(mOutside));
 }
 
 Facts ShownMesh::describe() const {

@@ -6,10 +6,11 @@
 #include "engine/mesh/mesh_renderer.h"
 #include "engine/scene/capabilities.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/seen_from_outside.h"
 
 namespace stereonav {
 
-// Offers RayCast, const MeshRenderer, SceneBox and a TurningLight.
+// Offers RayCast, const MeshRenderer, SceneBox, SeenFromOutside and a TurningLight.
 class ShownMesh final : public Scene {
 public:
     // options: the first view, and the direction of the light where one is given.
@@ -36,6 +37,7 @@ private:
     mutable CastFrames mFrames;
     Sun mSun;
     SceneBox mBox;
+    SeenFromOutside mOutside;
 };
 
 }  // namespace stereonav

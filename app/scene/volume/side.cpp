@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kOutsideSeconds = 10;
 
-class SeenFromOutside final : public VolumeSide {
+class VolumeFromOutside final : public VolumeSide {
 public:
-    explicit SeenFromOutside(const ColonScene& volume) : mVolume(volume) {}
+    explicit VolumeFromOutside(const ColonScene& volume) : mVolume(volume) {}
 
     void expectOutside(const char*, const std::string&, const std::string&) const override {}
     std::optional<double> movableIsovalue() const override {
@@ -51,7 +51,7 @@ private:
 
 std::unique_ptr<const VolumeSide> sideOf(const ColonScene& volume) {
     if (volume.isColon()) return std::make_unique<ColonInterior>(volume);
-    return std::make_unique<SeenFromOutside>(volume);
+    return std::make_unique<VolumeFromOutside>(volume);
 }
 
 }  // namespace stereonav

@@ -71,7 +71,8 @@ VolumeWorld::VolumeWorld(ColonScene colon, const SceneOptions& options)
       mOptions(colonOptionsOf(options)),
       mSide(sideOf(mColon)),
       mFollows(!options.separation_m && !options.zeroParallax_m),
-      mBox(boxOf(mColon.volume.field.frame)) {
+      mBox(boxOf(mColon.volume.field.frame)),
+      mOutside{mBox.low, mBox.high} {
     mOptions.up = mColon.up;
 }
 

@@ -17,6 +17,7 @@
 #include "engine/scene/capabilities.h"
 #include "engine/scene/place_reader.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/seen_from_outside.h"
 #include "engine/scene/slices.h"
 #include "engine/volume/volume_renderer.h"
 
@@ -46,7 +47,7 @@ public:
         offer(std::as_const(mBox));
         offer(static_cast<const PlaceReader&>(*this));
         const ColonInterior* const interior = mSide->interior();
-        if (!interior) return;
+        if (!interior) return offer(std::as_const(mOutside));
         offer(*interior);
         offer(static_cast<const LineThrough&>(*interior));
         offer(interior->lineOnMap());
@@ -80,6 +81,7 @@ private:
     bool mFollows = false;
     const EyeRenderer* mWall = nullptr;
     SceneBox mBox;
+    SeenFromOutside mOutside;  // only where it is
     // Only for a colon:
     SharedWall mSharedWall{mColon};
     ColonFindings mFindings{mColon, mSharedWall, mOptions};

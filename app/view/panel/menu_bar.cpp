@@ -138,6 +138,11 @@ void flightMenu(const PanelParts& parts, MenuWishes& wishes) {
          ViewCommand::Play);
     if (ImGui::MenuItem("Make a movie...", nullptr, false, session != nullptr)) wishes.movie = true;
     ImGui::Separator();
+    item(parts, "Orbit: turn, pan and zoom by mouse", "Ctrl+R", ViewCommand::ToggleOrbit,
+         session && session->orbits());
+    tooltip(
+        "Left drag turns about what is under the pointer, Shift or the middle button pans, the wheel and the "
+        "right button zoom. Otherwise dragging looks around, and the wheel sets the speed.");
     item(parts, "Speed by the distance ahead", "Shift+F", ViewCommand::SpeedByDistance,
          session && session->moves().speedByDistance());
     item(parts, "Hold the mouse", "Y", ViewCommand::CaptureMouse, session && session->mouseCaptured());

@@ -14,6 +14,7 @@ namespace stereonav {
 
 class Instruments;
 class Notices;
+struct PointerDrag;
 
 class PicturePointer {
 public:
@@ -36,11 +37,18 @@ public:
 
 private:
     void useControls(Notices& notices);
+    // Handles a drag in a picture of this size in screen units. from: where it began, a share of the size.
+    void useDrag(const PointerDrag& drag, const glm::dvec2& from, const glm::dvec2& size);
+    // at: the pointer's place, a share of the picture's size; empty where it is not known.
+    void useWheel(double notches, const std::optional<glm::dvec2>& at);
+    // Returns the place that is seen there, also in a warped picture.
+    std::optional<glm::dvec3> surfaceAt(const glm::dvec2& share) const;
 
     std::optional<ViewSession>& mSession;
     Window& mWindow;
     PanelStage& mStage;
     const FramePresenter& mPictures;
+    std::optional<glm::dvec2> mZoomedAt;  // share where the wheel began to zoom
 };
 
 }  // namespace stereonav
