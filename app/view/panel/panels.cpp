@@ -26,6 +26,7 @@
 #include "app/view/panel/status_bar.h"
 #include "app/view/panel/unfolded_panel.h"
 #include "app/view/second_side.h"
+#include "app/view/view_action.h"
 
 namespace stereonav {
 namespace {
@@ -247,6 +248,27 @@ void Panels::showFindings() {
 }
 void Panels::openSearch() {
     mState->search.open();
+}
+bool Panels::open(ViewCommand command) {
+    ShownPanels& shown = mState->shown;
+    SideTools& tools = mState->tools;
+    switch (command) {
+        case ViewCommand::OpenOther:
+            openFiles(FileBrowser::For::OpenOther);
+            return true;
+        case ViewCommand::ShowLeft:
+            if (!shown.left.shown) shown.toggleLeft();
+            return true;
+        case ViewCommand::SavePictureAs:
+        case ViewCommand::MakeMovie:
+            (command == ViewCommand::MakeMovie ? tools.showPath : tools.showPicture) = true;
+            [[fallthrough]];
+        case ViewCommand::ShowSide:
+            if (!shown.side.shown) shown.toggleSide();
+            return true;
+        default:
+            return false;
+    }
 }
 void Panels::openFiles(FileBrowser::For what) {
     mState->files.open(what);

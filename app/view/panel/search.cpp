@@ -1,31 +1,36 @@
 #include "app/view/panel/search.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cctype>
-#include <sstream>
 
-#include "app/view/input.h"
 #include "app/view/panel/controls.h"
+#include "app/view/search_hits.h"
 
 namespace stereonav {
 namespace {
 
-std::string lowered(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
+// Draws a key or a menu's entry; returns whether it was clicked.
+bool drawKey(const KeyHelp& help, bool chosen, float width) {
+    const float font = ImGui::GetFontSize();
+    const bool clicked = ImGui::Selectable("##row", chosen);
+    ImGui::SameLine(0.5f * font);
+    ImGui::TextUnformatted(help.meaning.c_str());
+    ImGui::SameLine(width - 9 * font);
+    quietText(help.keys);
+    return clicked;
 }
 
-// Returns whether every word occurs in the text.
-bool matches(const std::string& text, const std::string& words) {
-    std::istringstream in(lowered(words));
-    const std::string where = lowered(text);
-    for (std::string word; in >> word;)
-        if (where.find(word) == std::string::npos) return false;
-    return true;
+void drawOption(SceneChanges& changes, const Option& option) {
+    if (option.panel == OptionPanel::None)
+        quietText(labelOf(option) + ": on the command line, " + option.name());
+    else if (changes.settings().applies(option))
+        optionControl(changes, option);
+    else
+        quietText(labelOf(option) + ": not of this scene");
+    quietText(option.help);
 }
 
 }  // namespace
@@ -55,32 +60,18 @@ void SearchBox::draw(SceneChanges& changes, AskedActions& actions) {
     int row = 0;
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow))) ++mChosen;
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow))) mChosen = std::max(mChosen - 1, 0);
-    for (const KeyHelp& help : viewKeys()) {
-        if (!matches(help.meaning + " " + help.keys, mWords)) continue;
-        ImGui::PushID(row);
+    for (const SearchHit& hit : searchHits(mWords)) {
         const bool chosen = row++ == mChosen;
-        const bool clicked = ImGui::Selectable("##row", chosen);
-        ImGui::SameLine(0.5f * font);
-        ImGui::TextUnformatted(help.meaning.c_str());
-        ImGui::SameLine(width - 9 * font);
-        quietText(help.keys);
-        if ((clicked || (entered && chosen)) && help.action) {
+        ImGui::PushID(row);
+        if (hit.option) drawOption(changes, *hit.option);
+        if (hit.command)
+            quietText(
+                fmt::format("stereonav {}, on the command line: {}", hit.command->name, hit.command->help));
+        const bool clicked = hit.key && drawKey(*hit.key, chosen, width);
+        if (hit.key && hit.key->action && (clicked || (entered && chosen))) {
             mOpen = false;
-            actions.ask(*help.action);
+            actions.ask(*hit.key->action);
         }
-        ImGui::PopID();
-    }
-    for (const Option& option : optionTable()) {
-        if (!(option.commands & command::kView) || option.panel == OptionPanel::None) continue;
-        if (!matches(labelOf(option) + " " + option.help, mWords)) continue;
-        ImGui::PushID(&option);
-        ++row;
-        if (changes.settings().applies(option)) {
-            optionControl(changes, option);
-        } else {
-            quietText(labelOf(option) + ": not of this scene");
-        }
-        quietText(option.help);
         ImGui::PopID();
     }
     mChosen = std::min(mChosen, std::max(row - 1, 0));

@@ -207,7 +207,7 @@ bool Viewer::actOnInterface(ViewCommand command) {
             if (mSession) panels.openFiles(FileBrowser::For::SaveScene);
             return true;
         default:
-            return false;
+            return panels.open(command);
     }
 }
 
