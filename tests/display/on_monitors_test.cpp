@@ -157,7 +157,7 @@ TEST_F(OnMonitors, EyesAlternate) {
     ViewOptions options;
     options.mode = OutputMode::Alternating;
     ViewDisplay display(*mWindow, options);
-    EXPECT_EQ(display.mode(), OutputMode::Alternating);
+    EXPECT_EQ(display.mode().shown(), OutputMode::Alternating);
     EXPECT_EQ(display.wait(), std::nullopt);
     for (const bool swapped : {false, true}) {
         // It takes as long as it takes: where pictures come late, one eye may have its turn several times.
@@ -197,11 +197,11 @@ TEST_F(OnMonitors, WhereNoQuadBufferIsGrantedOneLineSaysSo) {
     StereoPresenter presenter;
     presenter.upload(filledEye(kLeftColor, 8, 8), filledEye(kRightColor, 8, 8));
     if (mWindow->quadBuffered()) {
-        EXPECT_EQ(display.mode(), OutputMode::QuadBuffer);
+        EXPECT_EQ(display.mode().shown(), OutputMode::QuadBuffer);
         EXPECT_EQ(display.takeNotice(), "");
         return;
     }
-    EXPECT_EQ(display.mode(), OutputMode::SideBySide);
+    EXPECT_EQ(display.mode().shown(), OutputMode::SideBySide);
     const std::string line = display.takeNotice();
     EXPECT_THAT(line, testing::HasSubstr("quad: the graphics driver grants no buffer for each eye"));
     EXPECT_EQ(line.find('\n'), std::string::npos);
