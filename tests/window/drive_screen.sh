@@ -11,10 +11,10 @@ open_window terrain --json
 at_rest
 keys F2
 turns
-press 320 330
+press 320 272
 keys ctrl+a
 words 598
-press 417 330
+press 417 272
 keys F2
 turns
 close_window

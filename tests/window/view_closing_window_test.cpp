@@ -29,6 +29,10 @@ TEST_F(ClosingWindow, AsksWhileAFlightIsRecordedAndKeepsIt) {
         EXPECT_GE(readPath(file).duration(), 1) << file;
     }
     EXPECT_FALSE(fs::exists(mFolder / "shots/flight_0006.gltf"));
+    std::size_t pictures = 0;
+    for (const auto& entry : fs::directory_iterator(mFolder / "shots"))
+        pictures += entry.path().extension() == ".png";
+    EXPECT_EQ(pictures, 5u) << "one of each window: P in the search is a letter";
     EXPECT_THAT(textOf("log.txt"), testing::HasSubstr("flight_0005.gltf")) << "what became of it is told";
 }
 
