@@ -112,7 +112,7 @@ constexpr std::pair<const char*, const char*> kWanted[] = {
     {"speed", "wheel, Shift"},
     {"faster", "wheel, Shift"},
     {"fps", "--target-ms"},
-    {"antialiasing", "--rays"},
+    {"antialiasing", "--edges"},
     {"settings", "F2"},
     {"preferences", "F2"},
     {"shortcuts", "F1"},
@@ -150,6 +150,15 @@ TEST(ViewSearch, WholeWordsComeFirstAndAllHaveToOccur) {
     EXPECT_NE((hits.front().key->meaning + " " + hits.front().key->also).find("fly"), std::string::npos);
     EXPECT_TRUE(searchHits("fly hippopotamus").empty());
     EXPECT_EQ(nameOf(searchHits("SwAp   EYES").front()), "X");
+}
+
+// A row has a meaning at the left and its key at the right.
+TEST(ViewSearch, NoMeaningReachesItsKey) {
+    for (const auto* entries : {&viewKeys(), &menuEntries()})
+        for (const KeyHelp& entry : *entries) {
+            EXPECT_LE(entry.meaning.size(), 64u) << entry.meaning;
+            EXPECT_LE(entry.keys.size(), 17u) << entry.keys;
+        }
 }
 
 TEST(ViewSearch, WithoutWordsAllIsThereOnce) {

@@ -18,7 +18,7 @@ namespace stereonav {
 namespace {
 using std::numbers::pi;
 
-constexpr double kFrame = 1.0 / 60;
+constexpr double kTurn60 = 1.0 / 60;  // seconds
 
 // A box ten metres wide, seen from forty metres south of its middle.
 FakeParts objectSeenFromOutside() {
@@ -43,7 +43,7 @@ protected:
         mScene = std::make_shared<FakeParts>(objectSeenFromOutside());
     }
     static void rest(ViewSession& s, int frames = 120) {
-        for (int n = 0; n < frames; ++n) s.step({}, kFrame);
+        for (int n = 0; n < frames; ++n) s.step({}, kTurn60);
     }
 };
 
@@ -79,7 +79,7 @@ TEST_F(ViewOrbitTest, ADragTurnsAboutWhatWasUnderThePointer) {
     s.drag(OrbitDrag::Turn, {0.4, 0}, 0.8);
     EXPECT_NEAR(glm::distance(s.pose().position, glm::dvec3(1, -5, 2)), before, 1e-9);
     EXPECT_NEAR(anglesOf(s.pose()).heading, pi / 2, 1e-9) << "half of the picture's height is a quarter turn";
-    s.step({}, kFrame);
+    s.step({}, kTurn60);
     EXPECT_TRUE(s.flying()) << "pictures are warped meanwhile";
     rest(s);
     EXPECT_FALSE(s.moving());
@@ -111,7 +111,7 @@ TEST_F(ViewOrbitTest, TheWheelZoomsSmoothlyAndTheEyesComeTogether) {
     const double factor = std::pow(5.0 / 6, 5);
     double before = 35;
     for (int n = 0; n < 120; ++n) {
-        s.step({}, kFrame);
+        s.step({}, kTurn60);
         const double away = glm::distance(s.pose().position, glm::dvec3(0, -5, 0));
         EXPECT_LE(away, before);
         EXPECT_GT(away, 0.8 * before) << "no jump";
@@ -164,7 +164,7 @@ TEST_F(ViewOrbitTest, FramesMadeAheadDoNotPassThePivot) {
     s.takeHold(std::nullopt);
     s.zoomBy(30);
     for (int n = 0; n < 60; ++n) {
-        s.step({}, kFrame);
+        s.step({}, kTurn60);
         EXPECT_LT(s.poseAhead(0.15).position.y, 0.45 * s.pose().position.y);
     }
 }
@@ -173,11 +173,11 @@ TEST_F(ViewOrbitTest, KeysFlyOnAndEndAZoom) {
     ViewSession s = session();
     s.takeHold(std::nullopt);
     s.zoomBy(10);
-    s.step({}, kFrame);
+    s.step({}, kTurn60);
     EXPECT_TRUE(s.zooming());
     FlightInput ahead;
     ahead.forward = 1;
-    for (int n = 0; n < 60; ++n) s.step(ahead, kFrame);
+    for (int n = 0; n < 60; ++n) s.step(ahead, kTurn60);
     EXPECT_FALSE(s.zooming());
     EXPECT_TRUE(s.orbits()) << "the mouse still turns";
     EXPECT_GT(s.flight().pose().position.y, -40);
