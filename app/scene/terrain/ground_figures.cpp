@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 
+#include "engine/text/length_text.h"
 #include "terrain/survey/ground_line.h"
 
 namespace stereonav {
@@ -33,10 +35,27 @@ std::vector<GroundFigure> figuresOfArea(const GroundSamples& ground, const std::
             {"surface_m2", "area along the ground", "m2", m.along, e.along},
             {"perimeter_m", "border over the plan", "m", m.perimeter, 0},
             {"plane_m", "plane", "m", plane, 0},
-            {"above_m3", "volume over it", "m3", m.above, e.above},
-            {"below_m3", "volume under it", "m3", m.below, e.below},
+            {"above_m3", "volume over it", "m3", m.above + 0.0, e.above},
+            {"below_m3", "volume under it", "m3", m.below + 0.0, e.below},
             {"lowest_m", "lowest", "m", m.lowest, e.lowest},
             {"highest_m", "highest", "m", m.highest, e.highest}};
+}
+
+std::string figureText(const GroundFigure& figure) {
+    constexpr double kKilometres = 10'000;  // metres from which on lengths are in km
+    const std::string_view unit = figure.unit;
+    const SizedUnit sized = unit == "m2"                            ? areaUnit(figure.value)
+                            : unit == "m3"                          ? volumeUnit(figure.value)
+                            : std::abs(figure.value) >= kKilometres ? lengthUnit(figure.value)
+                                                                    : SizedUnit{1, figure.unit};
+    if (sized.size == 1)
+        return fmt::format("{} {}{}", fixedText(figure.value, 1), figure.unit, errorText(figure));
+    constexpr int kDecimals = 3;
+    const GroundFigure shown{figure.key, figure.label, sized.name, figure.value / sized.size,
+                             figure.error / sized.size};
+    const bool tiny = shown.error > 0 && shown.error < 0.0005;
+    return fmt::format("{} {}{}", fixedText(shown.value, kDecimals), sized.name,
+                       tiny ? " +- less than 0.001" : errorText(shown));
 }
 
 // Returns the error with two digits, without an exponent: "+- 210", not "2.1e+02".

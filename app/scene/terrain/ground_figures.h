@@ -25,6 +25,9 @@ std::vector<GroundFigure> figuresOfLine(const GroundSamples& ground, const std::
 std::vector<GroundFigure> figuresOfArea(const GroundSamples& ground, const std::vector<glm::dvec2>& world,
                                         const std::optional<double>& plane, const ShareDone& done = {});
 
+// Returns the figure for people, in a unit by its size: "12.346 km2 +- 0.021". Values in files stay in
+// `unit`.
+std::string figureText(const GroundFigure& figure);
 // Returns " +- 0.2", " (error not known)", or "" where a figure has no error.
 std::string errorText(const GroundFigure& figure);
 

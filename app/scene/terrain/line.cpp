@@ -79,8 +79,7 @@ MeasuredSurface TerrainLine::measure(const std::vector<glm::dvec3>& places, bool
          closed ? figuresOfArea(ground, world, std::nullopt,
                                 [&](double share) { progress.report(share, kMeasuring); })
                 : figuresOfLine(ground, world))
-        list.both(figure.key, figure.value, figure.label,
-                  fmt::format("{:.1f} {}{}", figure.value, figure.unit, errorText(figure)), figure.unit);
+        list.both(figure.key, figure.value, figure.label, figureText(figure), figure.unit);
     measured.facts = std::move(list.facts());
     addSpacing(ground, measured.facts);
     if (closed) world.push_back(world.front());
