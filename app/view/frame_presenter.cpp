@@ -1,7 +1,5 @@
 #include "app/view/frame_presenter.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace stereonav {
@@ -29,10 +27,9 @@ glm::ivec2 FramePresenter::eyeSize() const {
     return mPicture.left ? glm::ivec2(mPicture.left->width(), mPicture.left->height()) : glm::ivec2(0);
 }
 
-std::string FramePresenter::ageText() const {
-    if (!mPicture.warped || mPicture.cast.asked_s <= 0) return "";
-    return fmt::format("{:3.0f} ms old{}", 1000 * (Window::now() - mPicture.cast.asked_s),
-                       mPicture.cast.scale < 1 ? fmt::format(", {:.0f} %", 100 * mPicture.cast.scale) : "");
+std::optional<LatePicture> FramePresenter::late() const {
+    if (!mPicture.warped || mPicture.cast.asked_s <= 0) return std::nullopt;
+    return LatePicture{Window::now() - mPicture.cast.asked_s, mPicture.cast.scale};
 }
 
 void FramePresenter::take(std::shared_ptr<const ViewFrame> frame, const AskedFrames& asked, bool lateWarp) {

@@ -12,6 +12,7 @@
 #include "app/view/late_view.h"
 #include "app/view/screenshots.h"
 #include "app/view/session.h"
+#include "app/view/status_words.h"
 #include "app/view/view_bench.h"
 #include "engine/display/stereo_presenter.h"
 #include "engine/display/window.h"
@@ -45,9 +46,8 @@ public:
     const ShownPicture& picture() const { return mPicture; }
     // Returns the size of an eye that is shown in pixels; 0 for slices, and before the first frame.
     glm::ivec2 eyeSize() const;
-    // Returns the age of a warped picture and its share of the full size; "" for a picture that is shown as
-    // cast.
-    std::string ageText() const;
+    // Returns how late the picture is that is shown; empty where it is no warped one.
+    std::optional<LatePicture> late() const;
     double framesPerSecond() const { return mRate.value(); }       // 0: not known
     const std::deque<FrameCost>& costs() const { return mCosts; }  // newest last
     void forgetCosts() { mCosts.clear(); }

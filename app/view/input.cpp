@@ -101,17 +101,12 @@ constexpr LetterCommand kLetters[] = {
     {'z', ViewCommand::Record, ViewCommand::Play},
 };
 constexpr LetterCommand kLettersWithControl[] = {
-    {'o', ViewCommand::OpenFile},
-    {'n', ViewCommand::StartPage},
-    {'b', ViewCommand::AddPlace},
-    {'c', ViewCommand::CopyPlace},
-    {'m', ViewCommand::MeasurePlace},
-    {'f', ViewCommand::AddFinding},
-    {'s', ViewCommand::SaveScene},
-    {'p', ViewCommand::Search},
-    {'z', ViewCommand::Undo, ViewCommand::Redo},
-    {'y', ViewCommand::Redo},
-    {'q', ViewCommand::Quit},
+    {'o', ViewCommand::OpenFile},     {'n', ViewCommand::StartPage},
+    {'b', ViewCommand::AddPlace},     {'c', ViewCommand::CopyPlace},
+    {'m', ViewCommand::MeasurePlace}, {'f', ViewCommand::AddFinding},
+    {'s', ViewCommand::SaveScene},    {'p', ViewCommand::Search},
+    {'g', ViewCommand::GoToPlace},    {'z', ViewCommand::Undo, ViewCommand::Redo},
+    {'y', ViewCommand::Redo},         {'q', ViewCommand::Quit},
     {'r', ViewCommand::ToggleOrbit},
 };
 
@@ -224,6 +219,8 @@ const std::vector<KeyHelp>& viewKeys() {
         {"F7", "the panels in a window of their own", does(Controls),
          "detach undock second monitor controls"},
         {"Ctrl+P", "find anything"},
+        {"Ctrl+G", "go to a place by its coordinates", does(GoToPlace),
+         "coordinates latitude longitude utm position jump goto find"},
         {"Ctrl+O", "open a file", does(OpenFile), "import load add data layer volume dem dicom"},
         {"Ctrl+N", "start page", does(StartPage), "recent home welcome new"},
         {"Ctrl+S", "save the scene", does(SaveScene), "project session workspace store"},

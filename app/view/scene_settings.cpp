@@ -1,11 +1,9 @@
 #include "app/view/scene_settings.h"
 
-#include <algorithm>
 #include <system_error>
 #include <utility>
 
 #include "app/scene/scene_type_table.h"
-#include "app/scene/shown_as.h"
 #include "app/view/live_settings.h"
 #include "app/view/loading.h"
 #include "engine/base/error.h"
@@ -41,19 +39,16 @@ const SettingTexts& SceneSettings::now() const {
 
 bool SceneSettings::applies(const Option& option) const {
     const auto [known, fresh] = mApplies.try_emplace(&option, false);
-    if (fresh) known->second = wouldApply(option);
+    if (fresh) known->second = isOffered(shownScene(), mChanged, option);
     return known->second;
 }
 
-bool SceneSettings::wouldApply(const Option& option) const {
-    const auto type = sceneTypeOf(options().scene);
-    if (!type || (option.scenes & *type) == 0) return false;
-    // Options that would be refused beside the present settings are not offered.
-    GivenOptions given = mChanged.scene.given;
-    if (!given.has(option.key)) given.add(option.key, OptionValue{}, option.name());
-    const Asked asked{given, *type};
-    return std::none_of(option.rules.begin(), option.rules.end(),
-                        [&](const OptionRule& rule) { return rule.broken(asked); });
+const Scene* SceneSettings::shownScene() const {
+    return mSession ? mSession->open().scene.get() : nullptr;
+}
+
+SettingRow SceneSettings::row(const Option& option) const {
+    return rowOf(shownScene(), mChanged, option);
 }
 
 void SceneSettings::lookAtScene() {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/options/view_options.h"
+#include "app/view/offered_settings.h"
 #include "app/view/session.h"
 #include "app/view/setting_texts.h"
 #include "app/view/settings_history.h"
@@ -42,6 +43,8 @@ public:
     void look() { mNow.reset(); }
     // Returns whether the option applies to the scene, and would not be refused beside the present settings.
     bool applies(const Option& option) const;
+    // Returns what of the option the scene takes.
+    SettingRow row(const Option& option) const;
     // Forgets which options apply, since another scene is shown.
     void lookAtScene();
 
@@ -71,7 +74,7 @@ public:
     std::filesystem::path save(const std::filesystem::path& file) const;
 
 private:
-    bool wouldApply(const Option& option) const;
+    const Scene* shownScene() const;  // null before the first
 
     std::optional<ViewSession>& mSession;
     SceneMade mMade;

@@ -138,6 +138,7 @@ public:
     TruthView truth() const { return mTruth; }
     // Returns the measurement of the picture that rests; "" where it is of another one.
     std::string measuredText(const ViewFrame& frame) const;
+    const FrameTruth& measured() const { return mMeasured; }
     bool followsClearance() const { return mStereo.follows(); }
     OutputMode mode() const { return mShown.mode; }
     Pose pose() const { return mPaths.playing() ? mPaths.played() : flight().pose(); }

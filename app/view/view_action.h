@@ -15,6 +15,7 @@ enum class ViewCommand {
     Unfolded,
     Controls,
     Search,
+    GoToPlace,  // asks for its coordinates
     OpenFile,
     SaveScene,
     StartPage,

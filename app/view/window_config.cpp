@@ -81,6 +81,7 @@ void readSections(TomlDocument& document, WindowConfig& config) {
     window.read("place_labels", config.placeLabels);
     readPlace(window, config.place);
     window.read("maximised", config.maximised);
+    window.read("figures", config.figures);
     std::string folder;
     window.read("last_folder", folder);
     config.lastFolder = folder;
@@ -119,6 +120,7 @@ std::string tomlOf(const WindowConfig& config) {
     if (const auto& at = config.place)
         text += fmt::format("x = {}\ny = {}\nwidth = {}\nheight = {}\n", at->x, at->y, at->width, at->height);
     text += fmt::format("maximised = {}\n", config.maximised);
+    text += fmt::format("figures = {}\n", config.figures);
     const std::string folder = config.lastFolder.string();
     if (!folder.empty() && isUtf8(folder))  // other bytes are not valid in TOML
         text += "last_folder = " + tomlText(folder) + "\n";

@@ -34,6 +34,7 @@ struct WindowConfig {
     std::filesystem::path lastFolder;     // "" where there is none
     bool speedByDistance = false;
     bool placeLabels = true;
+    bool figures = false;             // in the status bar
     std::optional<ScreenRect> place;  // the window's on the desktop, while it is not maximised
     bool maximised = false;
     std::optional<ShownMode> mode;    // the one that was shown last

@@ -14,8 +14,18 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/image/stereo_picture_file.h"
+#include "engine/scene/capabilities.h"
 
 namespace stereonav {
+namespace {
+
+const Command* commandNamed(const std::string& name) {
+    for (const Command& command : commands())
+        if (name == command.name) return &command;
+    return nullptr;
+}
+
+}  // namespace
 
 void WindowJobs::checkNone() const {
     if (busy()) throw Error("", mJob->what(), "is still being made", "wait for it, or cancel it");
@@ -122,6 +132,29 @@ void WindowJobs::bakeLight(const std::string& what, double minutes) {
         start("baked light", words);
         mBaked = baked;
         mBakedScene = mSettings.options().scene.scene;
+    });
+}
+
+bool WindowJobs::exports(const std::string& command) const {
+    const auto type = sceneTypeOf(mSettings.options().scene);
+    const Command* const made = commandNamed(command);
+    if (!type || !made) return false;
+    if ((made->traits & command::kOfColon) != 0)
+        return mSession && mSession->open().scene->offered<LineThrough>();
+    return (*type & scene_type::kTerrain) != 0;
+}
+
+void WindowJobs::exportFile(const std::string& command, const std::string& file) {
+    mNotices.tryTo([&] {
+        checkNone();
+        const Command* const made = commandNamed(command);
+        if (!made) return;
+        std::vector<std::string> words = commandWords(made->command, mSettings.now());
+        auto held = std::make_unique<HeldPlace>(std::filesystem::absolute(file).lexically_normal(),
+                                                HeldPlace::Kind::File);
+        const std::filesystem::path place = held->path();
+        words.push_back("--out=" + place.string());
+        start(place.string(), words, std::move(held));
     });
 }
 

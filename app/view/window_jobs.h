@@ -50,6 +50,10 @@ public:
     // Writes measurements in the format of the file's extension: .csv and .svg for the profile, .geojson.
     void saveMeasured(const MeasuredLine& line, const std::string& file);
 
+    // Return whether the command makes a file of this kind of scene; and run it, with the window's settings.
+    bool exports(const std::string& command) const;
+    void exportFile(const std::string& command, const std::string& file);
+
     // Reports a finished job; to be called each turn. Returns baked light that is to be shown now, if any.
     std::optional<std::string> look();
     // Returns the work that would end with the window, with the consequences; "": none.

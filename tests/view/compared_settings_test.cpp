@@ -67,7 +67,7 @@ STEREONAV_MEMBERS(ValueView, "low", "high");
 STEREONAV_MEMBERS(SecondPlace, "along", "length", "back");
 STEREONAV_MEMBERS(KeptScreen, "monitor", "width_mm", "viewingDistance_mm");
 STEREONAV_MEMBERS(WindowConfig, "theme", "scale", "leftWidth", "rightWidth", "openPanels", "lastFolder",
-                  "speedByDistance", "placeLabels", "place", "maximised", "mode", "screens");
+                  "speedByDistance", "placeLabels", "figures", "place", "maximised", "mode", "screens");
 STEREONAV_MEMBERS(ShownMode, "mode", "stereo");
 STEREONAV_MEMBERS(PicturePlace, "part", "corner", "size");
 STEREONAV_MEMBERS(Lens, "width", "height", "verticalFov", "pixelAspect", "nearDepth", "fall");

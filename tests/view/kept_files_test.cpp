@@ -314,6 +314,7 @@ TEST(WindowConfig, ComesBackAsItWasKept) {
     config.lastFolder = "/data/\xe5\xb1\xb1/new\nline \"x\"";
     config.speedByDistance = true;
     config.placeLabels = false;
+    config.figures = true;
     config.place = {-1920, 30, 1700, 900};
     config.maximised = true;
     config.mode = {OutputMode::RedCyanDubois, false};

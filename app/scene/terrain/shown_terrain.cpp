@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "app/scene/terrain/daylight.h"
 #include "app/scene/terrain/finer_sky.h"
@@ -12,6 +13,8 @@
 #include "app/scene/terrain/ground_painting.h"
 #include "app/scene/terrain/terrain_facts.h"
 #include "engine/nav/navigator.h"
+#include "engine/text/length_text.h"
+#include "terrain/read/height_limits.h"
 #include "terrain/scene/ground_map.h"
 #include "terrain/scene/ground_place.h"
 #include "terrain/scene/landmark.h"
@@ -34,6 +37,22 @@ FlightSetting flightSettingOf(const TerrainScene& terrain) {
     setting.speed = extent / kCrossingSeconds;
     setting.groundStep = 0.5 * std::min(spacing.x, spacing.y);
     return setting;
+}
+
+// Returns what of the options for ground this one takes.
+SceneLimits limitsOf(const TerrainScene& terrain) {
+    SceneLimits limits;
+    if (terrain.colorSource) limits.refused.emplace_back("shade-image", "");  // there is no picture to light
+    if (terrain.report.driver == "built-in") limits.refused.emplace_back("open-holes", "");
+    if (terrain.landmarks) limits.refused.emplace_back("curvature", "");  // they stand on flat ground
+    const double highest =
+        std::max(std::abs(terrain.ground.minHeight()), std::abs(terrain.ground.maxHeight())) /
+        terrain.verticalScale;
+    constexpr double kLeast = 1e-6, kMost = 1e6;  // range of --vertical-scale
+    constexpr double kRounded = 1 - 1e-5;         // the window rounds to six digits
+    if (highest > 0)
+        limits.ranges["vertical-scale"] = within(kLeast, std::min(kMost, kRounded * kMostHeight_m / highest));
+    return limits;
 }
 
 }  // namespace
@@ -99,8 +118,8 @@ Facts TerrainSurvey::readPlace(const glm::dvec3& world) const {
     if (place->reference)
         list.both("reference", FactNumbers{place->reference->x, place->reference->y},
                   "east and north, " + mTerrain.report.sourceCrs,
-                  fmt::format("{:.1f} {:.1f}", place->reference->x, place->reference->y));
-    list.both("height_m", place->height, "height", fmt::format("{:.1f} m", place->height), "m");
+                  fixedText(place->reference->x, 1) + " " + fixedText(place->reference->y, 1));
+    list.both("height_m", place->height, "height", fixedText(place->height, 1) + " m", "m");
     list.both("slope_degrees", place->slope * kDegrees, "slope",
               fmt::format("slope {:.1f}\u00b0", place->slope * kDegrees));
     if (place->aspect)
@@ -234,6 +253,8 @@ ShownTerrain::ShownTerrain(TerrainScene terrain, SimdTarget target, bool lightsI
     offer(mRays);
     offer<const TerrainScene>(mTerrain);
     offer<const TerrainRenderer>(mRenderer);
+    mLimits = limitsOf(mTerrain);
+    offer(std::as_const(mLimits));
     mSurvey.offerAll([this](auto& capability) { offer(capability); });
     if (lightsItself && mTerrain.tint) {
         mDaylight = std::make_unique<Daylight>(mTerrain, mRenderer, mColors);

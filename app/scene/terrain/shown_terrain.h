@@ -11,6 +11,7 @@
 #include "engine/scene/capabilities.h"
 #include "engine/scene/place_reader.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/scene_limits.h"
 #include "engine/scene/surface_paint.h"
 #include "terrain/cast/terrain_renderer.h"
 #include "terrain/scene/terrain_scene.h"
@@ -85,6 +86,7 @@ private:
     GroundColors mColors;
     RayCast mRays;
     mutable CastFrames mFrames;
+    SceneLimits mLimits;
     SurfacePaint mPaint;
     std::shared_ptr<const PaintLegend> mLegend;  // legend of the first paint
     std::unique_ptr<GroundPainting> mPainting;   // null before paintGround()

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <initializer_list>
+#include <system_error>
 #include <utility>
 
 #include "app/options/refusals.h"
@@ -136,6 +139,8 @@ ShownVolume::ShownVolume(LitVolume volume, const SceneOptions& first, const Scen
     offer(mRays);
     offer(mChoices);
     offer(std::as_const(mValues));
+    setLimits();
+    offer(std::as_const(mLimits));
     mWorld->offerAll([this](auto& capability) { offer(capability); });
     if (mLighting.traced) offer<PictureLight>(*mLighting.traced);
     offerLight();
@@ -213,6 +218,35 @@ void ShownVolume::setChoices() {
     mChoices.isovalueStep = (range.highest - range.lowest) / kIsovalueSteps;
     mChoices.largestSigma = std::max(0.5 * (range.highest - range.lowest), 1e-9);
     setAmbient();
+}
+
+// Sets what of the options for studies this one refuses when it is read: the window offers the rest.
+void ShownVolume::setLimits() {
+    const ColonScene& colon = mWorld->colon();
+    const bool inside = mWorld->side().interior() != nullptr, mask = colon.maskSmoothed.has_value();
+    const auto refuse = [this](std::initializer_list<const char*> keys) {
+        for (const char* const key : keys) mLimits.refused.emplace_back(key, "");
+    };
+    std::error_code code;
+    if (!std::filesystem::is_directory(mFirst.scene, code)) refuse({"series"});
+    if (!mask) refuse({"label", "mask-smoothing"});
+    if (inside) {
+        // A colon's wall stays where it was found, and light from outside never reaches it.
+        refuse({"isovalue", "up", "ambient", "ambient-method", "ambient-strength", "ambient-lamp", "modulate",
+                "modulate-radius", "modulate-sigma"});
+        for (const char* const word : {"lambert-shadows", "phong-shadows"})
+            mLimits.refused.emplace_back("shading", word);
+        mLimits.refused.emplace_back("light", "lazy-transfer");
+        if (mask) refuse({"fluid"});
+        return;
+    }
+    refuse({"seed", "include", "exclude", "backwards", "fluid", "paint"});
+    // A little less than the values' range, since the window rounds to six digits.
+    const ValueSpan& range = mValues.values->range;
+    const double least =
+        1e-5 * std::max({std::abs(range.lowest), std::abs(range.highest), range.highest - range.lowest});
+    if (range.highest - range.lowest > 2 * least)
+        mLimits.ranges["isovalue"] = within(range.lowest + least, range.highest - least);
 }
 
 void ShownVolume::setAmbient() {

@@ -10,6 +10,7 @@
 #include "app/scene/volume/traced_light.h"
 #include "app/scene/volume/world.h"
 #include "engine/frame/cast_frames.h"
+#include "engine/scene/scene_limits.h"
 #include "engine/scene/shown_values.h"
 #include "engine/scene/surface_paint.h"
 #include "engine/scene/wall_to_see.h"
@@ -54,6 +55,7 @@ private:
     void setChoices();
     void setValues(const ShownValues* before);
     void setAmbient();
+    void setLimits();
     std::shared_ptr<Scene> changed(const SurfaceChange& change, Progress& progress) const;
 
     SceneOptions mFirst, mMade;
@@ -65,6 +67,7 @@ private:
     mutable CastFrames mFrames;
     std::unique_ptr<SeenVolumeLight> mLight;  // light that is computed while it is shown, or turns; else null
     SurfaceChoices mChoices;
+    SceneLimits mLimits;
     std::vector<std::shared_ptr<const EyePainter>> mPainters;  // chosen by options, also while translucent
     SurfacePaint mPaint;
     std::unique_ptr<WallToSee> mWall;  // for a colon; else null

@@ -10,10 +10,11 @@
 #include <map>
 
 #include "app/options/option_words.h"
+#include "app/view/panel/file_wish.h"
 #include "app/view/panel/line_breaks.h"
 #include "app/view/scene_changes.h"
 #include "engine/image/stereo_compose.h"
-#include "engine/scene/capabilities.h"
+#include "engine/text/length_text.h"
 #include "engine/text/number_range.h"
 #include "engine/text/printable.h"
 
@@ -21,24 +22,6 @@ namespace stereonav {
 namespace {
 
 constexpr float kTooltipWidth = 26;  // in heights of letters
-
-// Returns the choices of an option; empty where any text is accepted.
-std::vector<std::string> choicesOf(const SceneChanges& changes, const Option& option) {
-    std::vector<std::string> choices = option.value.words;
-    const std::string_view key = option.key;
-    if (!changes.scene()) return choices;
-    const Scene& scene = *changes.scene()->scene;
-    if (key == "mode") {
-        for (const OutputModeInfo& mode : outputModes()) choices.emplace_back(mode.shortName);
-    } else if (key == "method") {
-        for (const std::string_view method : scene.frames().methods()) choices.emplace_back(method);
-    } else if (key == "transfer") {
-        if (const auto* const surface = scene.offered<SurfaceChoices>())
-            for (const std::string& name : surface->transfers)
-                if (!name.empty()) choices.push_back(name);
-    }
-    return choices;
-}
 
 // Returns a choice as lists show it: modes by their long names.
 std::string shownChoice(const Option& option, const std::string& choice) {
@@ -82,21 +65,34 @@ float dragSpeed(const NumberRange& range, double value) {
     return static_cast<float>(std::max(std::abs(value), 1e-6) / 100);
 }
 
+// A number that is being dragged, and the unit that it keeps meanwhile.
+struct DraggedNumber {
+    double value = 0;
+    SizedUnit unit;
+};
+
+// Returns the unit of a field: lengths have one by their size, so that 5.6e-05 metres are 56 micrometres.
+SizedUnit fieldUnit(const NumberRange& range, double value) {
+    if (std::string_view(range.unit) != "metres") return {1, range.unit};
+    return value == 0 ? SizedUnit{1, "m"} : lengthUnit(value);
+}
+
 // Draws a number field with the number in use; where none is known, the default as words.
-void numberControl(SceneChanges& changes, const Option& option, const std::string& now) {
-    const NumberRange& range = option.value.range;
+void numberControl(SceneChanges& changes, const Option& option, const NumberRange& range,
+                   const std::string& now) {
     char* end = nullptr;
     double value = std::strtod(now.c_str(), &end);
     const bool known = end && end != now.c_str() && *end == 0;
     if (!known) value = std::strtod(option.fallback, nullptr);  // dragging begins there; words count as 0
     const bool whole = option.value.kind == ValueKind::Whole;
-    static std::map<std::string, double> dragged;  // not live: set when the drag ends
+    static std::map<std::string, DraggedNumber> dragged;  // not live: set when the drag ends
     const bool live = changes.live(option);
-    if (const auto kept = dragged.find(option.key); kept != dragged.end()) value = kept->second;
-    const std::string unit = *range.unit ? std::string(" ") + range.unit : "";
+    SizedUnit unit = fieldUnit(range, value);
+    if (const auto kept = dragged.find(option.key); kept != dragged.end())
+        value = kept->second.value, unit = kept->second.unit;
     // The default is shown in words where no number is known, if there is room.
     const bool dragging = dragged.contains(option.key);
-    std::string shown = (whole ? "%.0f" : "%.5g") + unit;
+    std::string shown = (whole ? "%.0f" : "%.5g") + (*unit.name ? std::string(" ") + unit.name : "");
     if (!known && !dragging) {
         const std::string words = *option.fallback ? option.fallback : "-";
         const bool fits = ImGui::CalcTextSize(words.c_str()).x < ImGui::CalcItemWidth();
@@ -104,24 +100,30 @@ void numberControl(SceneChanges& changes, const Option& option, const std::strin
         for (const char c : fits ? words : std::string("default"))
             shown += c == '%' ? std::string("%%") : std::string(1, c);
     }
-    const bool moved = ImGui::DragScalar("##value", ImGuiDataType_Double, &value, dragSpeed(range, value),
-                                         nullptr, nullptr, shown.c_str());
+    double number = value / unit.size;  // number in the unit that is shown
+    const bool moved = ImGui::DragScalar("##value", ImGuiDataType_Double, &number,
+                                         dragSpeed(range, value) / static_cast<float>(unit.size), nullptr,
+                                         nullptr, shown.c_str());
     if (moved) {
+        value = number * unit.size;
         if (whole) value = std::round(value);
         value = std::clamp(value, range.openLow ? std::nextafter(range.low, range.high) : range.low,
                            range.openHigh ? std::nextafter(range.high, range.low) : range.high);
-        dragged[option.key] = value;
+        dragged[option.key] = {value, unit};
         if (live && ImGui::IsMouseDragging(ImGuiMouseButton_Left))
             changes.set(option.key, fmt::format("{:.6g}", value));
     }
     if (ImGui::IsItemDeactivated() && dragged.contains(option.key)) {
-        changes.set(option.key, fmt::format("{:.6g}", dragged[option.key]));
+        changes.set(option.key, fmt::format("{:.6g}", dragged[option.key].value));
         dragged.erase(option.key);
     }
 }
 
-std::string tipOf(const Option& option) {
-    std::string tip = helpLine(option) + ".";
+std::string tipOf(const Option& option, const SettingRow& row) {
+    Option shown = option;
+    shown.value.range = row.range;
+    if (!row.choices.empty() && option.value.kind == ValueKind::Word) shown.value.words = row.choices;
+    std::string tip = helpLine(shown) + ".";
     if (*option.advice) tip += std::string("\n") + option.advice + ".";
     tip += "\n" + option.name();
     if (const std::string key = keyOf(option); !key.empty()) tip += "    key: " + key;
@@ -222,10 +224,11 @@ void optionControl(SceneChanges& changes, const Option& option) {
     if (isGiven) ImGui::PopStyleColor();
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         changes.set(option.key, std::nullopt);
-    tooltip(tipOf(option));
+    const SettingRow shown = changes.settings().row(option);
+    tooltip(tipOf(option, shown));
     ImGui::SameLine(0.42f * ImGui::GetContentRegionAvail().x + ImGui::GetCursorPosX());
     ImGui::SetNextItemWidth(-FLT_MIN);
-    const std::vector<std::string> choices = choicesOf(changes, option);
+    const std::vector<std::string>& choices = shown.choices;
     const ValueKind kind = option.value.kind;
     if (kind == ValueKind::Flag) {
         bool on = isGiven;
@@ -235,8 +238,9 @@ void optionControl(SceneChanges& changes, const Option& option) {
         chooseControl(changes, option, choices, now.empty() ? option.fallback : now);
     } else if (!choices.empty() && kind == ValueKind::FileOrWord) {
         const float button = ImGui::GetFrameHeight();
-        ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemInnerSpacing.x);
+        ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemInnerSpacing.x - browseWidth());
         textControl(changes, option, now);
+        browseForOption(option.key);
         ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
         if (ImGui::BeginCombo("##choice", "", ImGuiComboFlags_NoPreview)) {
             for (const std::string& choice : choices)
@@ -244,11 +248,13 @@ void optionControl(SceneChanges& changes, const Option& option) {
             ImGui::EndCombo();
         }
     } else if (kind == ValueKind::Number || kind == ValueKind::Whole) {
-        numberControl(changes, option, now);
+        numberControl(changes, option, shown.range, now);
     } else {
+        if (option.value.isFile()) ImGui::SetNextItemWidth(-browseWidth());
         textControl(changes, option, now);
+        if (option.value.isFile()) browseForOption(option.key);
     }
-    tooltip(tipOf(option));
+    tooltip(tipOf(option, shown));
     ImGui::PopID();
 }
 

@@ -55,13 +55,13 @@ bool looksLikePath(const std::filesystem::path& file) {
     return ending == ".gltf" || ending == ".glb" || ending == ".path";
 }
 
-void FileBrowser::open(For what) {
+void FileBrowser::open(For what, const std::string& name) {
     mFor = what;
     mOpen = mFresh = true;
     mFilter.clear();
     std::error_code code;
     if (mFolder.empty()) mFolder = fs::current_path(code);
-    mName = what == For::SaveScene ? "scene.toml" : "";
+    mName = !name.empty() ? name : what == For::SaveScene ? "scene.toml" : "";
     goTo(mFolder);
 }
 
@@ -85,8 +85,9 @@ void FileBrowser::goTo(const std::filesystem::path& folder) {
         if (entry.name.starts_with(".")) continue;
         std::error_code ignored;
         entry.folder = entries->is_directory(ignored);
-        entry.readable = entry.folder || (mFor == For::OpenPath ? looksLikePath(entries->path())
-                                                                : looksReadable(entries->path()));
+        entry.readable =
+            entry.folder || mFor == For::Pick || mFor == For::Name ||
+            (mFor == For::OpenPath ? looksLikePath(entries->path()) : looksReadable(entries->path()));
         if (!entry.folder) entry.bytes = entries->file_size(ignored);
         mEntries.push_back(std::move(entry));
     }
@@ -95,6 +96,24 @@ void FileBrowser::goTo(const std::filesystem::path& folder) {
     std::sort(mEntries.begin(), mEntries.end(), [](const Entry& a, const Entry& b) {
         return a.folder != b.folder ? a.folder : lowerCase(a.name) < lowerCase(b.name);
     });
+}
+
+const char* FileBrowser::title() const {
+    switch (mFor) {
+        case For::Open:
+            return "Open a file or a folder of DICOM slices";
+        case For::OpenOther:
+            return "Open the other study of the same colon";
+        case For::OpenPath:
+            return "Open a flight: .gltf, .glb or .path";
+        case For::SaveScene:
+            return "Save the scene";
+        case For::Pick:
+            return "Choose a file";
+        case For::Name:
+            return "Name the file to make";
+    }
+    return "";
 }
 
 void FileBrowser::choose(const std::filesystem::path& path) {
@@ -156,11 +175,7 @@ std::optional<std::filesystem::path> FileBrowser::draw(FileLooks& looks) {
     ImGui::SetNextWindowPos({whole.x / 2, whole.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({std::min(whole.x - font, 52 * font), std::min(whole.y - 3 * font, 36 * font)});
     if (mFresh) ImGui::SetNextWindowFocus();
-    const char* const title = mFor == For::Open        ? "Open a file or a folder of DICOM slices"
-                              : mFor == For::OpenOther ? "Open the other study of the same colon"
-                              : mFor == For::OpenPath  ? "Open a flight: .gltf, .glb or .path"
-                                                       : "Save the scene";
-    ImGui::Begin(title, &mOpen,
+    ImGui::Begin(title(), &mOpen,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoSavedSettings);
     if (!mFresh && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) mOpen = false;
@@ -175,7 +190,7 @@ std::optional<std::filesystem::path> FileBrowser::draw(FileLooks& looks) {
     ImGui::InputTextWithHint("##filter", "part of a name", &mFilter);
     quietText(mFolder.string());
     drawEntries();
-    const bool save = mFor == For::SaveScene;
+    const bool save = saves();
     if (!save) drawLook(looks);
     ImGui::SetNextItemWidth(-14 * font);
     if (mFresh) ImGui::SetKeyboardFocusHere();

@@ -12,9 +12,10 @@ namespace stereonav {
 
 class FileBrowser {
 public:
-    enum class For { Open, OpenOther, SaveScene, OpenPath };
+    enum class For { Open, OpenOther, SaveScene, OpenPath, Pick, Name };  // Pick: any file; Name: one to make
 
-    void open(For what);
+    // name: the one that stands there at first; "": the usual one.
+    void open(For what, const std::string& name = "");
     void close() { mOpen = false; }
     bool isOpen() const { return mOpen; }
     // Returns the file that was chosen in this layout, if any.
@@ -32,6 +33,8 @@ private:
     };
     void goTo(const std::filesystem::path& folder);
     void choose(const std::filesystem::path& path);
+    bool saves() const { return mFor == For::SaveScene || mFor == For::Name; }
+    const char* title() const;
     void drawEntries();
     void drawLook(FileLooks& looks);
 

@@ -7,6 +7,7 @@
 #include <cfloat>
 
 #include "app/view/panel/controls.h"
+#include "app/view/panel/file_wish.h"
 
 namespace stereonav {
 
@@ -135,8 +136,7 @@ void FindingsPanel::drawCandidates(ViewSession& session, StudyReading& study, Fi
 void FindingsPanel::drawFiles(const ViewSession& session, Notices& notices, const Clipboard& clipboard,
                               FindingList& list) {
     if (list.rows().empty()) return;
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::InputTextWithHint("##page", "findings.html", &mPage);
+    fileField("page", "findings.html", mPage);
     if (button("Write page", "One HTML file with the list and pictures of each.", !list.busy()))
         notices.tryTo([&] { list.writePage(mPage); });
     ImGui::SameLine();
@@ -146,8 +146,7 @@ void FindingsPanel::drawFiles(const ViewSession& session, Notices& notices, cons
                    list.file().string())))
         clipboard.copy(fmt::format("stereonav findings '{}' --file '{}' --page findings.html",
                                    session.open().scene->name, list.file().string()));
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::InputTextWithHint("##report", "findings.dcm", &mReport);
+    fileField("report", "findings.dcm", mReport);
     const std::string why = list.maker()->whyNoReport();
     if (button("Write DICOM report",
                why.empty() ? "A DICOM structured report of the list, for archives."

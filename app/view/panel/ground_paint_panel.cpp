@@ -78,8 +78,8 @@ void drawSeenFrom(SceneChanges& changes, Instruments& instruments, const ViewSes
     }
     tooltip("Height of the eye at that place.");
     if (changed) instruments.seeFrom(on ? std::optional(height) : std::nullopt);
-    if (button("What is seen from here",
-               "Darkens what is hidden from this place, at that height above the ground."))
+    if (button("What is seen from below the eye",
+               "Darkens what is hidden from the ground below the eye, at that height above it."))
         paint.askSeenFrom(glm::dvec2(session.pose().position), height);
     if (paint.now("paint").empty()) return;
     ImGui::SameLine();

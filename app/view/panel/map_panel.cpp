@@ -186,7 +186,7 @@ void MapPanel::drawPicture(ViewSession& session, KeyframeEdit& edit, const SizeO
     if (dragKeyframes(session, edit, placed, dragged) || !hovered) return;
     const glm::dvec2 world = pointed(ImGui::GetIO().MousePos);
     const glm::dvec3 there(world.x, world.y, pose.position.z);
-    std::string text = fmt::format("{:.0f} m east, {:.0f} m north", world.x, world.y);
+    std::string text = fmt::format("{} m east, {} m north", fixedText(world.x, 0), fixedText(world.y, 0));
     if (const auto* const earth = session.open().scene->offered<OnEarth>())
         if (const auto place = earth->placeAt(there)) {
             constexpr double kDegrees = 180 / std::numbers::pi;

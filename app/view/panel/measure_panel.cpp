@@ -10,6 +10,7 @@
 
 #include "app/view/measured_command.h"
 #include "app/view/panel/controls.h"
+#include "app/view/panel/file_wish.h"
 #include "app/view/panel/taken_lines.h"
 #include "engine/scene/live_paint.h"
 #include "engine/text/length_text.h"
@@ -51,11 +52,11 @@ void drawProfile(Instruments& instruments, const MeasuredSurface& measured) {
         list.AddLine(top, bottom, ink);
         instruments.mark(measured.places[index]);
         tooltip(std::isfinite(profile[index].y)
-                    ? fmt::format("{} along the line, {:.1f} m high", lengthText(profile[index].x),
-                                  profile[index].y)
+                    ? fmt::format("{} along the line, {} m high", lengthText(profile[index].x),
+                                  fixedText(profile[index].y, 1))
                     : fmt::format("{} along the line, no height is known", lengthText(profile[index].x)));
     }
-    quietText(fmt::format("{:.1f} to {:.1f} m, {}", low, high, lengthText(length)));
+    quietText(fmt::format("{} to {} m, {}", fixedText(low, 1), fixedText(high, 1), lengthText(length)));
 }
 
 // Draws the height of the eyes for lines of sight, which are among the figures of ground.
@@ -75,8 +76,7 @@ void drawEyeHeight(const ViewSession& session, MeasuredLine& line) {
 void drawSaving(WindowJobs& jobs, const MeasuredLine& line) {
     static std::string file = "profile.svg";
     const bool busy = jobs.busy();
-    ImGui::SetNextItemWidth(-5 * ImGui::GetFontSize());
-    ImGui::InputTextWithHint("##measured file", "profile.svg", &file);
+    fileField("measured file", "profile.svg", file, -5 * ImGui::GetFontSize());
     tooltip("A .svg or .csv of the profile, or a .geojson of the line with its figures.");
     ImGui::SameLine();
     if (button("Save##measured", "Writes the file. Files that exist stay: the new one gets a number.",

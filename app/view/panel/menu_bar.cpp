@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <tuple>
+
 #include "app/view/asked_actions.h"
 #include "app/view/clipboard.h"
 #include "app/view/flown_keyframes.h"
@@ -9,6 +11,7 @@
 #include "app/view/panel/second_panel.h"
 #include "app/view/panel/unfolded_panel.h"
 #include "app/view/second_side.h"
+#include "app/view/window_jobs.h"
 #include "engine/display/interface.h"
 #include "engine/image/stereo_compose.h"
 #include "engine/text/printable.h"
@@ -19,6 +22,23 @@ namespace {
 void item(const PanelParts& parts, const char* label, const char* key, ViewCommand command,
           bool checked = false) {
     if (ImGui::MenuItem(label, key, checked, parts.session != nullptr)) parts.actions.ask({command});
+}
+
+// Draws an entry for each command that makes a file of this scene alone.
+void exportMenu(const PanelParts& parts, MenuWishes& wishes) {
+    constexpr std::tuple<const char*, const char*, const char*> kExports[] = {
+        {"mesh", "Ground as a mesh...", "ground.glb"},
+        {"unfold", "Unfolded wall...", "unfolded.png"},
+        {"centreline", "Line of the colon...", "line.vtp"}};
+    if (!ImGui::BeginMenu("Export", parts.session != nullptr)) return;
+    bool any = false;
+    for (const auto& [command, label, name] : kExports) {
+        if (!parts.jobs.exports(command)) continue;
+        any = true;
+        if (ImGui::MenuItem(label)) wishes.exports = command, wishes.exportName = name;
+    }
+    if (!any) quietLine("nothing of this scene");
+    ImGui::EndMenu();
 }
 
 void fileMenu(const PanelParts& parts, ShownPanels& panels, MenuWishes& wishes) {
@@ -32,6 +52,7 @@ void fileMenu(const PanelParts& parts, ShownPanels& panels, MenuWishes& wishes) 
     if (ImGui::MenuItem("Save scene...", "Ctrl+S", false, shown)) wishes.open = FileBrowser::For::SaveScene;
     item(parts, "Save picture", "P", ViewCommand::Screenshot);
     if (ImGui::MenuItem("Save picture as...", nullptr, false, shown)) wishes.picture = true;
+    exportMenu(parts, wishes);
     if (ImGui::MenuItem("Copy command line", nullptr, false, shown))
         parts.clipboard.copy(commandLineOf(parts.second.settingsToOpen()));
     tooltip("Copies the command that opens the window as it is set now.");
@@ -75,6 +96,8 @@ void viewMenu(const PanelParts& parts, ShownPanels& panels) {
     item(parts, "Panels in their own window", "F7", ViewCommand::Controls, parts.ownWindow);
     ImGui::MenuItem("Names of places", nullptr, &panels.placeNames);
     tooltip("Shows the names of kept places that are in view, over the picture.");
+    ImGui::MenuItem("Figures", nullptr, &panels.figures);
+    tooltip("Shows times, ages and errors in the line at the bottom, in place of words.");
     item(parts, "Whole screen", "F11", ViewCommand::FullScreen, parts.display.fullScreen());
     ImGui::Separator();
     InterfaceLook look = parts.interface.look();
@@ -129,6 +152,8 @@ void flightMenu(const PanelParts& parts, MenuWishes& wishes) {
     if (!ImGui::BeginMenu("Flight")) return;
     ViewSession* const session = parts.session;
     item(parts, "Home", "Space", ViewCommand::Home);
+    if (ImGui::MenuItem("Go to a place...", "Ctrl+G", false, session != nullptr)) wishes.place = true;
+    tooltip("By its coordinates, or a length along a colon's line.");
     item(parts, "Keep this place", "Ctrl+B", ViewCommand::AddPlace);
     ImGui::Separator();
     item(parts, "Open a flight...", nullptr, ViewCommand::OpenPath);

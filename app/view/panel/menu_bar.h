@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "app/view/panel/file_browser.h"
 #include "app/view/panel/panel_parts.h"
@@ -12,7 +13,8 @@ namespace stereonav {
 // Requests from the menus, other than for panels to be shown.
 struct MenuWishes {
     std::optional<FileBrowser::For> open;
-    bool search = false;
+    std::string exports, exportName;      // the command that makes a file, and its first name; "": none
+    bool search = false, place = false;   // opens the search box, or that for a place
     bool movie = false, picture = false;  // opens the panel for a movie, for a picture
 };
 

@@ -12,6 +12,7 @@
 #include "app/view/input.h"
 #include "app/view/panel/controls.h"
 #include "app/view/panel/coverage_panel.h"
+#include "app/view/panel/file_wish.h"
 #include "app/view/panel/findings_panel.h"
 #include "app/view/panel/map_panel.h"
 #include "app/view/panel/measure_panel.h"
@@ -27,6 +28,7 @@
 #include "app/view/panel/unfolded_panel.h"
 #include "app/view/second_side.h"
 #include "app/view/view_action.h"
+#include "app/view/window_jobs.h"
 
 namespace stereonav {
 namespace {
@@ -54,6 +56,8 @@ struct Panels::State {
     bool showFindings = false;  // opens the findings in the next layout and scrolls to them
     SearchBox search;
     FileBrowser files;
+    FileWish wished;      // the file that is looked for
+    std::string exports;  // the command that makes it; "": none
     StartPage start;
     SideTools tools;
 
@@ -80,6 +84,12 @@ void Panels::State::open(const PanelParts& parts, const std::filesystem::path& f
             return parts.second.open(file.string());
         case FileBrowser::For::OpenPath:
             if (session) parts.notices.tryTo([&] { session->paths().open(readPath(file)); });
+            return;
+        case FileBrowser::For::Pick:
+            return parts.changes.set(wished.key, file.string());
+        case FileBrowser::For::Name:
+            if (!exports.empty()) return parts.jobs.exportFile(std::exchange(exports, ""), file.string());
+            if (wished.field) *wished.field = file.string();
             return;
         case FileBrowser::For::SaveScene:
             parts.notices.tryTo([&] {
@@ -213,7 +223,12 @@ void Panels::draw(const PanelParts& parts) {
         MenuWishes wishes;
         shown.above = drawMenuBar(parts, shown, wishes);
         if (wishes.open) state.files.open(*wishes.open);
+        if (!wishes.exports.empty()) {
+            state.exports = wishes.exports;
+            state.files.open(FileBrowser::For::Name, wishes.exportName);
+        }
         if (wishes.search) state.search.open();
+        if (wishes.place) state.search.openForPlace();
         if (wishes.picture) side.shown = state.tools.showPicture = true;
         if (wishes.movie) side.shown = state.tools.showPath = true;
         if (!shown.beside && left.shown && side.shown) {
@@ -223,15 +238,21 @@ void Panels::draw(const PanelParts& parts) {
         if (left.shown) state.drawColumn(left, false, shown.above, [&] { state.drawLeft(parts); });
         if (side.shown)
             state.drawColumn(side, true, shown.above, [&] { drawSidePanels(parts, state.tools); });
-        shown.below = drawStatusBar(parts, left.taken, side.taken);
+        shown.below = drawStatusBar(parts, left.taken, side.taken, shown.figures);
     }
     state.drawUnfolded(parts);
     if (!shown.start)
         state.start.forget();  // pictures may have changed until it is shown again
     else if (state.start.draw(parts.changes, parts.kept, parts.looks, shown.start))
         state.files.open(FileBrowser::For::Open);
+    if (const auto wish = takeFileWish()) {
+        state.wished = *wish;
+        state.exports.clear();
+        state.files.open(wish->saves ? FileBrowser::For::Name : FileBrowser::For::Pick,
+                         wish->saves ? std::filesystem::path(*wish->field).filename().string() : "");
+    }
     if (const auto chosen = state.files.draw(parts.looks)) state.open(parts, *chosen);
-    state.search.draw(parts.changes, parts.actions);
+    state.search.draw(parts.changes, parts.actions, parts.session);
     if (shown.help) state.drawHelp();
     drawNotices(parts, left.taken, side.taken, shown.above);
 }
@@ -269,6 +290,9 @@ bool Panels::open(ViewCommand command) {
         default:
             return false;
     }
+}
+void Panels::openPlace() {
+    mState->search.openForPlace();
 }
 void Panels::openFiles(FileBrowser::For what) {
     mState->files.open(what);

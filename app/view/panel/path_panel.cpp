@@ -9,6 +9,7 @@
 
 #include "app/view/keyframe_edit.h"
 #include "app/view/panel/controls.h"
+#include "app/view/panel/file_wish.h"
 #include "engine/base/error.h"
 #include "engine/camera/keyframes.h"
 #include "engine/camera/path_edit.h"
@@ -112,8 +113,7 @@ void drawKeyframes(ViewSession& session, KeyframeEdit& edit, const Bookmarks* pl
 
 void drawMovie(const ViewSession& session, WindowJobs& jobs) {
     static MovieWish movie{"flight.mp4"};
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::InputTextWithHint("##movie", "flight.mp4", &movie.file);
+    fileField("movie", "flight.mp4", movie.file);
     tooltip(
         "An .mp4 (H.264), an .mkv (lossless) or an .avi; or a folder, for pictures. Files that exist stay: "
         "the new one gets a number.");

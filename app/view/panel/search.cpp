@@ -35,7 +35,13 @@ void drawOption(SceneChanges& changes, const Option& option) {
 
 }  // namespace
 
-void SearchBox::draw(SceneChanges& changes, AskedActions& actions) {
+// Draws the row of a place. Returns whether the words are a place, and nothing else.
+bool SearchBox::drawPlace(ViewSession* session, bool entered) {
+    if (session && mPlace.draw(*session, mWords, entered, mForPlace)) mOpen = false;
+    return mForPlace || (session && mPlace.isPlace());
+}
+
+void SearchBox::draw(SceneChanges& changes, AskedActions& actions, ViewSession* session) {
     if (!mOpen) return;
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize();
@@ -53,14 +59,16 @@ void SearchBox::draw(SceneChanges& changes, AskedActions& actions) {
     if (mFresh || mWrites) ImGui::SetKeyboardFocusHere();
     mFresh = mWrites = false;
     ImGui::SetNextItemWidth(-FLT_MIN);
-    const bool entered = ImGui::InputTextWithHint("##words", "options, commands, keys", &mWords,
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered =
+        ImGui::InputTextWithHint("##words", mForPlace ? "a place" : "options, commands, keys, a place",
+                                 &mWords, ImGuiInputTextFlags_EnterReturnsTrue);
     if (ImGui::IsItemEdited()) mChosen = 0;
     ImGui::BeginChild("##found");
+    const bool place = drawPlace(session, entered);
     int row = 0;
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow))) ++mChosen;
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow))) mChosen = std::max(mChosen - 1, 0);
-    for (const SearchHit& hit : searchHits(mWords)) {
+    for (const SearchHit& hit : place ? std::vector<SearchHit>() : searchHits(mWords)) {
         const bool chosen = row++ == mChosen;
         ImGui::PushID(row);
         if (hit.option) drawOption(changes, *hit.option);
@@ -75,7 +83,7 @@ void SearchBox::draw(SceneChanges& changes, AskedActions& actions) {
         ImGui::PopID();
     }
     mChosen = std::min(mChosen, std::max(row - 1, 0));
-    if (row == 0) quietText("Nothing matches these words.");
+    if (row == 0 && !place) quietText("Nothing matches these words.");
     ImGui::EndChild();
     // After Enter, or a click on a row, the words go on being written.
     const bool popup = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);

@@ -3,19 +3,32 @@
 #pragma once
 
 #include "app/view/asked_actions.h"
+#include "app/view/panel/place_row.h"
 #include "app/view/scene_changes.h"
 
 namespace stereonav {
 
 class SearchBox {
 public:
-    void open() { mOpen = mFresh = true; }
+    void open() {
+        mOpen = mFresh = true;
+        mForPlace = false;
+    }
+    // Opens it for a place alone: other words find nothing.
+    void openForPlace() {
+        open();
+        mForPlace = true;
+    }
     void close() { mOpen = false; }
     bool isOpen() const { return mOpen; }
-    void draw(SceneChanges& changes, AskedActions& actions);
+    void draw(SceneChanges& changes, AskedActions& actions, ViewSession* session);
 
 private:
+    bool drawPlace(ViewSession* session, bool entered);
+
     bool mOpen = false, mFresh = false, mWrites = false;  // mWrites: the words get the keyboard again
+    bool mForPlace = false;
+    PlaceRow mPlace;
     std::string mWords;
     int mChosen = 0;
 };

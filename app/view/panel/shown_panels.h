@@ -27,6 +27,7 @@ struct ShownPanels {
     bool hidden = false;  // everything but the picture
     bool help = false, start = false;
     bool placeNames = true;  // names of places over the picture
+    bool figures = false;    // times, ages and errors in the status bar, in place of words
     Column left;             // places, map, slices
     Column side;             // panels at the right
     bool unfolded = false;   // the unfolded wall, a strip below the picture

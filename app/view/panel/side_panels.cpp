@@ -16,6 +16,7 @@
 #include "app/view/kept_places.h"
 #include "app/view/panel/comfort_meter.h"
 #include "app/view/panel/controls.h"
+#include "app/view/panel/file_wish.h"
 #include "app/view/panel/ground_paint_panel.h"
 #include "app/view/panel/legend.h"
 #include "app/view/panel/path_panel.h"
@@ -196,8 +197,7 @@ void drawFacts(const Facts* facts) {
 // Draws controls that save the view as a picture, in any size and format.
 void drawPicture(WindowJobs& jobs, const SizeOption& shown) {
     static PictureWish picture{"view.png"};
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::InputTextWithHint("##picture", "view.png", &picture.file);
+    fileField("picture", "view.png", picture.file);
     tooltip(
         "A .png in the mode that is shown, or a .jps or .mpo of both eyes for 3D viewers. Files that exist "
         "stay: the new one gets a number.");

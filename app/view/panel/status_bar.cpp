@@ -13,6 +13,7 @@
 #include "app/view/panel/controls.h"
 #include "app/view/scene_changes.h"
 #include "app/view/status.h"
+#include "app/view/status_words.h"
 #include "app/view/window_closing.h"
 #include "app/view/window_jobs.h"
 #include "engine/text/length_text.h"
@@ -48,14 +49,6 @@ private:
     float mLeft;
     bool mFirst = true;
 };
-
-std::string costText(const ViewFrame& frame) {
-    const FrameTimings& timings = frame.timings;
-    if (!(timings.left_ms > 0)) return fmt::format("both eyes {:5.1f} ms", timings.both_ms);
-    std::string text = fmt::format("left {:5.1f}", timings.left_ms);
-    if (frame.request.twoEyes) text += fmt::format("  right {:5.1f}", timings.right_ms);
-    return text + " ms";
-}
 
 std::string placeText(ViewSession& session) {
     std::string text;
@@ -104,7 +97,7 @@ std::string shareText(double fraction, double seconds, double least) {
 
 }  // namespace
 
-float drawStatusBar(const PanelParts& parts, float left, float right) {
+float drawStatusBar(const PanelParts& parts, float left, float right, bool figures) {
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const float height = ImGui::GetFontSize() + 2 * ImGui::GetStyle().FramePadding.y + 2;
     ImGui::SetNextWindowPos({left, whole.y - height});
@@ -119,20 +112,28 @@ float drawStatusBar(const PanelParts& parts, float left, float right) {
         row.text(session->slices().status());
     } else if (session && frame) {
         const double rate = parts.pictures.framesPerSecond();
-        row.text(rate > 0 ? fmt::format("{:5.1f} /s", rate) : "  rest ",
-                 "frames a second, while something moves");
-        if (const std::string age = parts.pictures.ageText(); !age.empty())
-            row.text(age,
-                     "age of the picture that is shown, which is warped to where the eyes are now; and the "
-                     "share of the width and height in which it was cast");
+        if (figures)
+            row.text(rate > 0 ? fmt::format("{:5.1f} /s", rate) : "  rest ",
+                     "frames a second, while something moves");
+        const bool moves = rate > 0;  // a picture that rests gets no older
+        if (const auto late = parts.pictures.late(); late && (figures || moves))
+            row.text(figures ? lateFigures(*late) : lateWords(*late),
+                     "The picture is warped to where the eyes are now: " + lateFigures(*late) +
+                         ": since it was cast, and the share of the width and height in which it was.");
         if (frame->lacksDetail)
             row.text("coarse ground", "Finer tiles are being read: the picture is then drawn again.");
         placePieces(parts.pointedFacts, row);
-        row.text(costText(*frame), frameText(*frame, rate));
-        if (frame->request.twoEyes && row.room(comfortMeterWidth())) drawComfortMeter(parts.display, *frame);
-        if (const std::string measured = session->measuredText(*frame); !measured.empty())
+        const OutputLayout layout = infoOf(session->compose().mode).layout;
+        if (figures) row.text(costFigures(*frame, layout), frameText(*frame, rate));
+        const bool oneEye = layout == OutputLayout::OneEye;
+        if (frame->request.twoEyes && !oneEye && row.room(comfortMeterWidth()))
+            drawComfortMeter(parts.display, *frame);
+        // One eye alone has nothing to hold against a full cast.
+        if (const std::string measured = session->measuredText(*frame);
+            !measured.empty() && (!oneEye || frame->rays > 1 || frame->effort > 1))
             row.text(
-                measured.substr(0, measured.find(',')),
+                figures ? measured.substr(0, measured.find(','))
+                        : truthWords(*frame, session->measured(), measured),
                 measured + (frame->rays > 1
                                 ? "\nBoth eyes are cast in full, again and again, while the picture rests."
                                 : "\nThe right eye against a full cast, measured while the picture rests."));
@@ -144,8 +145,9 @@ float drawStatusBar(const PanelParts& parts, float left, float right) {
         row.text(placeText(*session));
         row.text(std::string(infoOf(session->compose().mode).longName) +
                  (session->swapped() ? ", swapped" : ""));
-        row.text(std::string(frame->request.way.method),
-                 "how the right eye was made; N tries the next method");
+        if (figures)
+            row.text(std::string(frame->request.way.method),
+                     "how the right eye was made; N tries the next method");
         row.text(fmt::format("speed {}/s", lengthText(session->moves().speed())), "the wheel changes it");
     }
     ImGui::End();

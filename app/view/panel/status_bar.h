@@ -6,8 +6,8 @@
 namespace stereonav {
 
 // Draws the status bar and returns its height. left, right: widths that panels take there, in units of the
-// interface.
-float drawStatusBar(const PanelParts& parts, float left, float right);
+// interface. figures: whether times, ages and errors stand there in place of words.
+float drawStatusBar(const PanelParts& parts, float left, float right, bool figures);
 // Draws, from `top` downwards, work in progress with a button that cancels it; failures, which stay; and
 // notices, which disappear.
 void drawNotices(const PanelParts& parts, float left, float right, float top);

@@ -13,6 +13,7 @@
 #include "app/output/eye_marks.h"
 #include "app/view/frame_views.h"
 #include "app/view/panel/controls.h"
+#include "app/view/panel/file_wish.h"
 #include "engine/base/error.h"
 #include "engine/base/new_file.h"
 #include "engine/display/window.h"
@@ -216,8 +217,7 @@ void UnfoldedPanel::drawControls(ViewSession& session) {
     ImGui::Checkbox("follow the eye", &mFollows);
     tooltip("The wall scrolls with the flight, until you scroll or drag it.");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
-    ImGui::InputTextWithHint("##file", "unfolded.png", &mFiles[mView]);
+    fileField("file", "unfolded.png", mFiles[mView], 8 * ImGui::GetFontSize());
     ImGui::SameLine();
     if (button("Save picture",
                fromBothEnds() ? "Saves both strips, with a mark for each centimetre of the line."

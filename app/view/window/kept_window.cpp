@@ -36,6 +36,7 @@ void KeptWindow::restore(Window& window, PanelStage& stage, ViewDisplay& display
     shown.side.width = static_cast<float>(mConfig.rightWidth) / kInterfaceFontPixels;
     shown.left.width = static_cast<float>(mConfig.leftWidth) / kInterfaceFontPixels;
     shown.placeNames = mConfig.placeLabels;
+    shown.figures = mConfig.figures;
     stage.panels().setFolder(mConfig.lastFolder);
     display.sizes().setKept(mConfig.screens);
     if (mConfig.mode) display.restoreMode(*mConfig.mode);
@@ -70,6 +71,7 @@ void KeptWindow::keep(const Window& window, const PanelStage& stage, const ViewD
     if (stage.controls()) config.openPanels.emplace_back(kOwnWindow);
     config.lastFolder = stage.panels().folder();
     config.placeLabels = shown.placeNames;
+    config.figures = shown.figures;
     config.speedByDistance = speedByDistance;
     config.screens = display.sizes().kept();
     if (const auto mode = display.modeToKeep()) config.mode = mode;

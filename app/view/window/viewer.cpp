@@ -194,6 +194,9 @@ bool Viewer::actOnInterface(ViewCommand command) {
         case ViewCommand::Unfolded:
             if (mSession) shown.toggleUnfolded();
             return true;
+        case ViewCommand::GoToPlace:
+            panels.openPlace();
+            return true;
         case ViewCommand::Search:
             panels.openSearch();
             return true;
