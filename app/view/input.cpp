@@ -254,7 +254,6 @@ const std::vector<KeyHelp>& menuEntries() {
     static const std::vector<KeyHelp> entries = {
         {"File", "save a picture of any size, or for 3D viewers (.jps, .mpo)", does(SavePictureAs),
          "screenshot export image png jpeg resolution print stereo"},
-        {"File", "quit (Ctrl+Q)", std::nullopt, "exit close leave"},
         {"File", "open another study beside this one", does(OpenOther),
          "compare register prone supine second"},
         {"Flight", "make a movie of the flight", does(MakeMovie),

@@ -39,6 +39,12 @@ void chooseControl(SceneChanges& changes, const Option& option, const std::vecto
     ImGui::EndCombo();
 }
 
+// Returns the option's default in the window, in words: what it is for other commands is left out.
+std::string defaultInWindow(const Option& option) {
+    const std::string words = option.fallback;
+    return words.substr(0, words.find("; with compare "));
+}
+
 // Draws a text field; a text that is being typed is kept until it is finished.
 void textControl(SceneChanges& changes, const Option& option, const std::string& now) {
     static std::map<std::string, std::string> writing;
@@ -94,7 +100,7 @@ void numberControl(SceneChanges& changes, const Option& option, const NumberRang
     const bool dragging = dragged.contains(option.key);
     std::string shown = (whole ? "%.0f" : "%.5g") + (*unit.name ? std::string(" ") + unit.name : "");
     if (!known && !dragging) {
-        const std::string words = *option.fallback ? option.fallback : "-";
+        const std::string words = *option.fallback ? defaultInWindow(option) : "-";
         const bool fits = ImGui::CalcTextSize(words.c_str()).x < ImGui::CalcItemWidth();
         shown.clear();
         for (const char c : fits ? words : std::string("default"))
@@ -235,7 +241,7 @@ void optionControl(SceneChanges& changes, const Option& option) {
         if (ImGui::Checkbox("##value", &on))
             changes.set(option.key, on ? std::optional<std::string>("") : std::nullopt);
     } else if (!choices.empty() && (kind == ValueKind::Word || kind == ValueKind::Text)) {
-        chooseControl(changes, option, choices, now.empty() ? option.fallback : now);
+        chooseControl(changes, option, choices, now.empty() ? defaultInWindow(option) : now);
     } else if (!choices.empty() && kind == ValueKind::FileOrWord) {
         const float button = ImGui::GetFrameHeight();
         ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemInnerSpacing.x - browseWidth());
