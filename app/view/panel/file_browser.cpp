@@ -123,7 +123,7 @@ void FileBrowser::choose(const std::filesystem::path& path) {
 
 void FileBrowser::drawEntries() {
     const float font = ImGui::GetFontSize();
-    const float below = mFor == For::Open ? kLookLines * ImGui::GetTextLineHeightWithSpacing() : 0;
+    const float below = !saves() ? kLookLines * ImGui::GetTextLineHeightWithSpacing() : 0;
     ImGui::BeginChild("##entries", {0, -2 * ImGui::GetFrameHeightWithSpacing() - below}, true);
     if (!mProblem.empty()) quietText(mProblem);
     fs::path next;
