@@ -142,7 +142,7 @@ std::vector<Option> mediumFineness() {
          .panel = OptionPanel::Quality,
          .take = into<&SceneOptions::medium, &MediumOptions::lightSize>},
         {.key = "cone",
-         .value = numberValue({0, 180, false, true, "degrees"}),
+         .value = numberValue(within(0, 171.88, "degrees")),  // less than 3 radians
          .help = "angle of the cone in which scattered light spreads",
          .advice = "34.4 is the default; 0 lets scattered light go straight on",
          .group = kMediumGroup,

@@ -49,6 +49,7 @@ protected:
     static OpenScene loaded(ViewOptions options) {
         options.scene.skyTurns = true;
         options.scene.detailLater = true;
+        options.size = {64, 48};
         Progress progress;
         return openScene(options, false, {64, 48}, nullptr, progress);
     }
