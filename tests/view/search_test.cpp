@@ -119,7 +119,7 @@ constexpr std::pair<const char*, const char*> kWanted[] = {
     {"help", "F1"},
     {"undo", "Ctrl+Z"},
     {"redo", "Ctrl+Y"},
-    {"exit", "File"},
+    {"exit", "Ctrl+Q"},
     {"font", "View"},
     {"theme", "View"},
     // Words of readers of colons.
