@@ -25,7 +25,7 @@ public:
     const ShownPanels& shown() const;
     void showFindings();  // one of the panels at the left
     void openSearch();
-    void openPlace();  // the same for a place alone
+    void openPlace();                // the same for a place alone
     bool open(ViewCommand command);  // commands that open a panel, and only that; false for others
     void openFiles(FileBrowser::For what);
     void setFolder(const std::filesystem::path& folder);  // folder for choosing files
