@@ -84,7 +84,7 @@ _stereonav() {{
         fi
     fi
     COMPREPLY=($(compgen -W "$words" -- "$current"))
-    [[ -z $files ]] || COMPREPLY+=($(compgen -f -- "$current"))
+    [[ -z $files ]] || COMPREPLY+=($(compgen -f -- "$current" || true))
 }}
 complete -o filenames -F _stereonav stereonav
 )",

@@ -266,8 +266,11 @@ TEST_F(SceneFileOptionsTest, BashCompletesWhatAnOptionTakes) {
     EXPECT_EQ(offered("stereonav view --ambient-method g"), "\ngaussian\n");
     for (const SceneType* type : sceneTypes())
         for (const std::string_view name : type->builtIn)
-            EXPECT_NE(offered("stereonav view \"\"").find("\n" + std::string(name) + "\n"), std::string::npos)
-                << name;
+            if (!name.empty()) {
+                EXPECT_NE(offered("stereonav view \"\"").find("\n" + std::string(name) + "\n"),
+                          std::string::npos)
+                    << name;
+            }
     EXPECT_EQ(offered("stereonav unfold co").substr(0, 7), "\ncolon\n");
 }
 

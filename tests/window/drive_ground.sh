@@ -15,16 +15,16 @@ press $(($1 - 154)) 38 # the first two headings are closed, so that the third is
 press $(($1 - 154)) 63
 press $(($1 - 154)) 88
 settled plain
-drag_by $(($1 - 285)) 288 150 0
+drag_by $(($1 - 285)) 263 150 0
 let_go
 settled contours plain
-press $(($1 - 283)) 313
+press $(($1 - 283)) 288
 press 300 400
 settled seen contours
 save_scene seen.toml
 keys ctrl+z
 settled undone seen
-press $(($1 - 90)) 263
+press $(($1 - 90)) 238
 words "$tracks"
 keys Return
 at_rest

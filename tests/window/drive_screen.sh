@@ -11,10 +11,10 @@ open_window terrain --json
 at_rest
 keys F2
 turns
-press 320 272
+press 320 297
 keys ctrl+a
 words 598
-press 417 272
+press 417 297
 keys F2
 turns
 close_window
