@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/volume/surface_cells.h"
+#include "engine/volume/open_distance.h"
 
 namespace stereonav {
 namespace {
@@ -307,6 +307,15 @@ double freeDistance(const SurfaceCells& cells, const glm::dvec3& world, double u
     if (!inside || cells.codes.empty() || !(upTo > 0)) return 0;
     const glm::dvec3 faces = glm::min(voxel, last - voxel) * cells.frame.spacing;
     return Search(cells, voxel, std::min({upTo, faces.x, faces.y, faces.z}), tolerance).run();
+}
+
+double openDistance(const SurfaceCells& cells, const glm::dvec3& world, double upTo, double tolerance) {
+    const glm::dvec3 voxel = cells.frame.voxelFromWorld(world), last(cells.frame.size - 1);
+    if (!std::isfinite(voxel.x + voxel.y + voxel.z) || cells.codes.empty() || !(upTo > 0)) return 0;
+    const glm::dvec3 nearest = glm::clamp(voxel, glm::dvec3(0.0), last);
+    const double away = glm::length((voxel - nearest) * cells.frame.spacing);
+    if (away >= upTo) return upTo;
+    return std::min(std::hypot(away, Search(cells, nearest, upTo, tolerance).run()), upTo);
 }
 
 }  // namespace stereonav

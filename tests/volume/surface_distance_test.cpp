@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/volume/open_distance.h"
 #include "engine/volume/plain_volume_caster.h"
 #include "engine/volume/surface_cells.h"
 #include "test_volumes.h"
@@ -256,6 +257,67 @@ TEST(SurfaceDistance, OutsideTheVolumeAndTheRegionThereIsNone) {
     EXPECT_EQ(free({std::numeric_limits<double>::quiet_NaN(), 10, 10}), 0.0);
     EXPECT_EQ(freeDistance(cells, frame.worldFromVoxel({20, 10, 10}), 0.0, 1e-5), 0.0);
     EXPECT_EQ(freeDistance(SurfaceCells(), {0, 0, 0}, 1.0, 1e-5), 0.0);
+}
+
+// A ball, whose distance is known in the volume and beyond its faces.
+TEST(OpenDistance, IsThatOfABallInTheBoxAndABoundBeyondIt) {
+    const VolumeFrame frame = slantedFrame({40, 44, 34});
+    const glm::dvec3 middle(19.5, 21.5, 16.5), last(frame.size - 1);
+    constexpr double kRadius = 0.008, kTolerance = 0.02e-3;
+    constexpr double kOff = 0.04e-3;  // metres from the ball to the trilinear surface: h^2 / (8 r) an axis
+    const GreyVolume volume = greyVolume(frame, [&](const glm::dvec3& v) {
+        return std::clamp(1e6 * (kRadius - glm::length((v - middle) * frame.spacing)), -30000.0, 30000.0);
+    });
+    const SurfaceCells cells = cellsOf(volume, 0.0f);
+    Random random(8);
+    int inside = 0, beyond = 0, behind = 0;
+    for (int n = 0; n < 800; ++n) {
+        const glm::dvec3 voxel = random.inBox(-0.5 * last, 1.5 * last);
+        const double truth = glm::length((voxel - middle) * frame.spacing) - kRadius;
+        const double free = openDistance(cells, frame.worldFromVoxel(voxel), 1.0, kTolerance);
+        ASSERT_LE(free, std::max(truth, 0.0) + kOff) << n;
+        const glm::dvec3 nearest = glm::clamp(voxel, glm::dvec3(0), last);
+        const double away = glm::length((voxel - nearest) * frame.spacing);
+        if (truth <= 0) {
+            behind += truth < -kOff;
+            ASSERT_EQ(free, truth < -kOff ? 0.0 : free) << n;
+        } else if (away > 0) {
+            const double there = glm::length((nearest - middle) * frame.spacing) - kRadius;
+            ASSERT_GT(free, std::hypot(away, there - kOff - kTolerance) - 1e-12) << n;
+            ++beyond;
+        } else {
+            ASSERT_GT(free, truth - kOff - kTolerance) << n;
+            inside += truth > faceDistance(frame, voxel) + kOff;  // faces do not count
+        }
+        const double upTo = random.between(1e-6, 0.02);
+        ASSERT_LE(openDistance(cells, frame.worldFromVoxel(voxel), upTo, kTolerance), upTo) << n;
+    }
+    EXPECT_GT(inside, 10);
+    EXPECT_GT(beyond, 400);
+    EXPECT_GT(behind, 1);
+}
+
+TEST(OpenDistance, HasNoStepAtTheFacesAndNoAnswerWithoutAPlace) {
+    const VolumeFrame frame = slantedFrame({20, 22, 18});
+    const GreyVolume volume = greyVolume(frame, [](const glm::dvec3& v) { return 40 * (12 - v.x); });
+    const SurfaceCells cells = cellsOf(volume, 0.0f);
+    Random random(9);
+    for (int n = 0; n < 200; ++n) {
+        glm::dvec3 voxel = random.inBox({13, 0, 0}, glm::dvec3(frame.size - 1));
+        voxel.x = 19 - 1e-9;
+        const double before = openDistance(cells, frame.worldFromVoxel(voxel), 1.0, 1e-6);
+        voxel.x = 19 + 1e-9;
+        ASSERT_NEAR(openDistance(cells, frame.worldFromVoxel(voxel), 1.0, 1e-6), before, 1.1e-6) << n;
+        ASSERT_NEAR(before, 7 * frame.spacing.x, 2e-6) << n;
+    }
+    // A volume that is cut at a face: there is no way in.
+    EXPECT_LT(openDistance(cells, frame.worldFromVoxel({0, 10, 9}), 1.0, 1e-6),
+              1e-15);  // rounding of the place
+    EXPECT_NEAR(openDistance(cells, frame.worldFromVoxel({-4, 10, 9}), 1.0, 1e-6), 4 * frame.spacing.x, 1e-9);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(openDistance(cells, {nan, 0, 0}, 1.0, 1e-6), 0.0);
+    EXPECT_EQ(openDistance(cells, frame.worldFromVoxel({15, 10, 9}), 0.0, 1e-6), 0.0);
+    EXPECT_EQ(openDistance(SurfaceCells(), {0, 0, 0}, 1.0, 1e-6), 0.0);
 }
 
 TEST(SurfaceDistance, FallsByNoMoreThanTheWay) {

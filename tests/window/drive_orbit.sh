@@ -31,7 +31,7 @@ open_window "$@"
 settled start
 drag_with 1 60 0
 settled turned start
-wheel 4 1
+wheel 4 3
 settled zoomed turned
 drag_with 2 50 30
 settled panned zoomed
@@ -39,13 +39,13 @@ xdotool keydown shift
 drag_with 1 -50 -30
 xdotool keyup shift
 settled back panned
-wheel 5 1
+wheel 5 3
 settled away back
 keys space
 settled home away
 keys ctrl+r
 drag_with 1 60 0
 settled looked home
-wheel 4 1
+wheel 4 3
 settled same
 close_window

@@ -12,6 +12,7 @@
 #include "app/scene/volume/volume_loading.h"
 #include "colon/flight/colon_flight.h"
 #include "engine/base/error.h"
+#include "engine/volume/open_distance.h"
 #include "engine/volume/value_range.h"
 
 namespace stereonav {
@@ -22,6 +23,14 @@ constexpr double kCtWidth = 1500, kCtLevel = -200;  // window that shows air, fa
 
 FreeDistance freeDistanceOf(const ColonScene& colon) {
     return [&colon](const glm::dvec3& world, double upTo) { return colon.freeDistanceAt(world, upTo); };
+}
+
+FreeDistance openDistanceOf(const ColonScene& colon) {
+    const glm::dvec3& spacing = colon.volume.field.frame.spacing;
+    const double tolerance = 0.05 * std::min({spacing.x, spacing.y, spacing.z});
+    return [&colon, tolerance](const glm::dvec3& world, double upTo) {
+        return openDistance(colon.volume.cells, world, upTo, tolerance);
+    };
 }
 
 // Returns the limits of the eyes' separation that suit the scene. most: largest automatic separation, metres.
@@ -85,14 +94,16 @@ void VolumeWorld::setViews(const SceneOptions& options, Scene& scene) {
     mLimits = limitsOf(mColon.stereo, mSide->largestSeparation(), scene.stereo.separation);
 }
 
+// From outside a flight may come into the volume's box, up to the surface.
 std::unique_ptr<Flight> VolumeWorld::makeFlight() const {
     ColonFlightSetting setting;
     setting.clearance = mColon.clearance;
     setting.speed = mColon.extent / mSide->crossingSeconds();
     setting.largestSeparation = mLimits.largest;
     try {
-        return std::make_unique<ColonFlight>(freeDistanceOf(mColon), mColon.centreline, mColon.startPose,
-                                             setting);
+        return std::make_unique<ColonFlight>(
+            mColon.isColon() ? freeDistanceOf(mColon) : openDistanceOf(mColon), mColon.centreline,
+            mColon.startPose, setting);
     } catch (const Error&) {
         if (mLimits.largest <= 2 * mColon.stereo.separation) throw;
         throw Error("--separation", "",
