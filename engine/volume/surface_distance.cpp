@@ -315,7 +315,8 @@ double openDistance(const SurfaceCells& cells, const glm::dvec3& world, double u
     const glm::dvec3 nearest = glm::clamp(voxel, glm::dvec3(0.0), last);
     const double away = glm::length((voxel - nearest) * cells.frame.spacing);
     if (away >= upTo) return upTo;
-    return std::min(std::hypot(away, Search(cells, nearest, upTo, tolerance).run()), upTo);
+    const double further = std::sqrt((upTo - away) * (upTo + away));
+    return std::min(std::hypot(away, Search(cells, nearest, further, tolerance).run()), upTo);
 }
 
 }  // namespace stereonav

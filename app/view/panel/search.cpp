@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "app/view/panel/controls.h"
-#include "app/view/search_hits.h"
 
 namespace stereonav {
 namespace {
@@ -41,6 +40,12 @@ bool SearchBox::drawPlace(ViewSession* session, bool entered) {
     return mForPlace || (session && mPlace.isPlace());
 }
 
+// Searches once for the same words, not for each picture.
+const std::vector<SearchHit>& SearchBox::hits() {
+    if (mSearched != mWords) mHits = searchHits(*(mSearched = mWords));
+    return mHits;
+}
+
 void SearchBox::draw(SceneChanges& changes, AskedActions& actions, ViewSession* session) {
     if (!mOpen) return;
     const ImVec2 whole = ImGui::GetIO().DisplaySize;
@@ -68,7 +73,8 @@ void SearchBox::draw(SceneChanges& changes, AskedActions& actions, ViewSession* 
     int row = 0;
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow))) ++mChosen;
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow))) mChosen = std::max(mChosen - 1, 0);
-    for (const SearchHit& hit : place ? std::vector<SearchHit>() : searchHits(mWords)) {
+    static const std::vector<SearchHit> kNone;  // words that are a place
+    for (const SearchHit& hit : place ? kNone : hits()) {
         const bool chosen = row++ == mChosen;
         ImGui::PushID(row);
         if (hit.option) drawOption(changes, *hit.option);

@@ -2,9 +2,12 @@
 // there.
 #pragma once
 
+#include <optional>
+
 #include "app/view/asked_actions.h"
 #include "app/view/panel/place_row.h"
 #include "app/view/scene_changes.h"
+#include "app/view/search_hits.h"
 
 namespace stereonav {
 
@@ -25,11 +28,14 @@ public:
 
 private:
     bool drawPlace(ViewSession* session, bool entered);
+    const std::vector<SearchHit>& hits();
 
     bool mOpen = false, mFresh = false, mWrites = false;  // mWrites: the words get the keyboard again
     bool mForPlace = false;
     PlaceRow mPlace;
     std::string mWords;
+    std::optional<std::string> mSearched;  // words that mHits answer
+    std::vector<SearchHit> mHits;
     int mChosen = 0;
 };
 
